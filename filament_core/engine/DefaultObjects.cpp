@@ -114,6 +114,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
         if (table) engine.destroy(table);
     }
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
+    if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     for (auto const& [key, material] : engine.engineMaterials) {
         engine.pipelines.forget(engine.pending, engine.materials.get(material));
         engine.removeMaterial(material);

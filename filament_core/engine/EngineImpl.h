@@ -141,6 +141,7 @@ struct Engine::Impl {
                      uint32_t first);
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
     void destroy(Texture texture);
+    void destroy(MaterialInstance instance);
     void destroy(MorphTargets targets);
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
@@ -154,7 +155,9 @@ struct Engine::Impl {
     std::span<const std::byte> enginePackage(std::string_view name) const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
-    /// The same for a pass that draws pictures; asserts that they fit.
+    /// Of the material `motion`, made once: draws what the scene's own materials need not.
+    scene::MaterialInstance const* motionInstance();
+    /// The same as engineMaterial() for a pass that draws pictures; asserts that they fit.
     scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
                                               passes::FullScreenInterface const& given);
     /// From the next drainPending() on every instance has a bind group for views of this filter, too. Views of several
@@ -203,6 +206,7 @@ struct Engine::Impl {
     engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains;
 
     engine::Defaults defaults;
+    MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
     std::vector<MaterialInstance> dirtyInstances;

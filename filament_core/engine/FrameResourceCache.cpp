@@ -28,6 +28,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     resources.white = mEngine.textureHandle(mEngine.unsetTexture({ .type = ParameterType::Sampler2D }));
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();
+    if (packet.demand.needs(prepare::Effect::Motion)) resources.motion = mEngine.motionInstance();
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     if (packet.demand.needs(prepare::Effect::DebugView))

@@ -34,7 +34,7 @@ private:
     std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
     scene::Material const* mFarDepth = nullptr;
     scene::Material const* mSunDisc = nullptr;
-    std::array<scene::Material const*, 20> mDebugViews{}; // by DebugView and whether the target is encoded
+    std::array<scene::Material const*, 22> mDebugViews{}; // by DebugView and whether the target is encoded
     EffectMaterialCache mEffects;
 };
 

@@ -18,7 +18,7 @@ void add(FrameSummary::Totals& totals, prepare::ViewPacket const& view) {
     totals.triangles += view.counts.triangles;
 }
 
-constexpr std::array<const char*, prepare::kViewKinds> kKindNames{ "color", "depth", "shadow" };
+constexpr std::array<const char*, prepare::kViewKinds> kKindNames{ "color", "depth", "shadow", "motion" };
 
 /// Timers are of groups, in their order: the first pass of a group has its time. Groups may have one name.
 double millisecondsOf(framegraph::CompiledGraph const& plan, size_t pass, std::span<const PassTiming> times) {

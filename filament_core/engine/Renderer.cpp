@@ -16,8 +16,6 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
-#include <glm/ext/matrix_transform.hpp>
-
 #include <array>
 #include <optional>
 #include <utility>
@@ -68,7 +66,7 @@ struct Renderer::Impl {
         plan = {};
         const std::array views{ inputOf(view) };
         const prepare::FramePacket packet =
-                prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held());
+                prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
         shadows.use(packet.shadows);
@@ -76,17 +74,20 @@ struct Renderer::Impl {
         context.resources.shadowMoments = shadows.moments();
         blocks.begin();
         context.blocks = &blocks;
-        context.lastClipFromWorld = clipOfLastFrame(packet, view);
         passes::describeFrame(graph, context, output);
         plan = compile(graph, transients);
         return context;
     }
 
-    /// Where the last frame showed a point of this frame's world; this frame, if there was none before.
-    float4x4 clipOfLastFrame(prepare::FramePacket const& packet, View const& view) const {
-        if (!last) return packet.mainView().uniforms.clipFromWorld;
-        const double3 moved = view.camera.position() - last->cameraWorld;
-        return float4x4(glm::translate(double4x4(last->clipFromWorld), moved));
+    /// Without memory for it, the next frame is as a first one.
+    void keepLast(Scene const& scene, View const& view, prepare::FramePacket const& packet) {
+        prepare::ViewPacket const& main = packet.mainView();
+        try {
+            last.keep(scene.impl().upToDate(), inputOf(view), main,
+                      prepare::readsMotion(main.counts, view.quality, view.debugView));
+        } catch (std::bad_alloc const&) {
+            last.forget();
+        }
     }
 
     /// Submits the commands when it returns.
@@ -102,6 +103,7 @@ struct Renderer::Impl {
         blocks.upload(*commands);
         context.views = data.views();
         context.deformations = data.deformations();
+        context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
         shadows.keep(context.packet.shadows);
@@ -118,7 +120,7 @@ struct Renderer::Impl {
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context);
         stamps.recorded = clock();
-        last = { context.packet.mainView().uniforms.clipFromWorld, view.camera.position() };
+        keepLast(scene, view, context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
@@ -188,12 +190,7 @@ struct Renderer::Impl {
     engine::PixelReads pixels;
     engine::ImageTarget imageTarget;
     uint64_t frame = 0;
-    /// How the last frame was seen: effects find points of this one in its picture.
-    struct LastView {
-        float4x4 clipFromWorld;
-        double3 cameraWorld;
-    };
-    std::optional<LastView> last;
+    prepare::LastFrame last; ///< that was drawn
     engine::FrameSummary summary;
 };
 

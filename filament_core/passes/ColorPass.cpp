@@ -191,19 +191,11 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
     return textures;
 }
 
-/// The whole of the last frame.
-PassPicture lastPicture(FrameContext const& context) { return { wholePicture(context), context.lastClipFromWorld }; }
-
-/// What of this frame is drawn so far.
-PassPicture picture(FrameContext const& context, prepare::PictureCopy const& copy) {
-    return { copy, context.packet.mainView().uniforms.clipFromWorld };
-}
-
-void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target, PassPicture const& shown,
-                 TextureId texture, ColorBlocks& blocks) {
-    blocks.target = declareTargetBeforePicture(context, target, context.settings.samples, shown);
+void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target,
+                 prepare::PictureCopy const& copy, TextureId texture, ColorBlocks& blocks) {
+    blocks.target = declareTargetBeforePicture(context, target, context.settings.samples, copy);
     blocks.textures.picture = texture;
-    blocks.textures.pictureLevels = shown.copy.levels;
+    blocks.textures.pictureLevels = copy.levels;
 }
 
 } // namespace
@@ -213,8 +205,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const uint8_t samples = context.settings.samples;
     ColorBlocks blocks{ .textures = texturesOf(context, targets) };
     blocks.target = declareTarget(context, like, 0, samples);
-    if (targets.lastPicture.previous)
-        showPicture(context, like, lastPicture(context), targets.lastPicture.previous, blocks);
+    if (targets.picture) showPicture(context, like, wholePicture(context), targets.picture, blocks);
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
     targets.depth = to.depth;
@@ -223,7 +214,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     addPart(graph, context, to, "color", blocks);
     for (size_t i = 0; i < view.pictures.size(); ++i) {
         targets.picture = addPicturePasses(graph, context, to.color, to.depthOfPicture, view.pictures[i]);
-        showPicture(context, like, picture(context, view.pictures[i]), targets.picture, blocks);
+        showPicture(context, like, view.pictures[i], targets.picture, blocks);
         blocks.part = partOf(view, i + 1);
         addPart(graph, context, to, "refraction", blocks);
     }

@@ -35,7 +35,7 @@ PassShadows shadowsOrNone(FrameContext const& context, FrameTargets const& targe
 BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, FrameTargets const& targets) {
     shader::MaterialPackage const& package = context.resources.debugView->package;
     const SamplerHandle nearest = context.resources.samplers.nearest;
-    const std::array<BindGroupEntry, 3> entries{ {
+    const std::array<BindGroupEntry, 4> entries{ {
             { .binding = package.findParameter("picture")->binding,
               .texture = pass.texture(targets.color),
               .sampler = nearest },
@@ -44,6 +44,9 @@ BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, Frame
               .sampler = nearest },
             { .binding = package.findParameter("occlusion")->binding,
               .texture = targets.occlusion ? pass.texture(targets.occlusion) : context.resources.white,
+              .sampler = nearest },
+            { .binding = package.findParameter("motion")->binding,
+              .texture = targets.motion ? pass.texture(targets.motion) : context.resources.white,
               .sampler = nearest },
     } };
     return pass.bindGroup(package.layout[shader::kGroupMaterial], entries, package.name);
@@ -69,6 +72,7 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 pass.readSampled(targets.depth);
                 if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
                 if (targets.occlusion) pass.readSampled(targets.occlusion);
+                if (targets.motion) pass.readSampled(targets.motion);
                 pass.writeColor(0, targets.output, { .overwrites = true });
             },
             [of = &context, inputs](PassContext& pass) { return choose(pass, *of, inputs); },

@@ -58,27 +58,33 @@ void DeformationBuffer::makeFixed(CommandStream& stream, CommandBuffer& commands
     mNoDeltas = texture.keep();
 }
 
-BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer& commands, TextureHandle deltas) {
-    const auto known = std::ranges::find(mGroups, deltas, &Group::deltas);
+BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer& commands, TextureHandle deltas,
+                                            bool isOfMotion) {
+    const auto known = std::ranges::find_if(
+            mGroups, [&](Group const& group) { return group.deltas == deltas && group.isOfMotion == isOfMotion; });
     if (known != mGroups.end()) {
         known->lastUse = mFrame;
         return known->handle;
     }
-    const std::array<BindGroupEntry, 3> entries{ {
+    const std::array<BindGroupEntry, 5> entries{ {
             { .binding = shader::kBindingBones, .buffer = mBuffer, .size = kBoneWindow },
             { .binding = shader::kBindingMorph, .buffer = mBuffer, .size = kMorphWindow },
             { .binding = shader::kBindingMorphDeltas, .texture = deltas, .sampler = mNearest },
+            { .binding = shader::kBindingLastBones, .buffer = mBuffer, .size = kBoneWindow },
+            { .binding = shader::kBindingLastMorph, .buffer = mBuffer, .size = kMorphWindow },
     } };
+    const BindGroupLayout layout = shader::deformationGroupLayout(isOfMotion);
     mGroups.reserve(mGroups.size() + 1);
     NewHandle group(stream, stream.allocateBindGroup());
-    commands.record(CmdCreateBindGroup{ group, { shader::deformationGroupLayout(), entries, "deformation" } });
-    mGroups.push_back({ deltas, group.keep(), mFrame });
+    commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "deformation" } });
+    mGroups.push_back({ deltas, isOfMotion, group.keep(), mFrame });
     return mGroups.back().handle;
 }
 
 void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, CommandBuffer& commands,
                                prepare::DeformationList const& list) {
     mBinds.clear();
+    mLastBinds.clear();
     if (list.bytes == 0 && mGroups.empty()) return;
     ++mFrame;
     dropUnused(stream, commands, kKeptFrames);
@@ -89,11 +95,24 @@ void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, Com
     prepare::writeDeformations(jobs, list, memory);
     commands.recordAdopted(CmdUpdateBuffer{ mBuffer, 0, memory });
     mBinds.resize(list.places.size());
-    for (size_t i = 0; i < mBinds.size(); ++i) {
-        prepare::DeformationPlace const& place = list.places[i];
-        if (place.weights == prepare::kNowhere) continue;
-        const BindGroupHandle group = groupFor(stream, commands, place.deltas ? place.deltas : mNoDeltas);
-        mBinds[i] = { group, shader::kGroupDeformation, 2, { place.bones, place.weights } };
+    mLastBinds.resize(list.last.size());
+    for (size_t i = 0; i < mBinds.size(); ++i) bind(stream, commands, list.places[i], i);
+}
+
+// Offsets are in the order of the layout.
+void DeformationBuffer::bind(CommandStream& stream, CommandBuffer& commands, prepare::DeformationPlace const& place,
+                             size_t slot) {
+    const TextureHandle deltas = place.deltas ? place.deltas : mNoDeltas;
+    if (place.weights != prepare::kNowhere) {
+        mBinds[slot] = {
+            groupFor(stream, commands, deltas, false), shader::kGroupDeformation, 2, { place.bones, place.weights }
+        };
+    }
+    if (place.lastWeights != prepare::kNowhere) {
+        mLastBinds[slot] = { groupFor(stream, commands, deltas, true),
+                             shader::kGroupDeformation,
+                             4,
+                             { place.bones, place.weights, place.lastBones, place.lastWeights } };
     }
 }
 

@@ -27,17 +27,22 @@ public:
     void destroy(backend::CommandStream& stream, backend::CommandBuffer& commands);
 
     std::span<const backend::CmdBindGroup> groups() const { return mBinds; }
+    /// The same with the last frame's, for variants with kVariantMotion; those that nobody asks for are not set.
+    std::span<const backend::CmdBindGroup> lastGroups() const { return mLastBinds; }
 
 private:
     struct Group {
         backend::TextureHandle deltas;
+        bool isOfMotion = false;
         backend::BindGroupHandle handle;
         uint32_t lastUse = 0;
     };
 
     void reserve(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t bytes);
     backend::BindGroupHandle groupFor(backend::CommandStream& stream, backend::CommandBuffer& commands,
-                                      backend::TextureHandle deltas);
+                                      backend::TextureHandle deltas, bool isOfMotion);
+    void bind(backend::CommandStream& stream, backend::CommandBuffer& commands, prepare::DeformationPlace const& place,
+              size_t slot);
     void makeFixed(backend::CommandStream& stream, backend::CommandBuffer& commands);
     void dropUnused(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t keptFrames);
 
@@ -47,7 +52,7 @@ private:
     uint32_t mBytes = 0; ///< capacity for blocks
     uint32_t mFrame = 0;
     std::vector<Group> mGroups; // a few: searched
-    std::vector<backend::CmdBindGroup> mBinds;
+    std::vector<backend::CmdBindGroup> mBinds, mLastBinds;
 };
 
 } // namespace filament::passes

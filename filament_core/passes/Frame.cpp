@@ -5,6 +5,7 @@
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
+#include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/ToneMapPass.h"
@@ -92,14 +93,15 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     FrameTargets targets = beginFrame(graph, context, output);
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
+    addMotionPass(graph, context, targets);
     addAmbientOcclusionPass(graph, context, targets);
-    declareLastPicture(graph, context, targets);
+    addReflectedPicture(graph, context, targets);
     addColorPass(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else if (targets.color != targets.output)
         addToneMapPass(graph, context, targets);
-    addLastPicturePasses(graph, context, targets); // last: the tone mapper merges with the colour pass
+    keepPicture(graph, context, targets, targets.color); // last: the tone mapper merges with the colour pass
     return targets;
 }
 

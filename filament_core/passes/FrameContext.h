@@ -36,15 +36,15 @@ inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpas
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
-    PassSettings settings{};            ///< of the main view
-    float4x4 lastClipFromWorld{ 1.0f }; ///< clip space of the last frame, from this frame's world
-    View const* view = nullptr;         ///< the app's; until the graph is recorded
+    PassSettings settings{};    ///< of the main view
+    View const* view = nullptr; ///< the app's; until the graph is recorded
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
     // Where FrameData has put the packet on the device:
-    std::span<const ViewGroup> views;                    ///< by view of the packet
-    std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
+    std::span<const ViewGroup> views;                        ///< by view of the packet
+    std::span<const backend::CmdBindGroup> deformations;     ///< by DrawCall::deformation
+    std::span<const backend::CmdBindGroup> lastDeformations; ///< the same, with those of the last frame: of what moved
 };
 
 /// One view of a frame, for passes that draw its surfaces.

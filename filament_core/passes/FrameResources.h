@@ -27,9 +27,10 @@ struct FrameResources {
     LightingTextures lighting{};
     FrameSamplers samplers{};
     EffectMaterials* effects = nullptr;
-    backend::TextureHandle white{};             ///< 2D, of one opaque white texel
-    backend::BufferHandle instanceIds;          ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
-    scene::Material const* skybox = nullptr;    ///< full-screen material; null: the scene has no sky
+    backend::TextureHandle white{};                  ///< 2D, of one opaque white texel
+    backend::BufferHandle instanceIds;               ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
+    scene::MaterialInstance const* motion = nullptr; ///< draws motion; null: none is asked for
+    scene::Material const* skybox = nullptr;         ///< full-screen material; null: the scene has no sky
     scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
     scene::Material const* debugView = nullptr; ///< full-screen material; null: the picture is shown

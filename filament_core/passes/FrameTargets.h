@@ -18,7 +18,8 @@ struct FrameTargets {
     framegraph::TextureId distances;    ///< of what is opaque along the view, in metres, R32F; none: unread
     framegraph::TextureId occlusion;    ///< as kBindingOcclusion says; none: not needed
     framegraph::TextureId prepassDepth; ///< that of the prepass, also when `depth` is another one; none: not drawn
-    framegraph::History lastPicture;    ///< the whole picture of the last frame, and of this one; none: not needed
+    framegraph::TextureId motion;       ///< of what moved by itself (MotionPass.h); none: nothing did, or nobody asks
+    framegraph::History lastPicture;    ///< the picture of the last frame, and of this one; none: not needed
     framegraph::TextureId picture;      ///< as kBindingPicture says; none: not needed
 };
 

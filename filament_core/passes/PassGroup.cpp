@@ -14,45 +14,49 @@ using shader::PassKind;
 
 namespace {
 
-shader::PassUniforms uniformsOf(framegraph::GraphTextureDesc const& texture, uint8_t level, uint8_t samples) {
-    const auto width = static_cast<float>(std::max(1u, texture.width >> level));
-    const auto height = static_cast<float>(std::max(1u, texture.height >> level));
-    return { .target = { width, height, 1 / width, 1 / height },
-             .raster = { samples, 0, 0, 0 },
+shader::PassUniforms uniformsOf(FrameContext const& context, float2 size) {
+    prepare::LastView const& last = context.packet.last;
+    return { .target = { size, 1.0f / size },
+             .raster = { 1, 0, 0, 0 },
              .picture = float4(0),
              .reflection = float4(0),
-             .pictureFromWorld = float4x4(1.0f) };
+             .lastClipFromWorld = last.clipFromWorld,
+             .lastAlongView = last.alongView,
+             .lastTime = last.time };
+}
+
+shader::PassUniforms uniformsOf(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level,
+                                uint8_t samples) {
+    const auto width = static_cast<float>(std::max(1u, texture.width >> level));
+    const auto height = static_cast<float>(std::max(1u, texture.height >> level));
+    shader::PassUniforms block = uniformsOf(context, float2(width, height));
+    block.raster.x = samples;
+    return block;
 }
 
 } // namespace
 
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level,
                         uint8_t samples) {
-    const shader::PassUniforms block = uniformsOf(texture, level, samples);
+    const shader::PassUniforms block = uniformsOf(context, texture, level, samples);
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                                     uint8_t samples, PassPicture const& picture) {
-    prepare::PictureCopy const& copy = picture.copy;
+                                     uint8_t samples, prepare::PictureCopy const& copy) {
     const float2 first(copy.rect.x, copy.rect.y), size(copy.rect.width, copy.rect.height);
-    shader::PassUniforms block = uniformsOf(texture, 0, samples);
+    shader::PassUniforms block = uniformsOf(context, texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
     const ScreenReflections reflections = context.packet.effects.reflections;
     block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters,
                          pyramidLevels(context.settings.size) - 1 };
-    block.pictureFromWorld = picture.clipFromWorld;
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel) {
-    const auto side = static_cast<float>(size);
-    const shader::PassUniforms block{ .target = { side, side, 1 / side, 1 / side },
-                                      .raster = { 1, static_cast<float>(channel), 0, 0 },
-                                      .picture = float4(0),
-                                      .reflection = float4(0),
-                                      .pictureFromWorld = float4x4(1.0f) };
+    shader::PassUniforms block = uniformsOf(context, float2(static_cast<float>(size)));
+    block.raster.y = static_cast<float>(channel);
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

@@ -17,15 +17,9 @@ namespace filament::passes {
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
                         uint8_t samples = 1);
 
-/// A picture that materials refract or reflect.
-struct PassPicture {
-    prepare::PictureCopy copy{};
-    float4x4 clipFromWorld{ 1.0f }; ///< by which it was drawn, from this frame's world
-};
-
-/// The same for a pass whose materials see a picture.
+/// The same for a pass whose materials refract or reflect a picture.
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                                     uint8_t samples, PassPicture const& picture);
+                                     uint8_t samples, prepare::PictureCopy const& copy);
 
 /// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);

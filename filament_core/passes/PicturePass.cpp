@@ -16,6 +16,15 @@ using prepare::PictureCopy;
 
 constexpr std::string_view kCopyInputs[] = { "color", "depth" };
 constexpr FullScreenInterface kCopy{ .pass = "picture", .inputs = kCopyInputs };
+constexpr std::string_view kReprojectionInputs[] = { "last", "depth", "motion" };
+constexpr FullScreenParameter kReprojectionValues[] = { { "lastFromPixel", ParameterType::Float4x4 },
+                                                        { "lastAlong", ParameterType::Float4 },
+                                                        { "along", ParameterType::Float4 },
+                                                        { "perTexel", ParameterType::Float2 },
+                                                        { "end", ParameterType::Float2 } };
+constexpr FullScreenInterface kReprojection{ .pass = "reprojection",
+                                             .inputs = kReprojectionInputs,
+                                             .values = kReprojectionValues };
 constexpr std::string_view kLevelInputs[] = { "level" };
 constexpr FullScreenParameter kLevelValues[] = { { "texels", ParameterType::Float4 },
                                                  { "perTexel", ParameterType::Float2 } };
@@ -30,13 +39,13 @@ Rect rectOfLevel(PictureCopy const& copy, uint32_t level) {
 
 struct PictureSource {
     TextureId color, depth;
-    PictureCopy copy;
 };
 
-void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const& from, TextureId picture) {
+void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const& from, PictureCopy const& copy,
+             TextureId picture) {
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = from.color },
                              FullScreenInput{ .name = "depth", .texture = from.depth } };
-    const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(from.copy, 0) } };
+    const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(copy, 0) } };
     addFullScreenPass(graph, context,
                       { .name = "picture",
                         .material = context.resources.effects->get("picture_copy", {}, kCopy),
@@ -44,6 +53,50 @@ void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const
                         .target = picture,
                         .tiles = tiles,
                         .clears = true });
+}
+
+/// From pixels and depths of this frame, in homogeneous coordinates.
+double4x4 worldFromPixel(FrameContext const& context) {
+    const double2 size(context.settings.size);
+    double4x4 clipFromPixel(1.0);
+    clipFromPixel[0][0] = 2 / size.x, clipFromPixel[1][1] = 2 / size.y;
+    clipFromPixel[3] = double4(-1, -1, 0, 1);
+    return double4x4(context.packet.mainView().uniforms.worldFromClip) * clipFromPixel;
+}
+
+/// `end`: of the picture in the texture.
+double4x4 textureFromClip(double2 end) {
+    double4x4 texture(1.0);
+    texture[0][0] = texture[3][0] = end.x / 2;
+    texture[1][1] = texture[3][1] = end.y / 2;
+    return texture;
+}
+
+/// The picture of the last frame, as this one sees its surfaces.
+void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId picture) {
+    prepare::LastView const& last = context.packet.last;
+    float4x4 const& view = context.packet.mainView().uniforms.viewFromWorld;
+    const framegraph::GraphTextureDesc desc = graph.texture(picture).desc;
+    const double2 perTexel = 1.0 / double2(desc.width, desc.height), end = double2(context.settings.size) * perTexel;
+    const double4x4 world = worldFromPixel(context);
+    const std::array values{ FullScreenValue{ "lastFromPixel",
+                                              float4x4(textureFromClip(end) * double4x4(last.clipFromWorld) * world) },
+                             FullScreenValue{ "lastAlong", float4(double4(last.alongView) * world) },
+                             FullScreenValue{ "along", float4(double4(-view[0].z, -view[1].z, -view[2].z, 0) * world) },
+                             FullScreenValue{ "perTexel", float2(perTexel) }, FullScreenValue{ "end", float2(end) } };
+    const std::array inputs{ FullScreenInput{ .name = "last",
+                                              .texture = targets.lastPicture.previous,
+                                              .sampler = context.resources.samplers.bilinear },
+                             FullScreenInput{ .name = "depth", .texture = targets.prepassDepth },
+                             FullScreenInput{ .name = "motion", .texture = targets.motion } };
+    const EffectConstant constants[] = { { "isElsewhere", last.isElsewhere || targets.motion },
+                                         { "hasMotion", static_cast<bool>(targets.motion) } };
+    addFullScreenPass(graph, context,
+                      { .name = "reprojection",
+                        .material = context.resources.effects->get("picture_reprojection", constants, kReprojection),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = picture });
 }
 
 /// From the level before it.
@@ -70,43 +123,46 @@ void addBlurred(FrameGraph& graph, FrameContext const& context, PictureCopy cons
                         .clears = true });
 }
 
-framegraph::GraphTextureDesc pictureDesc(FrameContext const& context, std::string_view name) {
+framegraph::GraphTextureDesc pictureDesc(FrameContext const& context, uint8_t levels, std::string_view name) {
     const uint2 size = prepare::pictureTextureSize(context.settings.size);
-    return { .width = size.x,
-             .height = size.y,
-             .format = Format::RGBA16F,
-             .levels = prepare::pictureLevels(context.settings.size),
-             .name = name };
+    return { .width = size.x, .height = size.y, .format = Format::RGBA16F, .levels = levels, .name = name };
 }
 
-void addLevels(FrameGraph& graph, FrameContext const& context, PictureSource const& from, TextureId picture) {
-    addCopy(graph, context, from, picture);
-    for (uint8_t level = 1; level < from.copy.levels; ++level) addBlurred(graph, context, from.copy, level, picture);
+TextureId createPicture(FrameGraph& graph, FrameContext const& context) {
+    return graph.createTexture(pictureDesc(context, prepare::pictureLevels(context.settings.size), "picture"));
+}
+
+void addBlurredLevels(FrameGraph& graph, FrameContext const& context, PictureCopy const& copy, TextureId picture) {
+    for (uint8_t level = 1; level < copy.levels; ++level) addBlurred(graph, context, copy, level, picture);
 }
 
 } // namespace
 
-prepare::PictureCopy wholePicture(FrameContext const& context) {
+PictureCopy wholePicture(FrameContext const& context) {
     const uint2 size = context.settings.size;
     return prepare::copyAround({ float2(0.0f), float2(size) }, size);
 }
 
 TextureId addPicturePasses(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId depth,
                            PictureCopy const& copy) {
-    const TextureId picture = graph.createTexture(pictureDesc(context, "picture"));
-    addLevels(graph, context, { color, depth, copy }, picture);
+    const TextureId picture = createPicture(graph, context);
+    addCopy(graph, context, { color, depth }, copy, picture);
+    addBlurredLevels(graph, context, copy, picture);
     return picture;
 }
 
-void declareLastPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+void addReflectedPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Reflections)) return;
-    targets.lastPicture = graph.history(pictureDesc(context, "last picture"));
+    targets.lastPicture = graph.history(pictureDesc(context, 1, "last picture"));
+    if (!targets.lastPicture.previous) return;
+    targets.picture = createPicture(graph, context);
+    addReprojected(graph, context, targets, targets.picture);
+    addBlurredLevels(graph, context, wholePicture(context), targets.picture);
 }
 
-void addLastPicturePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+void keepPicture(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId color) {
     if (!targets.lastPicture.current) return;
-    addLevels(graph, context, { targets.color, targets.prepassDepth, wholePicture(context) },
-              targets.lastPicture.current);
+    addCopy(graph, context, { color, targets.prepassDepth }, wholePicture(context), targets.lastPicture.current);
 }
 
 } // namespace filament::passes

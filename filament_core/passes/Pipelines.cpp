@@ -96,6 +96,16 @@ bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
 }
 
+// Whatever is nearer than the depth that is known is equal to it.
+PipelineDesc leavingMotion(PipelineDesc desc, DepthRange range) {
+    desc.raster.cull = CullMode::None; // what was culled in the prepass has other depths
+    desc.raster.alphaToCoverage = false;
+    desc.depthStencil = { .depthCompare =
+                                  range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,
+                          .depthWrite = false };
+    return desc;
+}
+
 // The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they
 // enclose.
 PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raster) {
@@ -233,6 +243,8 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
         const auto depth = static_cast<uint16_t>(shader::kVariantDepth | (variant & shader::kVariantSkinning));
         return { depth, shader::transmitsLight(material.package) ? at.shading : ShadingKey{ 0 } };
     }
+    if (at.motionOnly)
+        return { static_cast<uint16_t>(shader::kVariantMotion | (variant & shader::kVariantSkinning)), 0 };
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
     const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
     ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
@@ -303,6 +315,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.raster.topology = mLayouts[geometryLayout].topology;
     }
     if (slot.isShadowMap) return leavingShadow(desc, raster);
+    if (slot.motionOnly) return leavingMotion(desc, slot.depthRange);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.depthOnly) return desc;

@@ -34,6 +34,7 @@ struct PassSlot {
     ShadingPrecision precision = ShadingPrecision::Full;
     bool isFullScreen = false; ///< no geometry of the scene is drawn there
     bool depthOnly = false;    ///< surfaces are drawn by their variants with kVariantDepth
+    bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };

@@ -13,8 +13,6 @@ using scene::Deformation;
 constexpr uint32_t kAlignment = 256;
 constexpr size_t kBlocksPerJob = 32;
 
-uint32_t aligned(size_t bytes) { return static_cast<uint32_t>((bytes + kAlignment - 1) / kAlignment * kAlignment); }
-
 bool isVisible(scene::Renderables const& renderables, Deformation const& deformation,
                std::span<const VisibleItems> views) {
     if (!deformation.renderable) return false;
@@ -24,28 +22,31 @@ bool isVisible(scene::Renderables const& renderables, Deformation const& deforma
     });
 }
 
-uint32_t activeTargets(Deformation const& deformation) {
-    const auto zeros = std::ranges::count(deformation.weights, 0.0f);
-    const auto active = deformation.weights.size() - static_cast<size_t>(zeros);
+uint32_t activeTargets(std::span<const float> weights) {
+    const auto active = weights.size() - static_cast<size_t>(std::ranges::count(weights, 0.0f));
     return static_cast<uint32_t>(std::min<size_t>(active, shader::kMaxMorphTargets));
 }
 
 } // namespace
 
-uint32_t morphBytes(Deformation const& deformation) {
-    return static_cast<uint32_t>(sizeof(float4) * (1 + activeTargets(deformation)));
+uint32_t deformationBlock(size_t bytes) {
+    return static_cast<uint32_t>((bytes + kAlignment - 1) / kAlignment * kAlignment);
 }
 
-shader::MorphUniforms morphUniforms(Deformation const& deformation) {
+uint32_t morphBytes(std::span<const float> weights) {
+    return static_cast<uint32_t>(sizeof(float4) * (1 + activeTargets(weights)));
+}
+
+shader::MorphUniforms morphUniforms(Deformation const& deformation, std::span<const float> weights) {
     shader::MorphUniforms out{};
-    const uint32_t count = activeTargets(deformation);
+    const uint32_t count = activeTargets(weights);
     const float sets = deformation.skin ? static_cast<float>(deformation.jointSets) : 0.0f;
     out.shape = float4(static_cast<float>(count), 0, 0, sets);
     if (!deformation.morph) return out;
     out.shape.y = static_cast<float>(deformation.morph->texels);
     out.shape.z = static_cast<float>(deformation.morph->vertexCount);
     for (size_t target = 0, next = 0; next < count; ++target) {
-        const float weight = deformation.weights[target];
+        const float weight = weights[target];
         if (weight != 0) out.targets[next++] = float4(weight, static_cast<float>(target), 0, 0);
     }
     return out;
@@ -69,12 +70,12 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
             uint32_t& block = bones[all[i].skin.index()];
             if (block == kNowhere) {
                 block = list.bytes;
-                list.bytes += aligned(skins[all[i].skin.index()].bones.size() * sizeof(shader::BoneData));
+                list.bytes += deformationBlock(skins[all[i].skin.index()].bones.size() * sizeof(shader::BoneData));
             }
             places[i].bones = block;
         }
         places[i].weights = list.bytes;
-        list.bytes += aligned(morphBytes(all[i]));
+        list.bytes += deformationBlock(morphBytes(all[i].weights));
         if (all[i].morph) places[i].deltas = all[i].morph->deltas;
     }
     list.places = places;
@@ -86,7 +87,7 @@ void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::
     FILAMENT_ASSERT(memory.size() == list.bytes, "writeDeformations: the memory has the size that the list says");
     const auto put = [&](uint32_t block, void const* data, size_t bytes) {
         std::memcpy(memory.data() + block, data, bytes);
-        std::memset(memory.data() + block + bytes, 0, aligned(bytes) - bytes);
+        std::memset(memory.data() + block + bytes, 0, deformationBlock(bytes) - bytes);
     };
     jobs::parallelFor<"bones">(jobs, list.bones.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
@@ -94,11 +95,18 @@ void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::
             if (list.bones[i] != kNowhere) put(list.bones[i], bones.data(), bones.size() * sizeof(shader::BoneData));
         }
     });
+    const auto putWeights = [&](uint32_t block, Deformation const& deformation, std::span<const float> weights) {
+        const shader::MorphUniforms uniforms = morphUniforms(deformation, weights);
+        put(block, &uniforms, morphBytes(weights));
+    };
     jobs::parallelFor<"morph weights">(jobs, list.places.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            if (list.places[i].weights == kNowhere) continue;
-            const shader::MorphUniforms weights = morphUniforms(list.deformations[i]);
-            put(list.places[i].weights, &weights, morphBytes(list.deformations[i]));
+            DeformationPlace const& place = list.places[i];
+            Deformation const& now = list.deformations[i];
+            if (place.weights != kNowhere) putWeights(place.weights, now, now.weights);
+            if (place.lastWeights == kNowhere) continue;
+            putWeights(place.lastWeights, now, list.last[i].weights);
+            put(place.lastBones, list.last[i].bones.data(), list.last[i].bones.size_bytes());
         }
     });
 }

@@ -55,7 +55,14 @@ inline constexpr uint32_t kNowhere = ~0u;
 /// Of one deformation: byte offsets into the buffer of the frame; kNowhere: it is not visible.
 struct DeformationPlace {
     uint32_t bones = kNowhere, weights = kNowhere;
-    backend::TextureHandle deltas; ///< none: no morph targets
+    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: nobody asks
+    backend::TextureHandle deltas;                         ///< none: no morph targets
+};
+
+/// What a deformation was like in the last frame.
+struct LastDeformation {
+    std::span<const shader::BoneData> bones;
+    std::span<const float> weights;
 };
 
 /// Skins and morph weights of visible objects; writeDeformations() (DeformationData.h) converts them for the shaders.
@@ -65,6 +72,7 @@ struct DeformationList {
     std::span<const DeformationPlace> places; ///< by slot of `deformations`
     std::span<const uint32_t> bones;          ///< by index of `skins`: where its block begins, or kNowhere
     uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
+    std::span<const LastDeformation> last;    ///< by slot; none: no place has a last one
 };
 
 /// Which lights reach which part of a view (Froxels.h), as the shaders read it; see shader::kFroxelCountBits.
@@ -132,8 +140,18 @@ struct SunDisc {
     float4 halo;  ///< x: 1 - cos of the disc's radius; y: 1 / (1 - cos of the halo's - x), 0: no halo
 };
 
+/// How the last frame was seen; as this frame is, if there was none.
+struct LastView {
+    float4x4 clipFromWorld{ 1.0f }; ///< from this frame's world
+    float4 alongView{ 0.0f };       ///< its product with a point of this frame's world, w = 1: metres along that view
+    float4 time{ 0.0f };            ///< FrameUniforms::time
+    bool isElsewhere = false;       ///< not as this frame is seen
+};
+
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
+    uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
+    LastView last;                     ///< of the main view
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;

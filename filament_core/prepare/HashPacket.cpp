@@ -10,9 +10,14 @@ uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
     for (size_t i = 0; i < list.places.size(); ++i) {
         DeformationPlace const& place = list.places[i];
         if (place.weights == kNowhere) continue;
-        const shader::MorphUniforms weights = morphUniforms(list.deformations[i]);
+        std::span<const float> now = list.deformations[i].weights;
+        const shader::MorphUniforms weights = morphUniforms(list.deformations[i], now);
         seed = hashWords(seed, i, place.bones, place.weights, place.deltas.bits);
-        seed = hashBytes(std::as_bytes(std::span(&weights, 1)).first(morphBytes(list.deformations[i])), seed);
+        seed = hashBytes(std::as_bytes(std::span(&weights, 1)).first(morphBytes(now)), seed);
+        if (place.lastWeights == kNowhere) continue;
+        seed = hashWords(seed, place.lastBones, place.lastWeights);
+        seed = hashBytes(std::as_bytes(list.last[i].bones), seed);
+        seed = hashBytes(std::as_bytes(list.last[i].weights), seed);
     }
     for (size_t i = 0; i < list.bones.size(); ++i) {
         if (list.bones[i] != kNowhere) seed = hashBytes(std::as_bytes(std::span(list.skins[i].bones)), seed);
@@ -44,6 +49,8 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.shadows.maps.empty()) hash = hashShadows(packet.shadows, hash);
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     hash = hashEffects(packet.effects, hash);
+    hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
+    hash = hashWords(hash, packet.motionView);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

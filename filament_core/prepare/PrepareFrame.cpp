@@ -3,6 +3,7 @@
 
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
 #include "filament_core/prepare/PrepareView.h"
 #include "filament_core/prepare/SunDiscs.h"
@@ -36,6 +37,10 @@ uint32_t cascadesOf(ShadowPacket const& shadows) {
     return shadows.uniforms ? static_cast<uint32_t>(shadows.uniforms->sun.y) : 0;
 }
 
+uint32_t movedObjects(FramePacket const& packet) {
+    return packet.motionView == kNowhere ? 0 : static_cast<uint32_t>(packet.views[packet.motionView].opaque.size());
+}
+
 SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, ViewInput const& view) {
     return findDemand({ .counts = packet.mainView().counts,
                         .shadows = shadows,
@@ -43,6 +48,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .hasSky = static_cast<bool>(packet.environment.sky),
                         .deformed = countDeformed(packet.deformations),
                         .copiedPixels = copiedPixels(packet.mainView().pictures),
+                        .moved = movedObjects(packet),
                         .quality = view.quality,
                         .fog = packet.effects.fog,
                         .ambientOcclusion = packet.effects.ambientOcclusion,
@@ -63,33 +69,56 @@ ShadowPacket behindViews(Arena& arena, ShadowPacket shadows, uint32_t views) {
     return shadows;
 }
 
+/// Those that were asked for, and those of shadow maps.
+struct FrameViews {
+    std::span<const PreparedView> asked, ofShadows;
+
+    size_t size() const { return asked.size() + ofShadows.size(); }
+    PreparedView const& operator[](size_t i) const { return i < asked.size() ? asked[i] : ofShadows[i - asked.size()]; }
+};
+
+FramePacket packetOf(Arena& arena, scene::SceneData const& scene, FrameViews const& views) {
+    const auto packets = arena.arrayForOverwrite<ViewPacket>(views.size());
+    const auto visible = arena.arrayForOverwrite<VisibleItems>(views.size());
+    for (size_t i = 0; i < views.size(); ++i) {
+        packets[i] = views[i].packet;
+        visible[i] = views[i].visible;
+    }
+    return { .views = packets, .deformations = placeDeformations(arena, scene, visible) };
+}
+
+void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& last, FramePacket& packet) {
+    const PreparedMotion motion = prepareMotion(arena, scene, packet.mainView(), last, packet.last);
+    if (motion.view.opaque.empty()) return;
+    const auto views = arena.arrayForOverwrite<ViewPacket>(packet.views.size() + 1);
+    std::ranges::copy(packet.views, views.begin());
+    views.back() = motion.view;
+    packet.motionView = static_cast<uint32_t>(packet.views.size());
+    packet.views = views;
+    placeLastDeformations(arena, scene, motion.slots, last, packet.deformations);
+}
+
 } // namespace
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                         std::span<const ViewInput> views, ShadowAtlas const& held) {
+                         std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& last) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
+    ViewInput const& main = views[0];
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
     for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, views[i]);
-    const PreparedShadows shadows = prepareShadows(jobs, arena, scene, views[0], asked[0], held);
+    const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, asked[0], held);
 
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, views[i], asked[i]);
-    const size_t count = asked.size() + shadows.views.size();
-    const auto packets = arena.arrayForOverwrite<ViewPacket>(count);
-    const auto visible = arena.arrayForOverwrite<VisibleItems>(count);
-    for (size_t i = 0; i < count; ++i) {
-        PreparedView const& prepared = i < asked.size() ? asked[i] : shadows.views[i - asked.size()];
-        packets[i] = prepared.packet;
-        visible[i] = prepared.visible;
-    }
-    FramePacket packet{ .views = packets,
-                        .deformations = placeDeformations(arena, scene, visible),
-                        .shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size())),
-                        .environment = environmentOf(scene),
-                        .effects = views[0].effects };
-    const SunDiscs discs = findSunDiscs(arena, scene.lights, views[0]);
+    FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
+    packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
+    packet.environment = environmentOf(scene);
+    packet.effects = main.effects;
+    packet.last = last.seenFrom(makeViewSpace(main), packet.mainView().uniforms.time);
+    if (readsMotion(packet.mainView().counts, main.quality, main.debugView)) addMotion(arena, scene, last, packet);
+    const SunDiscs discs = findSunDiscs(arena, scene.lights, main);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
-    packet.demand = demandOf(packet, shadows.counts, views[0]);
+    packet.demand = demandOf(packet, shadows.counts, main);
     return packet;
 }
 

@@ -54,6 +54,12 @@ EffectDemand demandOfPicture(uint32_t draws, bool isOn, uint32_t copiedPixels = 
     return { true, DemandReason::SeesPicture, draws, copiedPixels };
 }
 
+EffectDemand demandOfMotion(DemandInput const& input) {
+    if (!readsMotion(input.counts, input.quality, input.debugView)) return { .reason = DemandReason::NothingAsks };
+    if (input.moved == 0) return { .reason = DemandReason::NothingMoves };
+    return { true, DemandReason::MovesInView, input.moved };
+}
+
 EffectDemand demandOfContactShadows(ViewCounts const& counts) {
     if (counts.contactLights == 0) return { .reason = DemandReason::NothingAsks };
     if (counts.litDraws == 0) return { .reason = DemandReason::NothingLitVisible };
@@ -99,6 +105,8 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
         return showsEffect(Effect::Reflections);
     case DebugView::Refraction:
         return showsEffect(Effect::Refraction);
+    case DebugView::Motion:
+        return showsEffect(Effect::Motion);
     case DebugView::Fog:
         return showsEffect(Effect::Fog);
     }
@@ -138,6 +146,10 @@ std::string describeShining(Effect effect, EffectDemand const& demand) {
 
 } // namespace
 
+bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView) {
+    return debugView == DebugView::Motion || (quality.ssr && counts.reflectiveDraws > 0);
+}
+
 SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;
@@ -161,10 +173,12 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Refraction, demandOfPicture(counts.refractiveDraws,
                                             input.quality.refraction == RefractionSource::Screen, input.copiedPixels));
     set(Effect::Reflections, demandOfPicture(counts.reflectiveDraws, input.quality.ssr));
+    set(Effect::Motion, demandOfMotion(input));
     set(Effect::ContactShadows, demandOfContactShadows(counts));
     set(Effect::Fog, demandOfFog(input));
     uint32_t readers = 0;
-    for (const Effect effect : { Effect::AmbientOcclusion, Effect::Reflections, Effect::ContactShadows })
+    for (const Effect effect :
+         { Effect::AmbientOcclusion, Effect::Reflections, Effect::Motion, Effect::ContactShadows })
         readers += demand.needs(effect) ? 1 : 0;
     set(Effect::DepthPrepass, demandOfPrepass(input, readers));
     set(Effect::DebugView, demandOfDebugView(input, demand));
@@ -196,6 +210,8 @@ const char* describeNobody(Effect effect) {
         return "nothing in view refracts the picture";
     case Effect::Reflections:
         return "nothing in view reflects the picture";
+    case Effect::Motion:
+        return "no effect looks at the last picture";
     default:
         return "no light in view asks for them";
     }
@@ -219,6 +235,7 @@ const char* nameOf(Effect effect) {
                                                                "ambient occlusion",
                                                                "refraction",
                                                                "reflections",
+                                                               "motion",
                                                                "contact shadows",
                                                                "fog",
                                                                "debug view" };
@@ -263,6 +280,10 @@ std::string describe(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} light{} for them", demand.count, demand.count == 1 ? " asks" : "s ask");
     case DemandReason::LiesInBetween:
         return "lies between the camera and what is visible";
+    case DemandReason::MovesInView:
+        return fmt::format("{} in view moved", demand.count);
+    case DemandReason::NothingMoves:
+        return "nothing in view moves by itself";
     case DemandReason::DepthIsUnread:
         return "no effect reads depths";
     case DemandReason::NothingIndirect:

@@ -35,11 +35,12 @@ enum class Effect : uint8_t {
     AmbientOcclusion,
     Refraction,  ///< of the picture
     Reflections, ///< of the picture
+    Motion,      ///< of what does not stay where it is, for effects that look at the last picture
     ContactShadows,
     Fog,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 18;
+inline constexpr size_t kEffects = 19;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -60,6 +61,7 @@ enum class DemandReason : uint8_t {
     SeesPicture,          ///< `count` draws do; `others` pixels of it are copied
     LightsAskForIt,       ///< `count` lights
     LiesInBetween,        ///< between the camera and what is visible
+    MovesInView,          ///< `count` opaque objects do
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -75,6 +77,7 @@ enum class DemandReason : uint8_t {
     NothingAsks,       ///< no light in view, or no surface
     HasNoDensity,      ///< or no opacity
     HasNoIntensity,    ///< it would change nothing
+    NothingMoves,      ///< by itself, in view
 };
 
 struct EffectDemand {
@@ -100,6 +103,7 @@ struct DemandInput {
     bool hasIndirectLight = false, hasSky = false;
     uint32_t deformed = 0;     ///< objects in view that skins or morph targets move
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
+    uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     Quality quality{};
     Fog fog{}; ///< within its ranges
     AmbientOcclusion ambientOcclusion{};
@@ -109,6 +113,9 @@ struct DemandInput {
 };
 
 SceneDemand findDemand(DemandInput const& input);
+
+/// Whether an effect of the view looks at the last picture, so that it matters what moved since.
+bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView);
 
 /// "light list". One name in explain(), reports and documents.
 const char* nameOf(Effect effect);

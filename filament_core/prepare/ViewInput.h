@@ -14,14 +14,15 @@
 
 namespace filament::prepare {
 
-/// What a view is drawn for. Depth and Shadow draw what is opaque or masked, without lights: positions, bones and
+/// What a view is drawn for. Depth, Shadow and Motion draw what is opaque or masked, without lights: positions, bones and
 /// morph targets are all that such draws read, and masked materials their fragment stage.
 enum class ViewKind : uint8_t {
     Color,  ///< light: what a camera sees
     Depth,  ///< depth alone, of what a camera sees
     Shadow, ///< depth alone, of what a light reaches
+    Motion, ///< where the last frame showed what moved
 };
-inline constexpr size_t kViewKinds = 3;
+inline constexpr size_t kViewKinds = 4;
 constexpr bool isShaded(ViewKind kind) { return kind == ViewKind::Color; }
 
 struct ViewInput {

@@ -89,7 +89,11 @@ struct SkyboxRecord {
     float rotationRadians = 0;
 };
 
+/// Unlike any other in the process, and never 0.
+uint64_t newSceneSerial();
+
 struct SceneData {
+    uint64_t serial = newSceneSerial(); ///< handles of two scenes may be equal
     Renderables renderables;
     Lights lights;
     Transforms transforms; ///< of the nodes

@@ -16,9 +16,9 @@ constexpr std::array<std::pair<ToneMapper, std::string_view>, 4> kNames{ {
 } };
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, 10> kDebugViews{ "none",       "cascades",  "atlas",       "froxels",
+constexpr std::array<std::string_view, 11> kDebugViews{ "none",       "cascades",  "atlas",       "froxels",
                                                         "lights",     "occlusion", "bentNormals", "reflections",
-                                                        "refraction", "fog" };
+                                                        "refraction", "fog",       "motion" };
 
 } // namespace
 

@@ -121,11 +121,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, !needs.callsPrepare && package.shading != ShadingModel::Unlit, "PREPARE_AFTER_MATERIAL");
 }
 
-/// Fibres and translucent media have no mirrored ray.
-bool reflectsPicture(MaterialPackage const& package) {
-    const bool isMirror = package.shading == ShadingModel::Lit || package.shading == ShadingModel::SpecularGlossiness;
-    return isMirror && package.reflections == Reflections::ScreenSpace;
-}
+bool reflectsPicture(MaterialPackage const& package) { return package.reflections == Reflections::ScreenSpace; }
 
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
@@ -178,15 +174,19 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     beginStage(out, "out");
     defineSurface(out, definition, needs);
     if (deforms) defineDeformation(out, definition);
+    const bool isOfMotion = (variantKey & kVariantMotion) != 0;
+    defineIf(out, isOfMotion, "VARIANT_MOTION");
     defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
     defineVariableMacros(out, definition);
-    Result<void> done =
-            includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl", "shaders/interface/interface.glsl",
-                              "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
+    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl",
+                                          "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
+    if (done && !isOfMotion) done = out.include("shaders/material/varyings.glsl");
     if (!done) return done.error();
     declareInterface(out, definition);
-    declareVariables(out, definition);
-    declareCustomVaryings(out, definition, needs);
+    if (!isOfMotion) {
+        declareVariables(out, definition);
+        declareCustomVaryings(out, definition, needs);
+    }
     declareCustomAttributes(out, definition);
     if (deforms)
         done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface/deform.glsl" });
@@ -359,9 +359,20 @@ Result<std::string> depthFragment(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
+Result<std::string> motionFragment(MaterialNeeds const& needs, IncludeResolver const& includes) {
+    StageText out = stageOf(needs, includes);
+    beginStage(out, "in");
+    if (Result<void> done =
+                includeAll(out, { "shaders/interface/interface.glsl", "shaders/material/surface/motion_main.glsl" });
+        !done)
+        return done.error();
+    return std::move(out).take();
+}
+
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     uint16_t variantKey, IncludeResolver const& includes) {
     if ((variantKey & kVariantDepth) != 0) return depthFragment(definition, needs, variantKey, includes);
+    if ((variantKey & kVariantMotion) != 0) return motionFragment(needs, includes);
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
     StageText out = stageOf(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);

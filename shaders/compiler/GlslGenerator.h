@@ -37,8 +37,9 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
 /// What the material draws is not all of the mesh: it is masked, or the author's code discards fragments.
 bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs);
 
-/// The bits of a variant that change the text of its vertex stage; the others change the fragment stage.
-inline constexpr uint16_t kVertexVariantBits = kVariantSkinning;
+/// The bits of a variant that change the text of a stage.
+inline constexpr uint16_t kVertexVariantBits = kVariantSkinning | kVariantMotion;
+inline constexpr uint16_t kFragmentVariantBits = kAllVariantBits & ~kVariantSkinning;
 
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    uint16_t variantKey, IncludeResolver const& includes);

@@ -67,8 +67,13 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
 void describeDepth(Prepared& prepared) {
     MaterialPackage& package = prepared.definition.package;
     package.depthReadsParameters = prepared.definition.vertex || cutsHoles(prepared.definition, prepared.needs);
-    static constexpr std::string_view kOfFrame[] = { "getUserTime",        "getUserTimeMod",     "getMaterialGlobal0",
-                                                     "getMaterialGlobal1", "getMaterialGlobal2", "getMaterialGlobal3",
+    static constexpr std::string_view kOfFrame[] = { "getTime",
+                                                     "getUserTime",
+                                                     "getUserTimeMod",
+                                                     "getMaterialGlobal0",
+                                                     "getMaterialGlobal1",
+                                                     "getMaterialGlobal2",
+                                                     "getMaterialGlobal3",
                                                      "frameUniforms" };
     const bool hasCode = package.depthReadsParameters || transmitsLight(package);
     package.depthReadsFrame = hasCode && std::ranges::any_of(kOfFrame, [&](std::string_view word) {
@@ -114,14 +119,14 @@ std::vector<Stage> distinctStages(std::span<const uint16_t> keys) {
     };
     for (const uint16_t key : keys) {
         add(backend::ShaderStage::Vertex, key & kVertexVariantBits);
-        add(backend::ShaderStage::Fragment, key & static_cast<uint16_t>(~kVertexVariantBits));
+        add(backend::ShaderStage::Fragment, key & kFragmentVariantBits);
     }
     return stages;
 }
 
 Stage& stageOf(std::vector<Stage>& stages, backend::ShaderStage stage, uint16_t key) {
-    const auto bits = static_cast<uint16_t>(stage == backend::ShaderStage::Vertex ? key & kVertexVariantBits
-                                                                                  : key & ~kVertexVariantBits);
+    const auto bits = static_cast<uint16_t>(
+            key & (stage == backend::ShaderStage::Vertex ? kVertexVariantBits : kFragmentVariantBits));
     return *std::ranges::find_if(stages, [&](Stage const& known) { return known.stage == stage && known.key == bits; });
 }
 
@@ -136,7 +141,9 @@ std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },
              { kGroupDeformation, kBindingBones },
-             { kGroupDeformation, kBindingMorph } };
+             { kGroupDeformation, kBindingMorph },
+             { kGroupDeformation, kBindingLastBones },
+             { kGroupDeformation, kBindingLastMorph } };
 }
 
 Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, CompileOptions const& options) {

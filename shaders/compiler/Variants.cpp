@@ -13,9 +13,20 @@ bool leavesDepth(MaterialDefinition const& definition) {
            (blending == Blending::Opaque || blending == Blending::Masked || definition.package.transparentShadow);
 }
 
-/// Depth alone is not lit, and what light does not reach has no shadows.
+/// Only they know where their vertices were in the last frame. What blends has no motion of its own.
+bool placesVertices(MaterialDefinition const& definition) {
+    MaterialPackage const& package = definition.package;
+    const bool isSolid = package.blending == Blending::Opaque || package.blending == Blending::Masked;
+    const bool followsCamera =
+            package.vertexDomain == VertexDomain::View || package.vertexDomain == VertexDomain::Device;
+    return isSolid && !definition.fullScreenTriangle && (definition.vertex || followsCamera);
+}
+
+/// Depth and motion alone are not lit, and what light does not reach has no shadows.
 constexpr bool isVariant(uint32_t key, bool isLit) {
-    if ((key & kVariantDepth) != 0) return (key & ~uint32_t{ kVariantDepth | kVariantSkinning }) == 0;
+    for (const uint32_t alone : { kVariantDepth, kVariantMotion }) {
+        if ((key & alone) != 0) return (key & ~(alone | kVariantSkinning)) == 0;
+    }
     return !isLit || (key & kVariantShadowReceiver) == 0 || (key & (kVariantSun | kVariantPunctual)) != 0;
 }
 
@@ -29,7 +40,8 @@ uint16_t selectableBits(MaterialDefinition const& definition) {
     }
     const bool isDeformable = package.vertexDomain == VertexDomain::Object && !definition.fullScreenTriangle;
     const int depth = leavesDepth(definition) ? kVariantDepth : 0;
-    const int geometry = depth | (isDeformable ? kVariantSkinning : 0);
+    const int motion = placesVertices(definition) ? kVariantMotion : 0;
+    const int geometry = depth | motion | (isDeformable ? kVariantSkinning : 0);
     if (package.shading == ShadingModel::Unlit)
         return static_cast<uint16_t>(geometry | (package.shadowMultiplier ? kVariantShadowReceiver : 0));
     const int lighting =

@@ -88,7 +88,9 @@ struct PassUniforms {
     float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: unused
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they hit, metres; w: last level of the pyramid of distances
-    float4x4 pictureFromWorld; ///< the clip space in which the picture shows a point of this frame's world
+    float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none
+    float4 lastAlongView; ///< the distance along the view of the last frame: its product with a point of this frame's world, w = 1
+    float4 lastTime; ///< FrameUniforms::time of the last frame
 };
 
 inline constexpr uint32_t kMaxShadowMaps = 128; ///< of a view
@@ -162,6 +164,8 @@ enum DeformationBinding : uint8_t {
     kBindingBones = 0,       ///< BoneUniforms, dynamic
     kBindingMorph = 1,       ///< MorphUniforms, dynamic
     kBindingMorphDeltas = 2, ///< sampler2D, RGBA32F: see kMorphTextureWidth
+    kBindingLastBones = 3,   ///< BoneUniforms of the last frame, dynamic; of variants with kVariantMotion only
+    kBindingLastMorph = 4,   ///< MorphUniforms of the last frame, dynamic; the same
 };
 
 inline constexpr uint32_t kMaxBones = 256;

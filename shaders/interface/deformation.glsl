@@ -22,3 +22,14 @@ layout(set = 3, binding = 1, std140) uniform MorphUniforms {
 } morphUniforms;
 
 layout(set = 3, binding = 2) uniform highp sampler2D morphDeltas;
+
+#if defined(VARIANT_MOTION)
+layout(set = 3, binding = 3, std140) uniform LastBoneUniforms {
+    BoneRecord bones[kMaxBones];
+} lastBoneUniforms;
+
+layout(set = 3, binding = 4, std140) uniform LastMorphUniforms {
+    vec4 shape;
+    vec4 targets[kMaxMorphTargets];
+} lastMorphUniforms;
+#endif

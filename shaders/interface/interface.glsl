@@ -73,7 +73,9 @@ layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 raster;
     vec4 picture;
     vec4 reflection;
-    mat4 pictureFromWorld;
+    mat4 lastClipFromWorld;
+    vec4 lastAlongView;
+    vec4 lastTime;
 } passUniforms;
 
 layout(set = 1, binding = 1) uniform sampler2D passShadowMaps;

@@ -51,9 +51,15 @@ mat4 getUserWorldFromWorldMatrix() {
 vec4 getResolution() { return passUniforms.target; }
 vec3 getWorldCameraPosition() { return vec3(0.0); }
 vec3 getWorldOffset() { return frameUniforms.cameraPosition.xyz; }
-float getTime() { return frameUniforms.time.z; }
-vec4 getUserTime() { return vec4(frameUniforms.time.xy, 0.0, 0.0); }
-float getUserTimeMod(float m) { return timeModulo(frameUniforms.time.x, frameUniforms.time.y, m); }
+#if defined(VARIANT_MOTION)
+bool isLastFrame = false; // what follows is computed as it was then
+vec4 frameTime() { return isLastFrame ? passUniforms.lastTime : frameUniforms.time; }
+#else
+vec4 frameTime() { return frameUniforms.time; }
+#endif
+float getTime() { return frameTime().z; }
+vec4 getUserTime() { return vec4(frameTime().xy, 0.0, 0.0); }
+float getUserTimeMod(float m) { return timeModulo(frameTime().x, frameTime().y, m); }
 float getExposure() { return frameUniforms.exposure.x; }
 float getEV100() { return frameUniforms.exposure.y; }
 

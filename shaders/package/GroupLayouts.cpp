@@ -72,7 +72,7 @@ uint32_t samplerCount(backend::BindGroupLayout const& group) {
     return static_cast<uint32_t>(std::ranges::count_if(bindings, isSampler));
 }
 
-backend::BindGroupLayout deformationGroupLayout() {
+backend::BindGroupLayout deformationGroupLayout(bool isOfMotion) {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::BindGroupLayout layout;
@@ -82,12 +82,17 @@ backend::BindGroupLayout deformationGroupLayout() {
     add(kBindingBones, BindingType::DynamicUniformBuffer);
     add(kBindingMorph, BindingType::DynamicUniformBuffer);
     add(kBindingMorphDeltas, BindingType::SampledTexture);
+    if (isOfMotion) {
+        add(kBindingLastBones, BindingType::DynamicUniformBuffer);
+        add(kBindingLastMorph, BindingType::DynamicUniformBuffer);
+    }
     return layout;
 }
 
 backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey) {
     backend::ProgramLayout layout = package.layout;
-    if ((variantKey & kVariantSkinning) != 0) layout[kGroupDeformation] = deformationGroupLayout();
+    if ((variantKey & kVariantSkinning) != 0)
+        layout[kGroupDeformation] = deformationGroupLayout((variantKey & kVariantMotion) != 0);
     if ((variantKey & kVariantMerged) != 0) mergeInputs(package, layout[kGroupMaterial]);
     return layout;
 }

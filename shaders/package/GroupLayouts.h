@@ -23,7 +23,8 @@ backend::BindGroupLayout passGroupLayout(PassKind kind);
 uint32_t samplerCount(backend::BindGroupLayout const& group);
 
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
-backend::BindGroupLayout deformationGroupLayout();
+/// `isOfMotion`: for kVariantMotion; others have no binding for the last frame.
+backend::BindGroupLayout deformationGroupLayout(bool isOfMotion = false);
 
 /// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms,
 /// and with subpass inputs instead of currentPixel textures if it is merged. These read colour attachments 0, 1, ... in

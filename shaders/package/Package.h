@@ -77,8 +77,11 @@ enum VariantBit : uint16_t {
     kVariantHalf = 256,   ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
     kVariantMerged = 512, ///< for materials with currentPixel parameters: they are subpass inputs, not textures
     kVariantDepth = 1024, ///< depth alone, for shadow maps: no light, no colour; combined with kVariantSkinning only
+    /// Where the last frame showed what is seen now; combined with kVariantSkinning only. In materials that place their
+    /// vertices themselves; all others are drawn with that of the engine's material `motion`.
+    kVariantMotion = 2048,
 };
-inline constexpr uint16_t kAllVariantBits = 2047;
+inline constexpr uint16_t kAllVariantBits = 4095;
 
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {

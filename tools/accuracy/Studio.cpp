@@ -153,7 +153,7 @@ Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settin
         Result<tools::MaterialStand> stand = conformance::makeMaterialModel(used.engine, spec);
         if (!stand) return stand.error();
         parts.material = std::make_shared<tools::MaterialStand>(std::move(*stand));
-        Result<void> added = conformance::addMaterialCopies(used.engine, parts.scene, spec, *parts.material);
+        const auto added = conformance::addMaterialCopies(used.engine, parts.scene, spec, *parts.material);
         if (!added) return added.error();
         return parts;
     }

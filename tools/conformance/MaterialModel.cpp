@@ -46,10 +46,12 @@ tools::MaterialValues valuesOfCopy(MaterialModelFile const& model, SceneSpec con
     return values;
 }
 
-Result<void> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec, tools::MaterialStand& stand) {
+Result<std::vector<Node>> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec,
+                                            tools::MaterialStand& stand) {
     const Result<MaterialModelFile> model = readMaterialModel(spec);
     if (!model) return model.error();
     const std::vector<double4x4> copies = placedCopies(spec);
+    std::vector<Node> roots;
     for (size_t i = 0; i < copies.size(); ++i) {
         const LightChannels channels = i < spec.copyChannels.size() ? spec.copyChannels[i] : kDefaultLightChannels;
         MaterialInstance instance = stand.instance();
@@ -58,9 +60,9 @@ Result<void> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& sp
             if (!other) return other.error();
             instance = *other;
         }
-        stand.addTo(scene, copies[i], channels, instance);
+        roots.push_back(stand.addTo(scene, copies[i], channels, instance));
     }
-    return {};
+    return roots;
 }
 
 } // namespace filament::conformance

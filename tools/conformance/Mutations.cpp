@@ -536,6 +536,16 @@ public:
     }
 };
 
+/// What moves by itself is not drawn into the texture of motion.
+class StillObjectsEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.debugName != "motion") return;
+        for (BlendState& blend : command.desc.blend) blend.writeMask = 0;
+    }
+};
+
 class CullFaceEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -594,6 +604,7 @@ constexpr Mutation kMutations[] = {
     { "thickness", "thickness of solids + 5 %", thickness },
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
+    { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },

@@ -28,6 +28,7 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     readLightChannels(reader, channels);
     spec.copyChannels.push_back(channels);
     reader.read("values", spec.copyValues.emplace_back());
+    reader.read("moves", spec.copyMoves.emplace_back(0.0));
 }
 
 void readEnvironment(JsonReader& reader, SceneSpec& spec) {
@@ -62,6 +63,7 @@ void readCamera(JsonReader& reader, SceneSpec& spec) {
         spec.eye = eye;
     }
     reader.read("at", spec.at);
+    reader.read("moves", spec.cameraMoves);
     reader.read("fovDegrees", spec.lens.verticalFovDegrees, 0.01, 179);
     reader.read("near", spec.lens.nearMeters, 1e-6, 1e6);
 }
@@ -83,12 +85,14 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     view.samples = static_cast<uint8_t>(samples);
     reader.choice("toneMapper", view.colorGrading.toneMapper, "linear, aces, filmic or mobile", toneMapperFromName);
     reader.read("dither", view.colorGrading.dither);
-    reader.choice("debugView", view.debugView,
-                  "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction or fog",
-                  debugViewFromName);
+    reader.choice(
+            "debugView", view.debugView,
+            "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog or motion",
+            debugViewFromName);
     reader.read("clear", view.clearColor);
     reader.read("linear", spec.linear);
     reader.read("frames", spec.frames, 1, 16);
+    reader.read("secondsPerFrame", spec.secondsPerFrame, 0, 1e6);
 }
 
 void readQuality(JsonReader& reader, Quality& quality) {
@@ -170,6 +174,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
         spec.copies.push_back(double4x4(1.0));
         spec.copyChannels.push_back(kDefaultLightChannels);
         spec.copyValues.emplace_back();
+        spec.copyMoves.emplace_back(0.0);
     }
     const bool hasValues = std::ranges::any_of(spec.copyValues, [](NamedWords const& words) { return !words.empty(); });
     if (hasValues && !(spec.modelObject && spec.modelObject->contains("material")))

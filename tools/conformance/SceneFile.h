@@ -55,6 +55,9 @@ struct SceneSpec {
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
+    std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place
+    double3 cameraMoves{ 0.0 };              ///< the same
+    double secondsPerFrame = 0;              ///< of the view's time and of the animation
     double3 origin{ 0.0 };                   ///< of everything: model, lights, camera
     std::optional<double3> eye;              ///< none: a place from which the whole model is visible
     double3 at{ 0.0 };

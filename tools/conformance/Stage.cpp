@@ -5,6 +5,7 @@
 
 #include <filament/Animator.h>
 #include <fmt/core.h>
+#include <glm/ext/matrix_transform.hpp>
 
 namespace filament::conformance {
 namespace {
@@ -76,7 +77,13 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
 }
 
 Result<void> Stage::placeModel(SceneSpec const& spec) {
-    if (mMaterial) return addMaterialCopies(mEngine, *mScene, spec, *mMaterial);
+    mCopies.clear();
+    if (mMaterial) {
+        Result<std::vector<Node>> added = addMaterialCopies(mEngine, *mScene, spec, *mMaterial);
+        if (!added) return added.error();
+        mCopies = std::move(*added);
+        return {};
+    }
     uint64_t nodesOfOne = 0;
     const std::vector<double4x4> copies = placedCopies(spec);
     for (size_t i = 0; i < copies.size(); ++i) {
@@ -87,7 +94,7 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
             return fail(ErrorCode::InvalidArgument, "{}: copies: {} copies of the model are more than {} objects",
                         spec.name, spec.copies.size(), kMaxObjects);
         }
-        const Node root = mScene->add(*mModel, copy);
+        const Node root = mCopies.emplace_back(mScene->add(*mModel, copy));
         if (channels != kDefaultLightChannels) mScene->setLightChannels(root, channels);
         nodesOfOne = mScene->nodeCount() - nodes;
         if (!spec.animationSeconds) continue;
@@ -95,7 +102,6 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
             return fail(ErrorCode::NotFound, "{}: animation.index: {} of {} animations", spec.name, spec.animation,
                         mModel->animationCount());
         }
-        Animator(*mModel, *mScene, root).apply(spec.animation, *spec.animationSeconds);
     }
     return {};
 }
@@ -115,8 +121,8 @@ Result<void> Stage::set(SceneSpec const& spec) {
     else if (mModel && !mMaterial && mModel->environment())
         mScene->setEnvironment(*mModel->environment(), spec.environmentSettings);
     mView = spec.view;
-    mView.camera = cameraOf(spec, mScene->bounds());
-    mFrames = spec.frames;
+    mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());
+    mSpec = spec;
     mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = spec.view.size,
                                                         .imageCount = 1,
                                                         .format = spec.linear ? Format::RGBA16F : Format::RGBA8,
@@ -124,8 +130,27 @@ Result<void> Stage::set(SceneSpec const& spec) {
     return {};
 }
 
+void Stage::setBack(uint32_t frames) {
+    const auto back = [&](double3 const& moves) {
+        return glm::translate(double4x4(1.0), moves * -static_cast<double>(frames));
+    };
+    const double seconds = -mSpec.secondsPerFrame * frames;
+    const std::vector<double4x4> places = placedCopies(mSpec);
+    for (size_t i = 0; i < mCopies.size(); ++i) {
+        if (i < mSpec.copyMoves.size()) mScene->setTransform(mCopies[i], back(mSpec.copyMoves[i]) * places[i]);
+        if (!mSpec.animationSeconds) continue;
+        Animator(*mModel, *mScene, mCopies[i]).apply(mSpec.animation, *mSpec.animationSeconds + seconds);
+    }
+    mView.camera.worldFromView = back(mSpec.cameraMoves) * mLastCamera.worldFromView;
+    mView.timeSeconds = mSpec.view.timeSeconds + seconds;
+}
+
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
-    for (uint32_t i = 1; i < mFrames; ++i) mRenderer->render(*mScene, mView, mTarget);
+    for (uint32_t i = mSpec.frames - 1; i > 0; --i) {
+        setBack(i);
+        mRenderer->render(*mScene, mView, mTarget);
+    }
+    setBack(0);
     if (request && mCapture) {
         mEngine.waitIdle(); // earlier frames must not be affected by the request
         mCapture->arm(*request);

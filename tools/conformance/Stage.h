@@ -54,6 +54,8 @@ private:
     Result<void> loadModel(SceneSpec const& spec);
     Result<void> placeModel(SceneSpec const& spec);
     Result<void> loadSky(SceneSpec const& spec);
+    /// Where everything is `frames` before the last one.
+    void setBack(uint32_t frames);
 
     const StageOptions mOptions;
     Engine mEngine;
@@ -66,7 +68,9 @@ private:
     std::optional<Scene> mScene; // destroyed before model and environment
     Owned<SwapChain> mTarget;
     View mView;
-    uint32_t mFrames = 1;
+    Camera mLastCamera; ///< of the last frame
+    SceneSpec mSpec;
+    std::vector<Node> mCopies;
 };
 
 } // namespace filament::conformance

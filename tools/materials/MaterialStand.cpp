@@ -143,29 +143,34 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
     return stand;
 }
 
-void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels,
+Node MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels,
                           MaterialInstance instance) const {
+    const Node root = scene.add(NodeDesc{ .parentFromNode = worldFromObject, .name = mName });
+    const auto below = [&](double4x4 const& place) {
+        return scene.add(NodeDesc{ .parent = root, .parentFromNode = place });
+    };
     for (uint32_t i = 0; i < mInstances; ++i) {
         scene.add({ .vertices = mMesh.vertices,
                     .indices = mMesh.indices,
                     .material = instance ? instance : mInstance.get(),
                     .boundsMin = float3(-1),
                     .boundsMax = float3(1),
-                    .worldFromObject = worldFromObject * placeInRow(i, mInstances),
+                    .node = below(placeInRow(i, mInstances)),
                     .instanceIndex = i,
                     .culled = mIsInObjectSpace,
                     .lightChannels = channels,
                     .name = mName });
     }
-    if (!mSlabMaterial.get()) return;
+    if (!mSlabMaterial.get()) return root;
     scene.add({ .vertices = mBox.vertices,
                 .indices = mBox.indices,
                 .material = mSlabInstance,
                 .boundsMin = float3(-0.7f),
                 .boundsMax = float3(0.7f),
-                .worldFromObject = worldFromObject * slabPlace(),
+                .node = below(slabPlace()),
                 .lightChannels = channels,
                 .name = "slab" });
+    return root;
 }
 
 } // namespace filament::tools

@@ -27,8 +27,8 @@ public:
     Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);
     /// Another instance of the material, which lives as long as the stand; constants stay.
     Result<MaterialInstance> vary(Engine& engine, MaterialFile const& file, MaterialValues const& values);
-    /// `instance`: none for that of the stand.
-    void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0),
+    /// `instance`: none for that of the stand. Returns a node of its own, with which all that was added moves.
+    Node addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0),
                LightChannels channels = kDefaultLightChannels, MaterialInstance instance = {}) const;
     Material material() const { return mMaterial; }
     MaterialInstance instance() const { return mInstance; }

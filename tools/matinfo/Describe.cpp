@@ -25,7 +25,8 @@ constexpr std::pair<uint16_t, const char*> kBits[] = { { shader::kVariantSun, "d
                                                        { shader::kVariantStereo, "stereo" },
                                                        { shader::kVariantHalf, "halfPrecision" },
                                                        { shader::kVariantMerged, "merged" },
-                                                       { shader::kVariantDepth, "depth" } };
+                                                       { shader::kVariantDepth, "depth" },
+                                                       { shader::kVariantMotion, "motion" } };
 
 template <class E, size_t N>
 const char* wordOf(E value, std::array<const char*, N> const& words) {

@@ -244,13 +244,15 @@ void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
     ++mImpl->depthStateChanges;
 }
 
-void Engine::destroy(MaterialInstance handle) {
-    scene::MaterialInstance& instance = mImpl->instances.get(handle);
-    std::erase(mImpl->dirtyInstances, handle);
-    mImpl->destroyGroups(instance, mImpl->pending);
-    if (instance.buffer) mImpl->stream->destroy(mImpl->pending, instance.buffer);
+void Engine::Impl::destroy(MaterialInstance handle) {
+    scene::MaterialInstance& instance = instances.get(handle);
+    std::erase(dirtyInstances, handle);
+    destroyGroups(instance, pending);
+    if (instance.buffer) stream->destroy(pending, instance.buffer);
     --instance.material->instanceCount;
-    mImpl->instances.remove(handle);
+    instances.remove(handle);
 }
+
+void Engine::destroy(MaterialInstance handle) { mImpl->destroy(handle); }
 
 } // namespace filament

@@ -58,6 +58,11 @@ Material Engine::Impl::engineMaterial(std::string_view package, std::vector<Mate
     return *material;
 }
 
+scene::MaterialInstance const* Engine::Impl::motionInstance() {
+    if (!drawingMotion) drawingMotion = createInstance(engineMaterial("motion", {}), "motion");
+    return &instances.get(drawingMotion);
+}
+
 scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package,
                                                         std::vector<MaterialConstant> constants,
                                                         passes::FullScreenInterface const& given) {

@@ -40,9 +40,10 @@ enum class DebugView : uint8_t {
     Reflections, ///< how far reflected rays go until they hit something in the picture
     Refraction,  ///< the blurred level of the picture that is seen through each refracting pixel
     Fog,         ///< the share of each pixel that is fog
+    Motion,      ///< from where the last frame showed each pixel to where it is now
 };
-/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction" and "fog",
-/// as in filament-render --set debugView=froxels.
+/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction", "fog"
+/// and "motion", as in filament-render --set debugView=froxels.
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
 

@@ -10,27 +10,43 @@ layout(location = kAttributeJoints1) in uvec4 mesh_joints1;
 layout(location = kAttributeWeights1) in vec4 mesh_weights1;
 #endif
 
+#if defined(VARIANT_MOTION)
+BoneRecord boneAt(uint i) {
+    if (isLastFrame) return lastBoneUniforms.bones[i];
+    return boneUniforms.bones[i];
+}
+vec4 morphShape() { return isLastFrame ? lastMorphUniforms.shape : morphUniforms.shape; }
+vec4 morphTarget(int i) {
+    if (isLastFrame) return lastMorphUniforms.targets[i];
+    return morphUniforms.targets[i];
+}
+#else
+BoneRecord boneAt(uint i) { return boneUniforms.bones[i]; }
+vec4 morphShape() { return morphUniforms.shape; }
+vec4 morphTarget(int i) { return morphUniforms.targets[i]; }
+#endif
+
 vec3 deformedPosition;
 vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bind pose to object space
 
 // The texel of one target and this vertex. `part`: 0 position, 1 normal, 2 tangent.
 vec3 morphDelta(int target, int part) {
-    int texels = int(morphUniforms.shape.y), vertices = int(morphUniforms.shape.z);
+    int texels = int(morphShape().y), vertices = int(morphShape().z);
     int at = (target * vertices + gl_VertexIndex) * texels + part;
     return texelFetch(morphDeltas, ivec2(at % kMorphTextureWidth, at / kMorphTextureWidth), 0).xyz;
 }
 
 vec3 morphed(vec3 value, int part) {
-    int count = int(morphUniforms.shape.x);
+    int count = int(morphShape().x);
     for (int i = 0; i < count; ++i) {
-        vec4 target = morphUniforms.targets[i];
+        vec4 target = morphTarget(i);
         value += target.x * morphDelta(int(target.y), part);
     }
     return value;
 }
 
 void addBone(uint joint, float weight) {
-    BoneRecord bone = boneUniforms.bones[min(joint, uint(kMaxBones - 1))];
+    BoneRecord bone = boneAt(min(joint, uint(kMaxBones - 1)));
     skinRow0 += weight * bone.row0;
     skinRow1 += weight * bone.row1;
     skinRow2 += weight * bone.row2;
@@ -43,7 +59,7 @@ void addBones(uvec4 joints, vec4 weights) {
     addBone(joints.w, weights.w);
 }
 
-bool hasSkin() { return morphUniforms.shape.w > 0.0; }
+bool hasSkin() { return morphShape().w > 0.0; }
 
 vec3 normalizeOr(vec3 v, vec3 fallback) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
@@ -58,7 +74,7 @@ void deformPosition(vec3 position) {
     skinRow0 = skinRow1 = skinRow2 = vec4(0.0);
     addBones(mesh_joints, mesh_weights);
 #if defined(EIGHT_JOINTS)
-    if (morphUniforms.shape.w > 1.0) addBones(mesh_joints1, mesh_weights1);
+    if (morphShape().w > 1.0) addBones(mesh_joints1, mesh_weights1);
 #endif
     vec4 p = vec4(deformedPosition, 1.0);
     deformedPosition = vec3(dot(skinRow0, p), dot(skinRow1, p), dot(skinRow2, p));
@@ -67,8 +83,8 @@ void deformPosition(vec3 position) {
 // Call after deformPosition(). Normals are transformed by the cofactor matrix, the inverse transpose times the
 // determinant. Returns -1 if the bones mirror, otherwise 1.
 float deformFrame(inout vec3 normal, inout vec3 tangent) {
-    if (morphUniforms.shape.y > 1.0) normal = morphed(normal, 1);
-    if (morphUniforms.shape.y > 2.0) tangent = morphed(tangent, 2);
+    if (morphShape().y > 1.0) normal = morphed(normal, 1);
+    if (morphShape().y > 2.0) tangent = morphed(tangent, 2);
     if (!hasSkin()) return 1.0;
     vec3 cofactor0 = cross(skinRow1.xyz, skinRow2.xyz);
     vec3 cofactor1 = cross(skinRow2.xyz, skinRow0.xyz);

@@ -2,7 +2,7 @@
 // Reflections of the picture, for lit materials with `reflections : screenspace`: the mirrored ray is followed through
 // the pyramid of distances of what is opaque, from cell to cell: through cells of which it stays in front in one step,
 // through the others by way of their parts, down to pixels. What it hits has the colour that the picture shows there:
-// for opaque surfaces the last frame's picture, at the place where the hit was then.
+// for opaque surfaces the last frame's picture, brought to where this frame shows the same things.
 //   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines of the picture are walked, and what
 //           is linear in the world is interpolated as a fraction of w. Uludag 2014, "Hi-Z Screen-Space Cone-Traced
 //           Reflections", GPU Pro 5: the pyramid.
@@ -121,7 +121,7 @@ highp float hitOfRay(PictureRay ray) {
 
 // What the picture has where it showed the hit, and how much of the reflection that is. `share`: of the ray, [0, 1].
 PictureHit lookAtHit(highp vec3 direction, highp float meters, highp float share, highp float perceptualRoughness) {
-    highp vec4 place = passUniforms.pictureFromWorld * vec4(vertex_worldPosition + direction * meters, 1.0);
+    highp vec4 place = frameUniforms.clipFromWorld * vec4(vertex_worldPosition + direction * meters, 1.0);
     highp vec2 uv = place.xy / max(place.w, 1e-30) * 0.5 + 0.5;
     highp float pixelsPerMeter = 0.5 * passUniforms.target.y * abs(frameUniforms.clipFromView[1].y) / max(place.w, 1e-30);
     highp float radius = lobeRadius(perceptualRoughness * perceptualRoughness) * meters * pixelsPerMeter;

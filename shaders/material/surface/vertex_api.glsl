@@ -29,6 +29,11 @@ layout(location = kAttributeUv1) in vec2 mesh_uv1;
 #endif
 #if defined(VERTEX_DOMAIN_OBJECT) || defined(INSTANCED)
 layout(location = kAttributeInstance) in uint mesh_instance;
+#if defined(VARIANT_MOTION)
+uint objectIndex() { return mesh_instance + (isLastFrame ? 1u : 0u); } // two records an object: now, and then
+#else
+uint objectIndex() { return mesh_instance; }
+#endif
 #endif
 
 vec4 getPosition() { return vec4(meshPosition(), 1.0); }
@@ -36,7 +41,7 @@ int getVertexIndex() { return gl_VertexIndex; }
 int getEyeIndex() { return 0; }
 #if defined(INSTANCED)
 // The index that the application gave the renderable; it does not reveal which renderables share a draw call.
-int getInstanceIndex() { return int(objectUniforms.objects[mesh_instance].flags.y); }
+int getInstanceIndex() { return int(objectUniforms.objects[objectIndex()].flags.y); }
 int filament_instanceId() { return getInstanceIndex(); } // what OpenGL calls it in authors' code
 #else
 int filament_instanceId() { return 0; }
@@ -48,7 +53,7 @@ int filament_instanceId() { return 0; }
 vec3 objectOrigin() { return frameUniforms.cameraPosition.xyz * frameUniforms.cameraPosition.w; }
 
 mat4 getWorldFromModelMatrix() {
-    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    ObjectRecord object = objectUniforms.objects[objectIndex()];
     mat4 m = transpose(mat4(object.row0, object.row1, object.row2, vec4(0.0, 0.0, 0.0, 1.0)));
     m[3].xyz -= objectOrigin();
     return m;
@@ -57,7 +62,7 @@ mat4 getWorldFromModelMatrix() {
 // The cofactor matrix: the inverse transpose times the determinant, which also exists for singular matrices. Its sign
 // is that of the determinant, hence the flag of mirrored objects.
 mat3 getWorldFromModelNormalMatrix() {
-    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    ObjectRecord object = objectUniforms.objects[objectIndex()];
     vec3 row0 = cross(object.row1.xyz, object.row2.xyz);
     vec3 row1 = cross(object.row2.xyz, object.row0.xyz);
     vec3 row2 = cross(object.row0.xyz, object.row1.xyz);
@@ -65,18 +70,18 @@ mat3 getWorldFromModelNormalMatrix() {
 }
 
 vec4 worldPositionOf(vec4 p) {
-    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    ObjectRecord object = objectUniforms.objects[objectIndex()];
     vec3 position = vec3(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p));
     return vec4(position - objectOrigin(), 1.0);
 }
 
 vec3 directionToWorld(vec3 d) {
-    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    ObjectRecord object = objectUniforms.objects[objectIndex()];
     return vec3(dot(object.row0.xyz, d), dot(object.row1.xyz, d), dot(object.row2.xyz, d));
 }
 
 vec3 normalToWorld(vec3 n) { return getWorldFromModelNormalMatrix() * n; }
-float bitangentSign() { return objectUniforms.objects[mesh_instance].flags.x; }
+float bitangentSign() { return objectUniforms.objects[objectIndex()].flags.x; }
 
 #else
 

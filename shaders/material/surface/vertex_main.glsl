@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex stage of surface materials, entry point: attributes -> materialVertex() -> varyings.
+// Vertex stage of surface materials, entry points: attributes -> materialVertex() -> varyings, or the place in the last
+// frame.
 
 #if defined(WIDE_LINES)
 const float kMaxLineWidth = 1024.0; // pixels
@@ -26,7 +27,12 @@ vec4 widened(vec4 clip, vec4 end, float side, float width) {
 }
 #endif
 
-void main() {
+#if defined(NEEDS_NORMAL)
+vec3 vertexTangent; // in object space, deformed
+float vertexFrameSign = 1.0; // -1 if bones mirror
+#endif
+
+MaterialVertexInputs materialVertexInputs() {
     MaterialVertexInputs inputs;
     MATERIAL_CLEAR_VARIABLES(inputs)
 #if defined(VARIANT_SKINNING)
@@ -42,10 +48,10 @@ void main() {
     inputs.uv1 = meshUv(mesh_uv1);
 #endif
 #if defined(NEEDS_NORMAL)
-    vec3 normal, tangent, bitangent;
-    tangentFrame(mesh_tangents, normal, tangent, bitangent);
+    vec3 normal, bitangent;
+    tangentFrame(mesh_tangents, normal, vertexTangent, bitangent);
 #if defined(VARIANT_SKINNING)
-    float deformationSign = deformFrame(normal, tangent);
+    vertexFrameSign = deformFrame(normal, vertexTangent);
 #endif
     inputs.worldNormal = normalizeOrZero(normalToWorld(normal));
 #endif
@@ -61,7 +67,54 @@ void main() {
 #if defined(HAS_MATERIAL_VERTEX)
     materialVertex(inputs);
 #endif
+    return inputs;
+}
 
+vec4 clipPosition(MaterialVertexInputs inputs, mat4 clipFromWorld) {
+#if defined(HAS_CLIP_SPACE_TRANSFORM)
+    vec4 clip = inputs.clipSpaceTransform * getPosition();
+#elif defined(VERTEX_DOMAIN_DEVICE)
+    vec4 clip = getPosition();
+#else
+    vec4 clip = clipFromWorld * vec4(inputs.worldPosition.xyz, 1.0);
+#endif
+#if defined(WIDE_LINES)
+    vec4 lineEnd = clipFromWorld * vec4(inputs.lineEnd.xyz, 1.0);
+    clip = widened(inFront(clip, lineEnd), lineEnd, mesh_custom0.w, inputs.lineWidth);
+#endif
+    return clip;
+}
+
+#if defined(VARIANT_MOTION)
+
+layout(location = 0) out vec4 vertex_lastClip;
+layout(location = 1) out vec2 vertex_distances; // along the view: in the last frame, and now
+
+float alongView(vec3 p) {
+    mat4 view = frameUniforms.viewFromWorld;
+    return -dot(vec3(view[0].z, view[1].z, view[2].z), p);
+}
+
+void main() {
+    MaterialVertexInputs inputs = materialVertexInputs();
+    gl_Position = clipPosition(inputs, frameUniforms.clipFromWorld);
+    gl_PointSize = 1.0;
+#if defined(VERTEX_DOMAIN_VIEW) || defined(VERTEX_DOMAIN_DEVICE)
+    vertex_lastClip = gl_Position; // it goes with the camera
+    vertex_distances = vec2(1.0);
+#else
+    isLastFrame = true;
+    MaterialVertexInputs last = materialVertexInputs();
+    vertex_lastClip = clipPosition(last, passUniforms.lastClipFromWorld);
+    vertex_distances = vec2(dot(passUniforms.lastAlongView, vec4(last.worldPosition.xyz, 1.0)),
+            alongView(inputs.worldPosition.xyz));
+#endif
+}
+
+#else
+
+void main() {
+    MaterialVertexInputs inputs = materialVertexInputs();
 #if defined(NEEDS_WORLD_POSITION)
     vertex_worldPosition = inputs.worldPosition.xyz;
 #endif
@@ -69,10 +122,10 @@ void main() {
     vertex_worldNormal = inputs.worldNormal;
 #endif
 #if defined(NEEDS_TANGENT)
-    vertex_worldTangent = vec4(normalizeOrZero(directionToWorld(tangent)),
+    vertex_worldTangent = vec4(normalizeOrZero(directionToWorld(vertexTangent)),
             mesh_tangents.w < 0.0 ? -bitangentSign() : bitangentSign());
 #if defined(VARIANT_SKINNING)
-    vertex_worldTangent.w *= deformationSign;
+    vertex_worldTangent.w *= vertexFrameSign;
 #endif
 #endif
 #if defined(HAS_COLOR)
@@ -91,16 +144,8 @@ void main() {
     MATERIAL_WRITE_VARIABLES(inputs)
     MATERIAL_WRITE_CUSTOMS
 
-#if defined(HAS_CLIP_SPACE_TRANSFORM)
-    gl_Position = inputs.clipSpaceTransform * getPosition();
-#elif defined(VERTEX_DOMAIN_DEVICE)
-    gl_Position = getPosition();
-#else
-    gl_Position = frameUniforms.clipFromWorld * vec4(inputs.worldPosition.xyz, 1.0);
-#endif
-#if defined(WIDE_LINES)
-    vec4 lineEnd = frameUniforms.clipFromWorld * vec4(inputs.lineEnd.xyz, 1.0);
-    gl_Position = widened(inFront(gl_Position, lineEnd), lineEnd, mesh_custom0.w, inputs.lineWidth);
-#endif
+    gl_Position = clipPosition(inputs, frameUniforms.clipFromWorld);
     gl_PointSize = 1.0; // both APIs leave the size of points undefined otherwise
 }
+
+#endif

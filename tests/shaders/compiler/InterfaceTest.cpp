@@ -131,7 +131,8 @@ TEST_F(Interface, FroxelBufferHasWords) {
 TEST_F(Interface, PassUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kGroupPass, kBindingPass).base_type_id);
     expectMembers(type, { MEMBER(PassUniforms, target), MEMBER(PassUniforms, raster), MEMBER(PassUniforms, picture),
-                          MEMBER(PassUniforms, reflection), MEMBER(PassUniforms, pictureFromWorld) });
+                          MEMBER(PassUniforms, reflection), MEMBER(PassUniforms, lastClipFromWorld),
+                          MEMBER(PassUniforms, lastAlongView), MEMBER(PassUniforms, lastTime) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(PassUniforms));
 }
 

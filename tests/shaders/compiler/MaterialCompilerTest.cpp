@@ -231,8 +231,10 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
               (std::vector<int>{ 0, 1, 2, 3, kVariantDepth }));
     EXPECT_EQ(keys("shadingModel : unlit, blending : fade"), (std::vector<int>{ 0, kVariantSkinning }))
             << "what blends leaves no depth";
-    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"), (std::vector<int>{ 0, kVariantDepth }))
-            << "only what is given in object space can be deformed";
+    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"),
+              (std::vector<int>{ 0, kVariantDepth, kVariantMotion }))
+            << "only what is given in object space can be deformed, and what goes with the camera says so";
+    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : world"), (std::vector<int>{ 0, kVariantDepth }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"),
               (std::vector<int>{ 0, kVariantSun, kVariantSun | kVariantShadowReceiver, kVariantDepth }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual),

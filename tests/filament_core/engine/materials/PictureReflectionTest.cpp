@@ -43,7 +43,7 @@ public:
         mWall = load(test::text("shadingModel : unlit, flipUV : false, requires : [ uv0 ]",
                                 "vec2 at = (getUV0() * vec2(2.0, -2.0) + vec2(-1.0, 1.0)) * 4.0; "
                                 "material.baseColor = vec4(0.5 + 0.1 * at.x, 0.5 + 0.2 * at.y, 0.25, 1.0);"));
-        mSquare.add(mScene, instance(mWall), double3(0, 0, kWallZ), kWallSide);
+        wall = mSquare.add(mScene, instance(mWall), double3(0, 0, kWallZ), kWallSide);
         view.camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
         view.size = { 96, 64 };
         view.quality.ssr = true;
@@ -64,7 +64,14 @@ public:
     Engine& engine() { return mEngine; }
     Scene& scene() { return mScene; }
 
+    void placeWall(double3 offset) {
+        double4x4 world(kWallSide);
+        world[3] = double4(offset + double3(0, 0, kWallZ), 1);
+        mScene.setTransform(wall, world);
+    }
+
     View view;
+    Renderable wall;
 
 private:
     Owned<Material> load(std::string const& text) { return test::loadMaterial(mEngine, text); }
@@ -130,15 +137,17 @@ bool isShown(Camera const& camera, uint2 size, double3 point, double border) {
     return clip.w > 0 && std::min(std::min(uv.x, uv.y), std::min(1 - uv.x, 1 - uv.y)) > border;
 }
 
-/// Pixels of the floor that a frame after `before` must show as the wall's image; returns how many there were.
-uint32_t expectImageOfWall(Image const& picture, Camera const& camera, Camera const& before, float tolerance) {
+/// Pixels of the floor that a frame after `before` must show as the image of the wall, which came by `step` and now lies
+/// two such steps off its place; returns how many there were.
+uint32_t expectImageOfWall(Image const& picture, Camera const& camera, Camera const& before, float tolerance,
+                           double3 step = double3(0)) {
     const uint2 size(picture.width, picture.height);
     uint32_t count = 0;
     for (uint32_t y = 0; y < size.y; ++y) {
         for (uint32_t x = 0; x < size.x; ++x) {
             const auto point = mirroredPoint(camera, size, x, y);
-            if (!point || !isShown(before, size, *point, 0.1) || !isShown(camera, size, *point, 0.02)) continue;
-            const float3 seen(halfPixel(picture, x, y)), wanted = colorOfWall(*point);
+            if (!point || !isShown(before, size, *point - step, 0.1) || !isShown(camera, size, *point, 0.1)) continue;
+            const float3 seen(halfPixel(picture, x, y)), wanted = colorOfWall(*point - step * 2.0);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(seen[c], wanted[c], tolerance) << x << ", " << y << " channel " << c;
             ++count;
@@ -169,6 +178,15 @@ TEST(PictureReflection, AMovingCameraFindsTheWallInTheLastPicture) {
     };
     const Image picture = mirrored(3, [&](MirrorRoom& room, int frame) { room.view.camera = cameraOf(frame); });
     EXPECT_GT(expectImageOfWall(picture, cameraOf(2), cameraOf(1), 0.03f), 400u);
+}
+
+/// The wall's colours go with it: without motion its image would be that of the place where it was.
+TEST(PictureReflection, AMovingObjectIsFoundInTheLastPicture) {
+    constexpr double3 kMovedBy(0.3, -0.1, 0);
+    const Image picture =
+            mirrored(3, [&](MirrorRoom& room, int frame) { room.placeWall(kMovedBy * static_cast<double>(frame)); });
+    const Camera camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
+    EXPECT_GT(expectImageOfWall(picture, camera, camera, 0.02f, kMovedBy), 400u);
 }
 
 TEST(PictureReflection, ARoughMirrorBlursTheImageAndKeepsItsMean) {

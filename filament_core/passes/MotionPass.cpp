@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/MotionPass.h"
+
+#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/PassGroup.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using prepare::DrawCall;
+
+struct ChosenMotion {
+    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
+    std::span<const DrawCall> draws;
+    std::span<const PipelineHandle> pipelines;
+};
+
+PassSlot slotOf(PassContext& pass, DepthRange range) {
+    return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthRange = range, .motionOnly = true };
+}
+
+/// With the material that draws each.
+std::span<const DrawCall> drawsOf(FrameContext const& context) {
+    const std::span<DrawCall> draws = context.arena->copy(context.packet.views[context.packet.motionView].opaque);
+    for (DrawCall& draw : draws) {
+        if (!draw.material->material->package.findVariant(shader::kVariantMotion))
+            draw.material = context.resources.motion;
+    }
+    return draws;
+}
+
+ChosenMotion chooseMotion(PassContext& pass, FrameContext const& context, PassBlock target) {
+    PipelineSource const& pipelines = context.resources.pipelines;
+    const uint32_t slot = pipelines.slot(slotOf(pass, context.settings.depthRange));
+    const std::span<const DrawCall> draws = drawsOf(context);
+    return { surfaceGroups(pass, context, target), draws,
+             choosePipelines(pass, *context.arena, pipelines, slot, draws, 0) };
+}
+
+void recordMotion(PassContext& pass, FrameContext const& context, ChosenMotion const& chosen) {
+    const FrameView view = viewOf(context, context.packet.motionView);
+    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
+                             context.settings.textureFilter };
+    recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
+}
+
+} // namespace
+
+void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::Motion)) return;
+    const uint2 size = context.settings.size;
+    const framegraph::GraphTextureDesc desc{
+        .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "motion"
+    };
+    targets.motion = graph.createTexture(desc);
+    graph.addPass(
+            "motion",
+            [&](PassBuilder& pass) {
+                pass.writeColor(0, targets.motion, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
+                pass.writeDepth(targets.prepassDepth, {});
+            },
+            [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
+                return chooseMotion(pass, *of, target);
+            },
+            [of = &context](PassContext& pass, ChosenMotion const& chosen) { recordMotion(pass, *of, chosen); });
+}
+
+} // namespace filament::passes

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LastFrame: what a frame leaves to the next one of the same renderer: how it was seen, and where everything was.
+/// Effects that gather over frames find by it where the last picture shows a point of this one.
+///   In      the scene and the main view of a frame, once it is drawn.
+///   Limits  parameters of materials are not remembered: a vertex block that the app moves by one shows no motion.
+///   Memory  places only if asked for: 72 B a renderable, 48 B a bone, 4 B a morph target; kept and reused.
+///   Thread  the app thread between frames; read-only while a frame is prepared.
+///   Fails   std::bad_alloc; there was no last frame then.
+#pragma once
+
+#include "filament_core/prepare/FramePacket.h"
+#include "filament_core/prepare/ViewConstants.h"
+#include "filament_core/scene/SceneData.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace filament::prepare {
+
+class LastFrame {
+public:
+    /// `keepsPlaces`: the next frame may ask where things were.
+    void keep(scene::SceneData const& scene, ViewInput const& view, ViewPacket const& main, bool keepsPlaces);
+    void forget() { *this = {}; }
+
+    /// As this frame sees the last one; itself, if there was none.
+    LastView seenFrom(ViewSpace const& space, float4 const& time) const;
+
+    /// Whether the renderable at position `at` was in the last frame's scene, and its place there.
+    scene::Placement const* placement(scene::SceneData const& scene, uint32_t at) const;
+    /// Of a slot of Deformations; none: it was not there, or had another skin.
+    std::optional<LastDeformation> deformation(scene::SceneData const& scene, uint32_t slot) const;
+
+private:
+    struct Seen {
+        float4x4 clipFromWorld;
+        double3 cameraWorld;
+        float3 forward;
+        float4 time;
+    };
+    struct Deformed {
+        Renderable renderable{};
+        Skin skin{};
+        std::vector<float> weights{};
+    };
+
+    void keepPlaces(scene::SceneData const& scene);
+
+    std::optional<Seen> mSeen;
+    uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
+    std::vector<Renderable> mRenderables; // parallel to mPlacements
+    std::vector<scene::Placement> mPlacements;
+    std::vector<Deformed> mDeformed;                   // by slot of Deformations
+    std::vector<std::vector<shader::BoneData>> mBones; // by Skin::index()
+};
+
+} // namespace filament::prepare

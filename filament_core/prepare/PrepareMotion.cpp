@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PrepareMotion.h"
+
+#include "filament_core/prepare/DeformationData.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace filament::prepare {
+namespace {
+
+using scene::Deformation;
+using scene::Placement;
+using shader::VertexDomain;
+
+bool isEqual(Placement const& a, Placement const& b) { return std::memcmp(&a, &b, sizeof(Placement)) == 0; }
+
+bool isDeformedAlike(scene::SceneData const& scene, uint32_t slot, LastDeformation const& last) {
+    Deformation const& now = scene.deformations.all()[slot];
+    if (!std::ranges::equal(now.weights, last.weights)) return false;
+    if (!now.skin) return true;
+    std::vector<shader::BoneData> const& bones = scene.deformations.skin(now.skin).bones;
+    return std::memcmp(bones.data(), last.bones.data(), bones.size() * sizeof(shader::BoneData)) == 0;
+}
+
+/// What the objects of a frame are compared with.
+struct Moment {
+    scene::SceneData const& scene;
+    LastFrame const& last;
+    bool isTimePassed, isCameraElsewhere;
+};
+
+/// Of an object whose last place is known.
+bool hasMoved(Moment const& moment, DrawCall const& draw, Placement const& now, Placement const& last) {
+    shader::MaterialPackage const& package = draw.material->material->package;
+    const bool isDeformed = draw.deformation != scene::kNotDeformed;
+    const auto deformed = isDeformed ? moment.last.deformation(moment.scene, draw.deformation) : std::nullopt;
+    if (isDeformed && !deformed) return false;
+    if (package.depthReadsFrame && moment.isTimePassed) return true;
+    switch (package.vertexDomain) {
+    case VertexDomain::World:
+        return false;
+    case VertexDomain::View:
+    case VertexDomain::Device:
+        return moment.isCameraElsewhere;
+    case VertexDomain::Object:
+        break;
+    }
+    return !isEqual(now, last) || (isDeformed && !isDeformedAlike(moment.scene, draw.deformation, *deformed));
+}
+
+/// Two records an object, so one object a draw.
+class MotionList {
+public:
+    MotionList(Arena& arena, size_t most)
+            : mDraws(arena.arrayForOverwrite<DrawCall>(most)), mOrder(arena.arrayForOverwrite<SortItem>(most * 2)),
+              mPlacements(arena.arrayForOverwrite<Placement>(most * 2)),
+              mSlots(arena.arrayForOverwrite<uint32_t>(most)) {}
+
+    void add(DrawCall draw, Placement const& now, Placement const& last) {
+        draw.firstObject = static_cast<uint32_t>(mCount * 2);
+        draw.instanceCount = 1;
+        for (Placement const* place : { &now, &last }) {
+            const size_t at = draw.firstObject + (place == &now ? 0u : 1u);
+            mOrder[at] = { .renderable = static_cast<uint32_t>(at) };
+            mPlacements[at] = *place;
+        }
+        mDraws[mCount++] = draw;
+        if (draw.deformation != scene::kNotDeformed) mSlots[mDeformed++] = draw.deformation;
+    }
+
+    std::span<const DrawCall> draws() const { return mDraws.first(mCount); }
+    std::span<const uint32_t> slots() const { return mSlots.first(mDeformed); }
+    ObjectList objects(double3 const& camera) const { return { mOrder.first(mCount * 2), mPlacements, camera }; }
+
+private:
+    std::span<DrawCall> mDraws;
+    std::span<SortItem> mOrder;
+    std::span<Placement> mPlacements;
+    std::span<uint32_t> mSlots;
+    size_t mCount = 0, mDeformed = 0;
+};
+static_assert(shader::kObjectsPerWindow % 2 == 0, "both records of an object lie in one window");
+
+size_t countObjects(std::span<const DrawCall> draws) {
+    size_t count = 0;
+    for (DrawCall const& draw : draws) count += draw.instanceCount;
+    return count;
+}
+
+} // namespace
+
+PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPacket const& main, LastFrame const& last,
+                             LastView const& seen) {
+    const Moment moment{ scene, last, seen.time != main.uniforms.time, seen.isElsewhere };
+    MotionList moved(arena, countObjects(main.opaque));
+    for (DrawCall const& draw : main.opaque) {
+        for (uint32_t i = 0; i < draw.instanceCount; ++i) {
+            const uint32_t at = main.objects.order[draw.firstObject + i].renderable;
+            Placement const& now = scene.renderables.placement[at];
+            Placement const* then = last.placement(scene, at);
+            if (then && hasMoved(moment, draw, now, *then)) moved.add(draw, now, *then);
+        }
+    }
+    PreparedMotion prepared{ .slots = moved.slots() };
+    prepared.view.kind = ViewKind::Motion;
+    prepared.view.uniforms = main.uniforms;
+    prepared.view.opaque = moved.draws();
+    prepared.view.objects = moved.objects(main.objects.cameraWorld);
+    prepared.view.counts.visible = static_cast<uint32_t>(moved.draws().size());
+    return prepared;
+}
+
+void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::span<const uint32_t> slots,
+                           LastFrame const& last, DeformationList& list) {
+    if (slots.empty()) return;
+    const auto places = arena.copy(list.places);
+    const auto deformations = arena.array<LastDeformation>(places.size());
+    for (const uint32_t slot : slots) {
+        deformations[slot] = *last.deformation(scene, slot);
+        places[slot].lastBones = list.bytes;
+        list.bytes += deformationBlock(deformations[slot].bones.size_bytes());
+        places[slot].lastWeights = list.bytes;
+        list.bytes += deformationBlock(morphBytes(deformations[slot].weights));
+    }
+    list.places = places;
+    list.last = deformations;
+}
+
+} // namespace filament::prepare
