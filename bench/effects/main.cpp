@@ -2,10 +2,15 @@
 // effects_bench [--frames N] [--size WxH] [--json FILE]: what effects cost where they are seen, and that they cost
 // nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one, then the other first,
 // and the ratio is that of each pair: its median, and the interval in which the true median lies with 95 % certainty.
-// What cannot be seen must have the same bits, the same draws and the same passes, or the program fails.
+// What cannot be seen must have the same bits, the same draws and the same passes, or the program fails. The last line
+// is the time of a pass that fetches one texel a pixel: the floor below everything that works on whole pictures.
+#include "tools/materials/MaterialStand.h"
+#include "tools/paths/Paths.h"
+
 #include <filament/filament.h>
 
 #include <CLI/CLI.hpp>
+#include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,9 +20,8 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <vector>
-
-#include "tools/paths/Paths.h"
 
 namespace {
 
@@ -32,11 +36,13 @@ struct Options {
 
 /// A model under a light, and the two views or scenes that are compared.
 struct Pair {
-    const char* name;
-    const char* file;
-    std::function<void(Scene&, View&)> plain;  ///< the frame to compare with
-    std::function<void(Scene&, View&)> effect; ///< the same with the effect
+    const char* name = nullptr; ///< none: passes are timed
+    const char* file = nullptr;
+    std::function<void(Scene&, View&)> plain{};  ///< the frame to compare with
+    std::function<void(Scene&, View&)> effect{}; ///< the same with the effect
     bool isUnseen = false;
+    bool hasMirror = false; ///< a floor that reflects the picture
+    bool isTurning = false; ///< the model, a degree a frame
 };
 
 constexpr float3 kSunDirection{ -0.4f, -1.0f, -0.6f };
@@ -130,6 +136,25 @@ void addOcclusion(std::vector<Pair>& all) {
     all.push_back({ "ao, no indirect light", kHelmet, withoutSky(Term::Off), withoutSky(Term::Gtao), true });
 }
 
+void addReflections(std::vector<Pair>& all, const char* file) {
+    const auto reflecting = [](bool isOn) {
+        return [isOn](Scene&, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            view.quality.ssr = isOn;
+            view.effects.reflections = { .distanceMeters = 2, .thicknessMeters = 0.1f };
+        };
+    };
+    const auto on = reflecting(true), off = reflecting(false);
+    all.push_back({ .name = "ssr=on", .file = file, .plain = off, .effect = on, .hasMirror = true });
+    all.push_back({ .name = "ssr=on, the model turns",
+                    .file = file,
+                    .plain = off,
+                    .effect = on,
+                    .hasMirror = true,
+                    .isTurning = true });
+    all.push_back({ .name = "ssr, nothing asks", .file = file, .plain = off, .effect = on, .isUnseen = true });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -184,6 +209,7 @@ std::vector<Pair> pairs() {
     addFogPairs(all, kHelmet);
     addContactPairs(all, kHelmet);
     addOcclusion(all);
+    addReflections(all, kHelmet);
     return all;
 }
 
@@ -193,20 +219,34 @@ struct Measured {
     bool isSame = false;                  ///< bits, draws and passes
 };
 
+/// What both frames of a pair show.
+struct Subject {
+    Model model;
+    Environment environment;
+    std::optional<tools::MaterialStand> mirror;
+};
+
+double4x4 belowModel() {
+    return glm::scale(glm::translate(double4x4(1.0), double3(0, -0.52, 0)), double3(1.5, 0.02, 1.5));
+}
+
 /// One of the two frames.
 class Side {
 public:
-    Side(Engine& engine, Model const& model, Environment const& environment,
-         std::function<void(Scene&, View&)> const& set, uint2 size)
-            : mEngine(engine), mScene(engine), mRenderer(engine) {
-        mScene.add(model, fitToUnitCube(model.bounds()));
-        mScene.setEnvironment(environment);
+    Side(Engine& engine, Subject const& subject, Pair const& pair, std::function<void(Scene&, View&)> const& set,
+         uint2 size)
+            : mEngine(engine), mScene(engine), mRenderer(engine, { .passTimers = pair.name == nullptr }),
+              mIsTurning(pair.isTurning), mPlace(fitToUnitCube(subject.model.bounds())) {
+        mRoot = mScene.add(subject.model, mPlace);
+        mScene.setEnvironment(subject.environment);
+        if (subject.mirror) subject.mirror->addTo(mScene, belowModel());
         mView.camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
         mView.size = size;
         set(mScene, mView);
         mTarget = engine.own(engine.create(SwapChainDesc{ .size = size, .name = "bench" }));
     }
     double draw() {
+        if (mIsTurning) mScene.setTransform(mRoot, glm::rotate(mPlace, 0.0175 * ++mDrawn, double3(0, 1, 0)));
         const auto begin = Clock::now();
         mRenderer.render(mScene, mView, mTarget);
         mEngine.waitIdle();
@@ -214,6 +254,7 @@ public:
     }
     Result<Image> picture() { return mRenderer.renderToImage(mScene, mView); }
     Renderer const& renderer() const { return mRenderer; }
+    std::vector<FrameTimings> takeTimings() { return mRenderer.takeTimings(); }
 
 private:
     Engine& mEngine;
@@ -221,6 +262,10 @@ private:
     Renderer mRenderer;
     View mView;
     Owned<SwapChain> mTarget;
+    bool mIsTurning;
+    double4x4 mPlace;
+    Node mRoot;
+    int mDrawn = 0;
 };
 
 bool haveSameFrames(Side& a, Side& b) {
@@ -230,15 +275,33 @@ bool haveSameFrames(Side& a, Side& b) {
            before.passesRun == after.passesRun;
 }
 
+Result<tools::MaterialStand> makeMirror(Engine& engine) {
+    const auto file = tools::readMaterialFile(tools::sourceDir() / "samples/materials/reflections_screen.mat");
+    if (!file) return file.error();
+    return tools::MaterialStand::make(engine, **file, {}, "box");
+}
+
+Result<Subject> load(Engine& engine, Pair const& pair, Options const& options) {
+    auto environment = loadEnvironment(engine, options.assets / "environments" / "studio_small_03_1k.hdr");
+    if (!environment) return environment.error();
+    auto model = loadGltf(engine, options.assets / "models" / pair.file);
+    if (!model) return model.error();
+    Subject subject{ std::move(*model), std::move(*environment), {} };
+    if (pair.hasMirror) {
+        auto mirror = makeMirror(engine);
+        if (!mirror) return mirror.error();
+        subject.mirror.emplace(std::move(*mirror));
+    }
+    return subject;
+}
+
 Result<Measured> measure(Backend backend, Pair const& pair, Options const& options) {
     auto engine = Engine::create({ .backend = backend });
     if (!engine) return engine.error();
-    auto environment = loadEnvironment(*engine, options.assets / "environments" / "studio_small_03_1k.hdr");
-    if (!environment) return environment.error();
-    auto model = loadGltf(*engine, options.assets / "models" / pair.file);
-    if (!model) return model.error();
-    Side plain(*engine, *model, *environment, pair.plain, options.size);
-    Side effect(*engine, *model, *environment, pair.effect, options.size);
+    const auto subject = load(*engine, pair, options);
+    if (!subject) return subject.error();
+    Side plain(*engine, *subject, pair, pair.plain, options.size);
+    Side effect(*engine, *subject, pair, pair.effect, options.size);
     Measured measured;
     measured.isSame = haveSameFrames(plain, effect);
     std::vector<double> ratios, times;
@@ -258,6 +321,26 @@ Result<Measured> measure(Backend backend, Pair const& pair, Options const& optio
     measured.high = ratios[std::min(middle + reach, count - 1)];
     measured.milliseconds = times[middle];
     return measured;
+}
+
+/// Device time of the pass that makes distances of depths: one fetch and a few operations a pixel.
+Result<double> millisecondsOfOneFetch(Backend backend, Options const& options) {
+    const Pair pair{ .file = "FlightHelmet/FlightHelmet.gltf" };
+    auto engine = Engine::create({ .backend = backend });
+    if (!engine) return engine.error();
+    const auto subject = load(*engine, pair, options);
+    if (!subject) return subject.error();
+    Side side(*engine, *subject, pair, withOcclusion(AmbientOcclusionTerm::Sao, AmbientOcclusionResolution::Full),
+              options.size);
+    for (int i = 0; i < options.frames; ++i) side.draw();
+    std::vector<double> times;
+    for (FrameTimings const& frame : side.takeTimings()) {
+        for (PassTiming const& pass : frame.passes)
+            if (pass.name == "distances") times.push_back(pass.gpuMilliseconds);
+    }
+    if (times.empty()) return Error{ ErrorCode::NotFound, "no frame had a pass 'distances'" };
+    std::ranges::sort(times);
+    return times[times.size() / 2];
 }
 
 void print(Pair const& pair, Backend backend, Measured const& m) {
@@ -306,6 +389,10 @@ int main(int argc, char** argv) {
                                { "ratio", measured->median },
                                { "interval", { measured->low, measured->high } } });
         }
+    }
+    for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+        if (const Result<double> floor = millisecondsOfOneFetch(backend, options))
+            std::printf("one fetch a pixel, %s: %.2f ms\n", toString(backend), *floor);
     }
     if (!json.empty()) std::ofstream(json) << report.dump(2) << '\n';
     return isGood ? 0 : 1;
