@@ -155,6 +155,17 @@ void addReflections(std::vector<Pair>& all, const char* file) {
     all.push_back({ .name = "ssr, nothing asks", .file = file, .plain = off, .effect = on, .isUnseen = true });
 }
 
+void addBloom(std::vector<Pair>& all, const char* file) {
+    const auto blooming = [](Bloom const& bloom) {
+        return [bloom](Scene&, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            view.effects.bloom = bloom;
+        };
+    };
+    all.push_back({ "bloom", file, blooming({}), blooming({ .enabled = true }) });
+    all.push_back({ "bloom of strength 0", file, blooming({}), blooming({ .enabled = true, .strength = 0 }), true });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -210,6 +221,7 @@ std::vector<Pair> pairs() {
     addContactPairs(all, kHelmet);
     addOcclusion(all);
     addReflections(all, kHelmet);
+    addBloom(all, kHelmet);
     return all;
 }
 

@@ -2,6 +2,7 @@
 #include "filament_core/passes/Frame.h"
 
 #include "filament_core/passes/AmbientOcclusionPass.h"
+#include "filament_core/passes/BloomPass.h"
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
@@ -69,7 +70,7 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
             { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
             framegraph::InitialContents::Undefined);
     targets.color =
-            output.isSceneLinear() && !showsDecisions(context)
+            output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.needs(prepare::Effect::Bloom)
                     ? targets.output
                     : graph.createTexture(
                               { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color" });
@@ -97,11 +98,13 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addAmbientOcclusionPass(graph, context, targets);
     addReflectedPicture(graph, context, targets);
     addColorPass(graph, context, targets);
+    const framegraph::TextureId light = targets.color;
+    addBloomPasses(graph, context, targets, output.isSceneLinear());
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else if (targets.color != targets.output)
         addToneMapPass(graph, context, targets);
-    keepPicture(graph, context, targets, targets.color); // last: the tone mapper merges with the colour pass
+    keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;
 }
 

@@ -37,6 +37,8 @@ uint64_t hashShadows(ShadowPacket const& shadows, uint64_t seed) {
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     seed = hashBytes(std::as_bytes(std::span(&effects.ambientOcclusion, 1)), seed);
     seed = hashBytes(std::as_bytes(std::span(&effects.reflections, 1)), seed);
+    const std::array bloom{ effects.bloom.strength, effects.bloom.radius, effects.bloom.threshold };
+    seed = hashBytes(std::as_bytes(std::span(bloom)), hashWords(seed, effects.bloom.enabled));
     return hashWords(seed, effects.fog.enabled, effects.fog.colorFromEnvironment);
 }
 

@@ -51,6 +51,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .moved = movedObjects(packet),
                         .quality = view.quality,
                         .fog = packet.effects.fog,
+                        .bloom = packet.effects.bloom,
                         .ambientOcclusion = packet.effects.ambientOcclusion,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),

@@ -73,6 +73,15 @@ EffectDemand demandOfFog(DemandInput const& input) {
     return { true, DemandReason::LiesInBetween };
 }
 
+EffectDemand demandOfBloom(DemandInput const& input) {
+    if (!input.bloom.enabled) return { .reason = DemandReason::SwitchedOff };
+    if (input.bloom.strength == 0) return { .reason = DemandReason::HasNoIntensity };
+    if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
+    const bool shines = input.counts.visible > 0 || input.hasSky || input.discsInView > 0;
+    if (!shines) return { .reason = DemandReason::NothingShines };
+    return { true, DemandReason::SpreadsLight };
+}
+
 /// `readers` of the depths run.
 EffectDemand demandOfPrepass(DemandInput const& input, uint32_t readers) {
     if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
@@ -176,6 +185,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Motion, demandOfMotion(input));
     set(Effect::ContactShadows, demandOfContactShadows(counts));
     set(Effect::Fog, demandOfFog(input));
+    set(Effect::Bloom, demandOfBloom(input));
     uint32_t readers = 0;
     for (const Effect effect :
          { Effect::AmbientOcclusion, Effect::Reflections, Effect::Motion, Effect::ContactShadows })
@@ -199,6 +209,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: ssr=off";
     case Effect::Fog:
         return "switched off: fog=off";
+    case Effect::Bloom:
+        return "switched off: bloom=off";
     default:
         return "switched off: shadows=off";
     }
@@ -210,6 +222,8 @@ const char* describeNobody(Effect effect) {
         return "nothing in view refracts the picture";
     case Effect::Reflections:
         return "nothing in view reflects the picture";
+    case Effect::Bloom:
+        return "a debug view is shown";
     case Effect::Motion:
         return "no effect looks at the last picture";
     default:
@@ -238,6 +252,7 @@ const char* nameOf(Effect effect) {
                                                                "motion",
                                                                "contact shadows",
                                                                "fog",
+                                                               "bloom",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }
@@ -282,6 +297,10 @@ std::string describe(Effect effect, EffectDemand const& demand) {
         return "lies between the camera and what is visible";
     case DemandReason::MovesInView:
         return fmt::format("{} in view moved", demand.count);
+    case DemandReason::SpreadsLight:
+        return "spreads light of what is visible";
+    case DemandReason::NothingShines:
+        return "nothing is visible, not even a sky";
     case DemandReason::NothingMoves:
         return "nothing in view moves by itself";
     case DemandReason::DepthIsUnread:

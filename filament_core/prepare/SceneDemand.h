@@ -38,9 +38,10 @@ enum class Effect : uint8_t {
     Motion,      ///< of what does not stay where it is, for effects that look at the last picture
     ContactShadows,
     Fog,
+    Bloom,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 19;
+inline constexpr size_t kEffects = 20;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -62,6 +63,7 @@ enum class DemandReason : uint8_t {
     LightsAskForIt,       ///< `count` lights
     LiesInBetween,        ///< between the camera and what is visible
     MovesInView,          ///< `count` opaque objects do
+    SpreadsLight,         ///< of what is visible
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -78,6 +80,7 @@ enum class DemandReason : uint8_t {
     HasNoDensity,      ///< or no opacity
     HasNoIntensity,    ///< it would change nothing
     NothingMoves,      ///< by itself, in view
+    NothingShines,     ///< nothing is in view, not even a sky
 };
 
 struct EffectDemand {
@@ -105,7 +108,8 @@ struct DemandInput {
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     Quality quality{};
-    Fog fog{}; ///< within its ranges
+    Fog fog{};     ///< within its ranges
+    Bloom bloom{}; ///< the same
     AmbientOcclusion ambientOcclusion{};
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows

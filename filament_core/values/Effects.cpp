@@ -98,6 +98,7 @@ constexpr auto kAo = &Effects::ambientOcclusion;
 constexpr auto kSsr = &Effects::reflections;
 constexpr auto kFog = &Effects::fog;
 constexpr auto kContact = &Effects::contactShadows;
+constexpr auto kBloom = &Effects::bloom;
 
 constexpr std::array kEffectFields{
     numberField<kAo, &AmbientOcclusion::radiusMeters>("ao.radiusMeters", 1e-4f, 1e4f, "metres from 0.0001 to 10000"),
@@ -122,6 +123,10 @@ constexpr std::array kEffectFields{
                                                            "metres from 0.0001 to 10000"),
     numberField<kContact, &ContactShadows::thicknessMeters>("contactShadows.thicknessMeters", 1e-5f, 1e4f,
                                                             "metres from 0.00001 to 10000"),
+    switchField<kBloom, &Bloom::enabled>("bloom"),
+    numberField<kBloom, &Bloom::strength>("bloom.strength", 0.0f, 1.0f, "a number from 0 to 1"),
+    numberField<kBloom, &Bloom::radius>("bloom.radius", 1e-3f, 1.0f, "a number from 0.001 to 1"),
+    numberField<kBloom, &Bloom::threshold>("bloom.threshold", 0.0f, 1e4f, "a number from 0 to 10000"),
 };
 
 EffectField const* findEffect(std::string_view name) {

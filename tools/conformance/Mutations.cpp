@@ -546,6 +546,16 @@ public:
     }
 };
 
+/// Of the lobes of bloom only the narrowest is left.
+class BloomLevelsEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.debugName != "bloom_up") return;
+        for (BlendState& blend : command.desc.blend) blend.writeMask = 0;
+    }
+};
+
 class CullFaceEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -605,6 +615,7 @@ constexpr Mutation kMutations[] = {
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
     { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
+    { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },

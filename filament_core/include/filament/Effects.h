@@ -56,11 +56,22 @@ struct ContactShadows {
     friend bool operator==(ContactShadows const&, ContactShadows const&) = default;
 };
 
+/// Light that lenses and eyes scatter around what is bright. It is taken from where it was: the picture as a whole is no
+/// brighter. Before tone mapping; in all directions alike.
+struct Bloom {
+    bool enabled = false;
+    float strength = 0.1f; ///< share of the light that is scattered, [0, 1]
+    float radius = 0.1f;   ///< how far, as a share of the picture's height, [0.001, 1]: that of the widest of its lobes
+    float threshold = 0;   ///< only what is brighter is scattered, by that much, [0, 1e4]; 1 is white
+    friend bool operator==(Bloom const&, Bloom const&) = default;
+};
+
 struct Effects {
     AmbientOcclusion ambientOcclusion{};
     ScreenReflections reflections{};
     Fog fog{};
     ContactShadows contactShadows{};
+    Bloom bloom{};
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/BloomPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace filament::passes {
+namespace {
+
+using backend::Format;
+using framegraph::FrameGraph;
+using framegraph::TextureId;
+
+constexpr std::string_view kLevelInputs[] = { "level" };
+constexpr FullScreenParameter kDownValues[] = { { "perTexel", ParameterType::Float2 },
+                                                { "threshold", ParameterType::Float } };
+constexpr FullScreenInterface kDown{ .pass = "bloom down", .inputs = kLevelInputs, .values = kDownValues };
+constexpr FullScreenParameter kUpValues[] = { { "perTexel", ParameterType::Float2 },
+                                              { "weight", ParameterType::Float } };
+constexpr FullScreenInterface kUp{ .pass = "bloom up", .inputs = kLevelInputs, .values = kUpValues };
+constexpr std::string_view kBloomInputs[] = { "color", "spread" };
+constexpr FullScreenParameter kBloomValues[] = { { "strength", ParameterType::Float },
+                                                 { "threshold", ParameterType::Float } };
+constexpr FullScreenInterface kBloom{ .pass = "bloom", .inputs = kBloomInputs, .values = kBloomValues };
+
+float2 perTexel(FrameGraph const& graph, TextureId texture, uint8_t level) {
+    framegraph::GraphTextureDesc const& desc = graph.texture(texture).desc;
+    return { 1.0f / static_cast<float>(std::max(1u, desc.width >> level)),
+             1.0f / static_cast<float>(std::max(1u, desc.height >> level)) };
+}
+
+/// `level` of `spread` from the one before it, or from the picture.
+void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId spread, uint8_t level) {
+    const bool isFirst = level == 0;
+    const TextureId from = isFirst ? color : spread;
+    const auto fromLevel = static_cast<uint8_t>(isFirst ? 0 : level - 1);
+    const std::array inputs{ FullScreenInput{ .name = "level",
+                                              .texture = from,
+                                              .sampler = context.resources.samplers.bilinear,
+                                              .range = backend::oneLevel(fromLevel) } };
+    const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, from, fromLevel) },
+                             FullScreenValue{ "threshold", context.packet.effects.bloom.threshold } };
+    const EffectConstant constants[] = { { "isFirst", isFirst } };
+    addFullScreenPass(graph, context,
+                      { .name = "bloom down",
+                        .material = context.resources.effects->get("bloom_down", constants, kDown),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = spread,
+                        .level = level });
+}
+
+/// Level n of N holds the mean of the levels n to N - 1 afterwards.
+void addUp(FrameGraph& graph, FrameContext const& context, TextureId spread, uint8_t level, uint8_t levels) {
+    const auto below = static_cast<uint8_t>(level + 1);
+    const std::array inputs{ FullScreenInput{ .name = "level",
+                                              .texture = spread,
+                                              .sampler = context.resources.samplers.bilinear,
+                                              .range = backend::oneLevel(below) } };
+    const float weight = static_cast<float>(levels - below) / static_cast<float>(levels - level);
+    const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, spread, below) },
+                             FullScreenValue{ "weight", weight } };
+    addFullScreenPass(graph, context,
+                      { .name = "bloom up",
+                        .material = context.resources.effects->get("bloom_up", {}, kUp),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = spread,
+                        .level = level });
+}
+
+void addSum(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId spread, TextureId target) {
+    const Bloom bloom = context.packet.effects.bloom;
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = color },
+                             FullScreenInput{ .name = "spread",
+                                              .texture = spread,
+                                              .sampler = context.resources.samplers.bilinear,
+                                              .range = backend::oneLevel(0) } };
+    const std::array values{ FullScreenValue{ "strength", bloom.strength },
+                             FullScreenValue{ "threshold", bloom.threshold } };
+    addFullScreenPass(graph, context,
+                      { .name = "bloom",
+                        .material = context.resources.effects->get("bloom", {}, kBloom),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+}
+
+} // namespace
+
+uint8_t bloomLevels(uint2 view, float radiusPixels) {
+    constexpr int kMost = 10;
+    const int whole = std::bit_width(std::max(1u, std::min(view.x, view.y) / 2)); // until one texel is left
+    const int wanted = radiusPixels > 2 ? static_cast<int>(std::lround(std::log2(radiusPixels))) : 1;
+    return static_cast<uint8_t>(std::clamp(wanted, 1, std::min(whole, kMost)));
+}
+
+void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, bool isSceneLinear) {
+    if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
+    const uint2 size = context.settings.size;
+    const uint8_t levels = bloomLevels(size, context.packet.effects.bloom.radius * static_cast<float>(size.y));
+    const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x / 2),
+                                                   .height = std::max(1u, size.y / 2),
+                                                   .format = Format::RGBA16F,
+                                                   .levels = levels,
+                                                   .name = "spread light" });
+    for (uint8_t level = 0; level < levels; ++level) addDown(graph, context, targets.color, spread, level);
+    for (int level = levels - 2; level >= 0; --level)
+        addUp(graph, context, spread, static_cast<uint8_t>(level), levels);
+    const TextureId sum = isSceneLinear ? targets.output
+                                        : graph.createTexture({ .width = size.x,
+                                                                .height = size.y,
+                                                                .format = Format::RGBA16F,
+                                                                .name = "color with bloom" });
+    addSum(graph, context, targets.color, spread, sum);
+    targets.color = sum;
+}
+
+} // namespace filament::passes
