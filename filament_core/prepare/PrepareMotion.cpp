@@ -58,13 +58,12 @@ public:
               mSlots(arena.arrayForOverwrite<uint32_t>(most)) {}
 
     void add(DrawCall draw, Placement const& now, Placement const& last) {
-        draw.firstObject = static_cast<uint32_t>(mCount * 2);
+        const auto at = static_cast<uint32_t>(mCount * 2);
+        mPlacements[at] = now;
+        mPlacements[at + 1] = last;
+        for (const uint32_t record : { at, at + 1 }) mOrder[record] = { .renderable = record };
+        draw.firstObject = at;
         draw.instanceCount = 1;
-        for (Placement const* place : { &now, &last }) {
-            const size_t at = draw.firstObject + (place == &now ? 0u : 1u);
-            mOrder[at] = { .renderable = static_cast<uint32_t>(at) };
-            mPlacements[at] = *place;
-        }
         mDraws[mCount++] = draw;
         if (draw.deformation != scene::kNotDeformed) mSlots[mDeformed++] = draw.deformation;
     }
