@@ -152,7 +152,7 @@ void addReflections(std::vector<Pair>& all, const char* file) {
                     .effect = on,
                     .hasMirror = true,
                     .isTurning = true });
-    all.push_back({ .name = "ssr, nothing asks", .file = file, .plain = off, .effect = on, .isUnseen = true });
+    all.push_back({ .name = "ssr=on, no floor", .file = file, .plain = off, .effect = on });
 }
 
 void addBloom(std::vector<Pair>& all, const char* file) {

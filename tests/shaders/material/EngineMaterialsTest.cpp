@@ -47,6 +47,18 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
     }
 }
 
+/// As Filament's do; glTF has no property for it.
+TEST(EngineMaterials, OfGltfReflectThePictureIfTheyAreLit) {
+    size_t count = 0;
+    for (const std::string_view name : engineMaterialNames()) {
+        if (!name.starts_with("gltf_")) continue;
+        const bool isLit = !name.starts_with("gltf_unlit");
+        EXPECT_EQ(read(name).reflections == Reflections::ScreenSpace, isLit) << name;
+        count += isLit;
+    }
+    EXPECT_GE(count, 12u);
+}
+
 /// The textures that the engine gives a material of this kind if every effect is on.
 uint32_t engineShare(MaterialPackage const& package) { return samplersOfEngine(passKind(package)); }
 
