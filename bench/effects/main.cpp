@@ -145,14 +145,15 @@ void addReflections(std::vector<Pair>& all, const char* file) {
         };
     };
     const auto on = reflecting(true), off = reflecting(false);
-    all.push_back({ .name = "ssr=on", .file = file, .plain = off, .effect = on, .hasMirror = true });
-    all.push_back({ .name = "ssr=on, the model turns",
+    all.push_back(
+            { .name = "ssr=on, with a metal floor", .file = file, .plain = off, .effect = on, .hasMirror = true });
+    all.push_back({ .name = "ssr=on, with a metal floor, and the model turns",
                     .file = file,
                     .plain = off,
                     .effect = on,
                     .hasMirror = true,
                     .isTurning = true });
-    all.push_back({ .name = "ssr=on, no floor", .file = file, .plain = off, .effect = on });
+    all.push_back({ .name = "ssr=on", .file = file, .plain = off, .effect = on });
 }
 
 void addBloom(std::vector<Pair>& all, const char* file) {
