@@ -167,6 +167,74 @@ void addBloom(std::vector<Pair>& all, const char* file) {
     all.push_back({ "bloom of strength 0", file, blooming({}), blooming({ .enabled = true, .strength = 0 }), true });
 }
 
+void addAntiAliasing(std::vector<Pair>& all, const char* file) {
+    const auto smoothed = [](AntiAliasing antiAliasing) {
+        return [antiAliasing](Scene&, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            view.quality.antiAliasing = antiAliasing;
+        };
+    };
+    const auto off = smoothed(AntiAliasing::Off), taa = smoothed(AntiAliasing::Taa);
+    all.push_back({ "fxaa", file, off, smoothed(AntiAliasing::Fxaa) });
+    all.push_back({ "taa", file, off, taa });
+    all.push_back({ .name = "taa, and the model turns", .file = file, .plain = off, .effect = taa, .isTurning = true });
+}
+
+std::function<void(Scene&, View&)> withEffects(std::function<void(View&)> const& set) {
+    return [set](Scene&, View& view) {
+        view.quality.shadows = ShadowFilter::Off;
+        set(view);
+    };
+}
+
+void addFinish(std::vector<Pair>& all, const char* file) {
+    const auto plain = withEffects([](View&) {});
+    const auto look = [](View& view) {
+        view.effects.grading = { .enabled = true, .temperature = 0.1f, .contrast = 1.1f, .saturation = 1.1f };
+    };
+    all.push_back({ "grading", file, plain, withEffects(look) });
+    all.push_back({ "grading by table32", file, plain, withEffects([look](View& view) {
+                        look(view);
+                        view.quality.toneMapping = ToneMapping::Table32;
+                    }) });
+    all.push_back({ "vignette", file, plain, withEffects([](View& view) { view.effects.vignette.enabled = true; }) });
+    all.push_back({ "grain", file, plain, withEffects([](View& view) { view.effects.grain.enabled = true; }) });
+    all.push_back({ "fringes", file, plain,
+                    withEffects([](View& view) { view.effects.chromaticAberration.enabled = true; }) });
+    all.push_back({ "auto exposure", file, plain,
+                    withEffects([](View& view) { view.effects.autoExposure.enabled = true; }) });
+    all.push_back({ "grading without a change", file, plain,
+                    withEffects([](View& view) { view.effects.grading.enabled = true; }), true });
+    const auto focused = [](float meters, float scale) {
+        return withEffects([=](View& view) {
+            view.effects.depthOfField = { .enabled = true, .focusMeters = meters, .blurScale = scale };
+            view.camera.exposure = { .aperture = 2.8f, .shutterSeconds = 1.0f / 4000 };
+        });
+    };
+    const auto open =
+            withEffects([](View& view) { view.camera.exposure = { .aperture = 2.8f, .shutterSeconds = 1.0f / 4000 }; });
+    all.push_back({ "depth of field", file, open, focused(1.6f, 4) });
+    all.push_back({ "depth of field, all in focus", file, open, focused(1.6f, 0.01f), true });
+}
+
+/// What a finished picture takes, beside a plain one.
+void addChain(std::vector<Pair>& all, const char* file) {
+    const auto chain = [](uint8_t samples) {
+        return [samples](Scene& scene, View& view) {
+            scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+            view.samples = samples;
+            view.quality.ao = AmbientOcclusionTerm::Sao;
+            view.effects.ambientOcclusion.radiusMeters = 0.1f;
+            view.effects.bloom.enabled = true;
+            view.quality.antiAliasing = AntiAliasing::Fxaa;
+        };
+    };
+    const auto plain = withEffects([](View&) {});
+    all.push_back({ "sun, pcf3, sao, bloom, fxaa", file, plain, chain(1) });
+    all.push_back({ "the same with four samples", file, plain, chain(4) });
+    all.push_back({ "four samples", file, plain, withEffects([](View& view) { view.samples = 4; }) });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -223,6 +291,9 @@ std::vector<Pair> pairs() {
     addOcclusion(all);
     addReflections(all, kHelmet);
     addBloom(all, kHelmet);
+    addAntiAliasing(all, kHelmet);
+    addFinish(all, kHelmet);
+    addChain(all, kHelmet);
     return all;
 }
 

@@ -80,16 +80,33 @@ Texture Engine::Impl::unsetTexture(shader::Parameter const& parameter) {
     return texture;
 }
 
-Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size) {
-    Texture& table = defaults.toneTables[{ mapper, size }];
-    if (table) return table;
-    const assets::Image colors = assets::bakeToneTable(jobs, static_cast<int>(mapper), size);
-    table = createTexture({ .format = colors.format,
-                            .width = colors.width,
-                            .height = colors.height,
-                            .pixels = colors.data,
-                            .name = fmt::format("tone table {} {}", toString(mapper), size) });
-    return table;
+Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size, std::optional<Grading> const& grading) {
+    constexpr std::ptrdiff_t kMostGraded = 4;
+    std::vector<engine::ToneTable>& tables = defaults.toneTables;
+    const auto known = std::ranges::find_if(tables, [&](engine::ToneTable const& table) {
+        return table.mapper == mapper && table.size == size && table.grading == grading;
+    });
+    if (known != tables.end()) return known->texture;
+    const auto isGraded = [](engine::ToneTable const& table) { return table.grading.has_value(); };
+    if (grading && std::ranges::count_if(tables, isGraded) == kMostGraded) {
+        const auto oldest = std::ranges::find_if(tables, isGraded);
+        destroy(oldest->texture);
+        tables.erase(oldest);
+    }
+    const assets::Image colors =
+            assets::bakeToneTable(jobs, static_cast<int>(mapper), size, grading ? &*grading : nullptr);
+    tables.push_back({ .mapper = mapper, .size = size, .grading = grading }); // found again only with its texture
+    try {
+        tables.back().texture = createTexture({ .format = colors.format,
+                                                .width = colors.width,
+                                                .height = colors.height,
+                                                .pixels = colors.data,
+                                                .name = fmt::format("tone table {} {}", toString(mapper), size) });
+    } catch (std::bad_alloc const&) {
+        tables.pop_back();
+        throw;
+    }
+    return tables.back().texture;
 }
 
 void createDefaultObjects(Engine::Impl& engine) {
@@ -110,9 +127,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     for (auto const& [size, table] : engine.defaults.dfg) {
         if (table) engine.destroy(table); // null: there was no memory for it
     }
-    for (auto const& [which, table] : engine.defaults.toneTables) {
-        if (table) engine.destroy(table);
-    }
+    for (engine::ToneTable const& table : engine.defaults.toneTables) engine.destroy(table.texture);
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     for (auto const& [key, material] : engine.engineMaterials) {

@@ -94,13 +94,21 @@ struct SwapChainState {
     std::string name;
 };
 
+/// Colours of a tone mapper, and of a grading before it.
+struct ToneTable {
+    ToneMapper mapper{};
+    uint32_t size = 0;
+    std::optional<Grading> grading;
+    Texture texture;
+};
+
 /// Objects of every engine.
 struct Defaults {
     Texture blackCube; ///< 1x1, for scenes without an environment
     /// 1x1, see unsetTexture().
     std::map<std::pair<ParameterType, shader::SamplerFormat>, Texture> standIns;
     std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
-    std::map<std::pair<ToneMapper, uint32_t>, Texture> toneTables;
+    std::vector<ToneTable> toneTables;
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
 };
 
@@ -146,8 +154,9 @@ struct Engine::Impl {
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);
-    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept.
-    Texture toneTable(ToneMapper mapper, uint32_t size);
+    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept. Of tables with a grading
+    /// the last ones are kept.
+    Texture toneTable(ToneMapper mapper, uint32_t size, std::optional<Grading> const& grading);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
     void removeMaterial(Material material) noexcept;
@@ -209,6 +218,7 @@ struct Engine::Impl {
     MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
+    uint64_t instanceChanges = 0;                    ///< by the app: parameters, textures, raster states
     std::vector<MaterialInstance> dirtyInstances;
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
     engine::MaterialNumbers materialNumbers;

@@ -34,7 +34,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     if (packet.demand.needs(prepare::Effect::DebugView))
         resources.debugView = debugView(view.debugView, isToneMapped);
     else if (isToneMapped)
-        resources.toneTable = toneTable(view);
+        resources.toneTable = toneTable(view, packet);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;
     return resources;
 }
@@ -81,10 +81,12 @@ scene::Material const* FrameResourceCache::debugView(DebugView debugView, bool i
 }
 
 /// None: the view computes its tones.
-backend::TextureHandle FrameResourceCache::toneTable(View const& view) {
+backend::TextureHandle FrameResourceCache::toneTable(View const& view, prepare::FramePacket const& packet) {
     const ToneMapping mapping = view.quality.toneMapping;
     if (mapping == ToneMapping::Analytic) return {};
-    return mEngine.textureHandle(mEngine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping)));
+    const bool isGraded = packet.demand.needs(prepare::Effect::Grading);
+    return mEngine.textureHandle(mEngine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping),
+                                                   isGraded ? std::optional(packet.effects.grading) : std::nullopt));
 }
 
 } // namespace filament::engine

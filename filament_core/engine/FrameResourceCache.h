@@ -24,7 +24,7 @@ public:
 private:
     passes::FrameSamplers samplers();
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
-    backend::TextureHandle toneTable(View const& view);
+    backend::TextureHandle toneTable(View const& view, prepare::FramePacket const& packet);
     scene::Material const* skybox(bool isRgbm);
     scene::Material const* farDepth();
     scene::Material const* sunDisc();

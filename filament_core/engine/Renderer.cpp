@@ -28,14 +28,16 @@ using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
 
-prepare::ViewInput inputOf(View const& view) {
+/// `contents`: see ViewInput.
+prepare::ViewInput inputOf(View const& view, uint64_t contents) {
     return { .camera = view.camera,
              .size = view.size,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,
              .effects = clamped(view.effects),
-             .debugView = view.debugView };
+             .debugView = view.debugView,
+             .contents = contents };
 }
 
 FrameOutput outputOf(engine::TextureState const& target) {
@@ -59,12 +61,15 @@ struct Renderer::Impl {
 
     // ------------------------------------------------------------------------------------------ a frame
 
+    /// Both only ever grow.
+    uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
+
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
     FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines) {
         arena.reset();
         graph.reset();
         plan = {};
-        const std::array views{ inputOf(view) };
+        const std::array views{ inputOf(view, contentsOf(scene)) };
         const prepare::FramePacket packet =
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
@@ -81,10 +86,8 @@ struct Renderer::Impl {
 
     /// Without memory for it, the next frame is as a first one.
     void keepLast(Scene const& scene, View const& view, prepare::FramePacket const& packet) {
-        prepare::ViewPacket const& main = packet.mainView();
         try {
-            last.keep(scene.impl().upToDate(), inputOf(view), main,
-                      prepare::readsMotion(main.counts, view.quality, view.debugView));
+            last.keep(scene.impl().upToDate(), inputOf(view, contentsOf(scene)), packet);
         } catch (std::bad_alloc const&) {
             last.forget();
         }

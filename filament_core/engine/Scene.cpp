@@ -156,15 +156,15 @@ Renderable Scene::add(RenderableDesc const& desc) {
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
-    const Renderable renderable = isDeformed ? scene::addDeformed(mImpl->data, input, deformationOf(*mImpl, desc))
-                                             : scene::addRenderable(mImpl->data, input);
-    if (desc.node) scene::attach(mImpl->data, renderable, desc.node);
+    const Renderable renderable = isDeformed ? scene::addDeformed(mImpl->changed(), input, deformationOf(*mImpl, desc))
+                                             : scene::addRenderable(mImpl->changed(), input);
+    if (desc.node) scene::attach(mImpl->changed(), renderable, desc.node);
     return renderable;
 }
 
 Light Scene::add(SunLight const& light, Node node) {
     checkLight(light.color, 0, double3(0.0));
-    return addLight(mImpl->data,
+    return addLight(mImpl->changed(),
                     { .type = LightRecord::Type::Sun,
                       .directionWorld = unitDirection(light.directionWorld),
                       .color = light.color,
@@ -194,7 +194,7 @@ Light Scene::add(PointLight const& light, Node node) {
         record.directionWorld = unitDirection(light.directionWorld);
         setProfile(mImpl->engine, light.profile, light.upWorld, record);
     }
-    return addLight(mImpl->data, record, node);
+    return addLight(mImpl->changed(), record, node);
 }
 
 Light Scene::add(SpotLight const& light, Node node) {
@@ -215,7 +215,7 @@ Light Scene::add(SpotLight const& light, Node node) {
                         .contactShadows = light.contactShadows,
                         .channels = light.lightChannels };
     if (light.profile) setProfile(mImpl->engine, light.profile, light.upWorld, record);
-    return addLight(mImpl->data, record, node);
+    return addLight(mImpl->changed(), record, node);
 }
 
 Light Scene::add(RectLight const& light, Node node) {
@@ -225,7 +225,7 @@ Light Scene::add(RectLight const& light, Node node) {
     record.sideWorld = glm::cross(record.directionWorld, up);
     setExtent(record, halfExtentOf(light.widthMeters / 2, light.heightMeters / 2));
     record.isTwoSided = light.isTwoSided;
-    return addLight(mImpl->data, record, node);
+    return addLight(mImpl->changed(), record, node);
 }
 
 Light Scene::add(DiscLight const& light, Node node) {
@@ -234,14 +234,14 @@ Light Scene::add(DiscLight const& light, Node node) {
     record.sideWorld = acrossDirection(record.directionWorld, {});
     setExtent(record, halfExtentOf(light.radiusMeters, light.radiusMeters));
     record.isTwoSided = light.isTwoSided;
-    return addLight(mImpl->data, record, node);
+    return addLight(mImpl->changed(), record, node);
 }
 
 Light Scene::add(TubeLight const& light, Node node) {
     LightRecord record = areaRecord(LightRecord::Type::Tube, light);
     record.sideWorld = unitDirection(light.axisWorld);
     setExtent(record, halfExtentOf(light.lengthMeters / 2, light.radiusMeters));
-    return addLight(mImpl->data, record, node);
+    return addLight(mImpl->changed(), record, node);
 }
 
 Skin Scene::add(SkinDesc const& desc) {
@@ -251,37 +251,37 @@ Skin Scene::add(SkinDesc const& desc) {
     for (float4x4 const& matrix : desc.jointFromBind)
         data.jointFromBind.push_back(scene::affineFrom(double4x4(matrix)));
     data.bones.assign(desc.boneCount, scene::boneFrom(scene::kIdentity));
-    return scene::addSkin(mImpl->data, std::move(data));
+    return scene::addSkin(mImpl->changed(), std::move(data));
 }
 
-void Scene::remove(Skin skin) { scene::removeSkin(mImpl->data, skin); }
+void Scene::remove(Skin skin) { scene::removeSkin(mImpl->changed(), skin); }
 
 void Scene::setBones(Skin skin, std::span<const float4x4> objectFromBind) {
-    scene::setBones(mImpl->data, skin, objectFromBind);
+    scene::setBones(mImpl->changed(), skin, objectFromBind);
 }
 
 void Scene::setMorphWeights(Renderable renderable, std::span<const float> weights) {
-    scene::setMorphWeights(mImpl->data, renderable, weights);
+    scene::setMorphWeights(mImpl->changed(), renderable, weights);
 }
 
-void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->data, renderable); }
-void Scene::remove(Light light) { scene::removeLight(mImpl->data, light); }
+void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->changed(), renderable); }
+void Scene::remove(Light light) { scene::removeLight(mImpl->changed(), light); }
 
 void Scene::setLightChannels(Renderable renderable, LightChannels channels) {
-    scene::setLightChannels(mImpl->data.renderables, renderable, channels);
+    scene::setLightChannels(mImpl->changed().renderables, renderable, channels);
 }
 
 void Scene::setLightChannels(Light light, LightChannels channels) {
-    scene::Lights& lights = mImpl->data.lights;
+    scene::Lights& lights = mImpl->changed().lights;
     lights.records[lights.index.at(light)].channels = channels;
 }
 
 void Scene::setLightChannels(Node node, LightChannels channels) {
-    scene::setLightChannels(mImpl->data, node, channels);
+    scene::setLightChannels(mImpl->changed(), node, channels);
 }
 
 void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject) {
-    scene::setTransform(mImpl->data, renderable, worldFromObject);
+    scene::setTransform(mImpl->changed(), renderable, worldFromObject);
 }
 
 void Scene::setEnvironment(Environment const& environment, EnvironmentSettings const& settings) {
@@ -294,7 +294,7 @@ void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotatio
     if (light) state = mImpl->engine.indirectLights.get(light).light;
     state.illuminance = illuminance;
     state.rotationRadians = rotationRadians;
-    mImpl->data.indirectLight = state;
+    mImpl->changed().indirectLight = state;
 }
 
 void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
@@ -305,7 +305,7 @@ void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
         state.isRgbm = made.isRgbm;
         state.worldFromCube = made.worldFromCube;
     }
-    mImpl->data.skybox = state;
+    mImpl->changed().skybox = state;
 }
 
 Box Scene::bounds() const { return scene::sceneBounds(mImpl->upToDate()); }

@@ -29,9 +29,16 @@ struct Scene::Impl {
         return data;
     }
 
+    /// The data, to be changed.
+    scene::SceneData& changed() {
+        ++changes;
+        return data;
+    }
+
     Engine::Impl& engine;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
     mutable uint64_t depthStateChanges = 0;
+    uint64_t changes = 0; ///< by the app
     std::vector<ModelCopy> copies;
 };
 

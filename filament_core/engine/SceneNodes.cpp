@@ -8,7 +8,7 @@
 namespace filament {
 
 Node Scene::add(NodeDesc const& desc) {
-    return mImpl->data.transforms.add(desc.parent, desc.parentFromNode, desc.name);
+    return mImpl->changed().transforms.add(desc.parent, desc.parentFromNode, desc.name);
 }
 
 Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
@@ -43,17 +43,17 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
 }
 
 void Scene::remove(Node node) {
-    scene::removeNode(mImpl->data, node);
+    scene::removeNode(mImpl->changed(), node);
     std::erase_if(mImpl->copies,
                   [&](Impl::ModelCopy const& copy) { return !mImpl->data.transforms.contains(copy.root); });
 }
 
 void Scene::setTransform(Node node, double4x4 const& parentFromNode) {
-    mImpl->data.transforms.setTransform(node, parentFromNode);
+    mImpl->changed().transforms.setTransform(node, parentFromNode);
 }
 
 void Scene::setParent(Node node, Node parent, Reparent keep) {
-    scene::Transforms& transforms = mImpl->data.transforms;
+    scene::Transforms& transforms = mImpl->changed().transforms;
     keep == Reparent::KeepWorld ? transforms.setParentKeepingWorld(node, parent) : transforms.setParent(node, parent);
 }
 

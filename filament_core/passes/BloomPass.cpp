@@ -99,7 +99,7 @@ uint8_t bloomLevels(uint2 view, float radiusPixels) {
     return static_cast<uint8_t>(std::clamp(wanted, 1, std::min(whole, kMost)));
 }
 
-void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets, bool isSceneLinear) {
+void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
     const uint2 size = context.settings.size;
     const uint8_t levels = bloomLevels(size, context.packet.effects.bloom.radius * static_cast<float>(size.y));
@@ -111,11 +111,8 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     for (uint8_t level = 0; level < levels; ++level) addDown(graph, context, targets.color, spread, level);
     for (int level = levels - 2; level >= 0; --level)
         addUp(graph, context, spread, static_cast<uint8_t>(level), levels);
-    const TextureId sum = isSceneLinear ? targets.output
-                                        : graph.createTexture({ .width = size.x,
-                                                                .height = size.y,
-                                                                .format = Format::RGBA16F,
-                                                                .name = "color with bloom" });
+    const TextureId sum = graph.createTexture(
+            { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color with bloom" });
     addSum(graph, context, targets.color, spread, sum);
     targets.color = sum;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Bloom passes: light that a lens scatters around what is bright.
-///   Draws   targets.color: the picture with bloom; `output` itself, if that takes scene-linear light.
+///   Draws   targets.color: the picture with bloom.
 ///   How     half of the picture, and half of that, until a texel is as wide as Bloom::radius; then each level is added
 ///           to the one before it (Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare").
 ///           Weights sum to 1: light is moved, not added.
@@ -15,7 +15,6 @@ namespace filament::passes {
 /// Levels for a radius in pixels, with the first, which is half as large as the picture.
 uint8_t bloomLevels(uint2 view, float radiusPixels);
 
-void addBloomPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets,
-                    bool isSceneLinear);
+void addBloomPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 } // namespace filament::passes

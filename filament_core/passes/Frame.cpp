@@ -6,10 +6,16 @@
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
+#include "filament_core/passes/ExposurePass.h"
+#include "filament_core/passes/FinishPass.h"
+#include "filament_core/passes/FocusPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/ShadowPass.h"
-#include "filament_core/passes/ToneMapPass.h"
+#include "filament_core/passes/TemporalPass.h"
+
+#include <algorithm>
+#include <array>
 
 namespace filament::passes {
 namespace {
@@ -62,6 +68,15 @@ PassSettings settingsOf(View const& view, FrameResources const& resources, prepa
 
 bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }
 
+/// Whether an effect takes the picture of the colour pass and makes another one of it.
+bool changesPicture(FrameContext const& context) {
+    using prepare::Effect;
+    constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,       Effect::ChromaticAberration,
+                                            Effect::Vignette,     Effect::Grading,     Effect::Fxaa,
+                                            Effect::DepthOfField, Effect::AutoExposure };
+    return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
+}
+
 FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     const uint2 size = context.settings.size;
     FrameTargets targets;
@@ -69,11 +84,11 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
             output.texture,
             { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
             framegraph::InitialContents::Undefined);
+    const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !changesPicture(context);
     targets.color =
-            output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.needs(prepare::Effect::Bloom)
-                    ? targets.output
-                    : graph.createTexture(
-                              { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color" });
+            isFinished ? targets.output
+                       : graph.createTexture(
+                                 { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color" });
     return targets;
 }
 
@@ -98,12 +113,15 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addAmbientOcclusionPass(graph, context, targets);
     addReflectedPicture(graph, context, targets);
     addColorPass(graph, context, targets);
+    addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;
-    addBloomPasses(graph, context, targets, output.isSceneLinear());
+    addFocusPasses(graph, context, targets);
+    addExposurePasses(graph, context, targets);
+    addBloomPasses(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
-    else if (targets.color != targets.output)
-        addToneMapPass(graph, context, targets);
+    else
+        addFinishPasses(graph, context, targets, output.isSceneLinear());
     keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;
 }

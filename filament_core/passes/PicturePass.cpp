@@ -2,6 +2,7 @@
 #include "filament_core/passes/PicturePass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/Reprojection.h"
 
 #include <array>
 
@@ -55,23 +56,6 @@ void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const
                         .clears = true });
 }
 
-/// From pixels and depths of this frame, in homogeneous coordinates.
-double4x4 worldFromPixel(FrameContext const& context) {
-    const double2 size(context.settings.size);
-    double4x4 clipFromPixel(1.0);
-    clipFromPixel[0][0] = 2 / size.x, clipFromPixel[1][1] = 2 / size.y;
-    clipFromPixel[3] = double4(-1, -1, 0, 1);
-    return double4x4(context.packet.mainView().uniforms.worldFromClip) * clipFromPixel;
-}
-
-/// `end`: of the picture in the texture.
-double4x4 textureFromClip(double2 end) {
-    double4x4 texture(1.0);
-    texture[0][0] = texture[3][0] = end.x / 2;
-    texture[1][1] = texture[3][1] = end.y / 2;
-    return texture;
-}
-
 /// The picture of the last frame, as this one sees its surfaces.
 void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId picture) {
     prepare::LastView const& last = context.packet.last;
@@ -79,8 +63,7 @@ void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets
     const framegraph::GraphTextureDesc desc = graph.texture(picture).desc;
     const double2 perTexel = 1.0 / double2(desc.width, desc.height), end = double2(context.settings.size) * perTexel;
     const double4x4 world = worldFromPixel(context);
-    const std::array values{ FullScreenValue{ "lastFromPixel",
-                                              float4x4(textureFromClip(end) * double4x4(last.clipFromWorld) * world) },
+    const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, end) },
                              FullScreenValue{ "lastAlong", float4(double4(last.alongView) * world) },
                              FullScreenValue{ "along", float4(double4(-view[0].z, -view[1].z, -view[2].z, 0) * world) },
                              FullScreenValue{ "perTexel", float2(perTexel) }, FullScreenValue{ "end", float2(end) } };

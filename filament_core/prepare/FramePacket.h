@@ -145,13 +145,31 @@ struct LastView {
     float4x4 clipFromWorld{ 1.0f }; ///< from this frame's world
     float4 alongView{ 0.0f };       ///< its product with a point of this frame's world, w = 1: metres along that view
     float4 time{ 0.0f };            ///< FrameUniforms::time
+    bool isExposed = false;         ///< it left an exposure that this one follows
+    float secondsSince = 0;         ///< of View::timeSeconds, >= 0
     bool isElsewhere = false;       ///< not as this frame is seen
+};
+
+/// How blurred a lens shows what lies at a distance along the view (Focus.h): in pixels, as the radius of a disc,
+/// radius - radiusTimesFocus / distance.
+struct Focus {
+    float radius = 0, radiusTimesFocus = 0;
+    float mostPixels = 0; ///< larger radii count as this
+};
+
+/// How this frame adds to a picture that is gathered over frames (TemporalPass.h).
+struct Gathering {
+    float2 jitterPixels{ 0 }; ///< ViewInput::jitterPixels of the main view
+    float weight = 1;         ///< of this frame in the gathered picture, (0, 1]
+    bool isFixed = false;     ///< nothing changed but where the camera looks: the gathered picture is right
 };
 
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
+    Gathering gathering;               ///< the same
+    Focus focus;                       ///< the same
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;

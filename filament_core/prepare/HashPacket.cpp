@@ -33,13 +33,34 @@ uint64_t hashShadows(ShadowPacket const& shadows, uint64_t seed) {
     return hashWords(seed, shadows.atlasSize, shadows.keepsAtlas);
 }
 
+/// Of values without padding.
+template <class... Values>
+uint64_t hashValues(uint64_t seed, Values const&... values) {
+    static_assert((!std::is_same_v<Values, bool> && ...), "switches are words");
+    ((seed = hashBytes(std::as_bytes(std::span(&values, 1)), seed)), ...);
+    return seed;
+}
+
+uint64_t hashGrading(Grading const& grading, uint64_t seed) {
+    seed = hashWords(seed, grading.enabled, grading.gamutMapping);
+    seed = hashValues(seed, grading.exposure, grading.temperature, grading.tint, grading.mixRed, grading.mixGreen,
+                      grading.mixBlue, grading.shadows, grading.midtones, grading.highlights, grading.tonalRanges);
+    return hashValues(seed, grading.slope, grading.offset, grading.power, grading.contrast, grading.saturation,
+                      grading.vibrance, grading.shadowGamma, grading.midPoint, grading.highlightScale);
+}
+
 // Fog and contact shadows are in the uniforms of the views, but for two switches.
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
-    seed = hashBytes(std::as_bytes(std::span(&effects.ambientOcclusion, 1)), seed);
-    seed = hashBytes(std::as_bytes(std::span(&effects.reflections, 1)), seed);
-    const std::array bloom{ effects.bloom.strength, effects.bloom.radius, effects.bloom.threshold };
-    seed = hashBytes(std::as_bytes(std::span(bloom)), hashWords(seed, effects.bloom.enabled));
-    return hashWords(seed, effects.fog.enabled, effects.fog.colorFromEnvironment);
+    auto const& [ao, reflections, fog, contact, bloom, focus, exposure, grading, vignette, grain, aberration] = effects;
+    seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold);
+    seed = hashValues(seed, focus.focusMeters, focus.blurScale, focus.maxRadius, focus.blades);
+    seed = hashValues(seed, exposure.lowPercentile, exposure.highPercentile, exposure.compensation, exposure.minStops,
+                      exposure.maxStops, exposure.speedUp, exposure.speedDown);
+    seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
+                      grain.size, aberration.strength);
+    seed = hashWords(seed, bloom.enabled, focus.enabled, exposure.enabled, vignette.enabled, grain.enabled,
+                     aberration.enabled);
+    return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));
 }
 
 } // namespace
@@ -52,7 +73,9 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     hash = hashEffects(packet.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
-    hash = hashWords(hash, packet.motionView);
+    hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed);
+    hash = hashValues(hash, packet.gathering.jitterPixels, packet.gathering.weight, packet.focus,
+                      packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

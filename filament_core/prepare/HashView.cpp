@@ -69,7 +69,7 @@ uint64_t hashDepthInputs(scene::MaterialInstance const& instance, shader::FrameU
     if (!package.depthReadsParameters && !(isColored && shader::transmitsLight(package))) return seed;
     seed = hashBytes(instance.parameters, seed);
     for (scene::TextureBinding const& texture : instance.textures) seed = hashWords(seed, texture.texture.bits);
-    if (!package.depthReadsFrame) return seed;
+    if (!package.readsFrame) return seed;
     seed = hashBytes(std::as_bytes(std::span(&frame.time, 1)), seed);
     return hashBytes(std::as_bytes(std::span(frame.materialGlobals)), seed);
 }

@@ -3,13 +3,68 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament::prepare {
+#include <algorithm>
 
-void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, ViewPacket const& main, bool keepsPlaces) {
+namespace filament::prepare {
+namespace {
+
+// How many frames are in the picture while something moves: enough to smooth edges, and few enough that what each
+// filtering of the last picture blurs, and each limit of its colours, is soon replaced.
+constexpr float kGatheredInMotion = 4;
+constexpr float kGatheredInTurn = 9; // of the camera alone
+constexpr float kMostGathered = 255; // of a still picture
+constexpr uint32_t kJitters = 1024;
+
+} // namespace
+
+void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) {
     const ViewSpace space = makeViewSpace(view);
-    mSeen = { space.clipFromWorld, space.cameraWorld, space.forward, main.uniforms.time };
+    const bool isFollowing = isFollowedBy(scene, view);
+    mSeen = {
+        view, scene.serial, space.clipFromWorld, space.cameraWorld, space.forward, packet.mainView().uniforms.time
+    };
+    const bool gathers = packet.demand.needs(Effect::Taa);
+    mJitters = gathers ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
+    mIsExposed = packet.demand.needs(Effect::AutoExposure);
+    mGathered = gathers ? 1 / packet.gathering.weight : 0;
     mScene = 0; // until all places are kept
-    if (keepsPlaces) keepPlaces(scene);
+    if (readsMotion(packet.mainView().counts, view.quality, view.debugView)) keepPlaces(scene);
+}
+
+// Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": multiples of the inverses of the plastic
+// number and of its square. Any few that follow each other cover the pixel evenly; the first is in its middle.
+float2 LastFrame::jitterPixels(scene::SceneData const& scene, ViewInput const& view) const {
+    const double at = isFollowedBy(scene, view) ? mJitters : 0;
+    const double2 place = double2(0.75487766624669276, 0.56984029099805327) * at + 0.5;
+    return float2(glm::fract(place) - 0.5);
+}
+
+/// By a frame of the same scene and size.
+bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const {
+    return mSeen && mSeen->scene == scene.serial && mSeen->view.size == view.size;
+}
+
+/// Whether this frame shows what the last one did, as far as both see it.
+bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const {
+    ViewInput const& last = mSeen->view;
+    const bool isSame = last.contents == view.contents && last.camera.position() == view.camera.position() &&
+                        last.camera.exposure == view.camera.exposure && last.quality == view.quality &&
+                        last.effects == view.effects;
+    if (!isSame || packet.motionView != kNowhere) return false;
+    if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
+    const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };
+    ViewPacket const& main = packet.mainView();
+    return std::ranges::none_of(main.opaque, readsFrame) && std::ranges::none_of(main.blended, readsFrame);
+}
+
+Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
+    Gathering gathering{ .jitterPixels = jitterPixels(scene, view) };
+    if (!isFollowedBy(scene, view)) return gathering;
+    gathering.isFixed = isFixed(view, packet);
+    const bool isStill = gathering.isFixed && !packet.last.isElsewhere;
+    const float most = isStill ? kMostGathered : gathering.isFixed ? kGatheredInTurn : kGatheredInMotion;
+    gathering.weight = 1 / (1 + std::min(mGathered, most));
+    return gathering;
 }
 
 void LastFrame::keepPlaces(scene::SceneData const& scene) {
@@ -30,13 +85,16 @@ void LastFrame::keepPlaces(scene::SceneData const& scene) {
     mScene = scene.serial;
 }
 
-LastView LastFrame::seenFrom(ViewSpace const& space, float4 const& time) const {
-    const Seen last = mSeen.value_or(Seen{ space.clipFromWorld, space.cameraWorld, space.forward, time });
+LastView LastFrame::seenFrom(scene::SceneData const& scene, ViewSpace const& space, ViewInput const& view,
+                             float4 const& time) const {
+    const Seen last = mSeen.value_or(Seen{ view, 0, space.clipFromWorld, space.cameraWorld, space.forward, time });
     const double3 moved = space.cameraWorld - last.cameraWorld;
     const double along = dot(double3(last.forward), moved);
     return { .clipFromWorld = float4x4(glm::translate(double4x4(last.clipFromWorld), moved)),
              .alongView = float4(last.forward, static_cast<float>(along)),
              .time = last.time,
+             .isExposed = mIsExposed && isFollowedBy(scene, view),
+             .secondsSince = static_cast<float>(std::max(view.timeSeconds - last.view.timeSeconds, 0.0)),
              .isElsewhere = last.clipFromWorld != space.clipFromWorld || moved != double3(0.0) };
 }
 

@@ -20,12 +20,17 @@ namespace filament::prepare {
 
 class LastFrame {
 public:
-    /// `keepsPlaces`: the next frame may ask where things were.
-    void keep(scene::SceneData const& scene, ViewInput const& view, ViewPacket const& main, bool keepsPlaces);
+    /// `view`: without jitter. What the next frame may ask for decides what is kept.
+    void keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet);
     void forget() { *this = {}; }
 
     /// As this frame sees the last one; itself, if there was none.
-    LastView seenFrom(ViewSpace const& space, float4 const& time) const;
+    LastView seenFrom(scene::SceneData const& scene, ViewSpace const& space, ViewInput const& view,
+                      float4 const& time) const;
+    /// Of a frame that gathers: another place in the pixels for each.
+    float2 jitterPixels(scene::SceneData const& scene, ViewInput const& view) const;
+    /// The mean of all frames since something changed.
+    Gathering gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
 
     /// Whether the renderable at position `at` was in the last frame's scene, and its place there.
     scene::Placement const* placement(scene::SceneData const& scene, uint32_t at) const;
@@ -34,6 +39,8 @@ public:
 
 private:
     struct Seen {
+        ViewInput view;
+        uint64_t scene; ///< SceneData::serial
         float4x4 clipFromWorld;
         double3 cameraWorld;
         float3 forward;
@@ -46,8 +53,13 @@ private:
     };
 
     void keepPlaces(scene::SceneData const& scene);
+    bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
+    bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
     std::optional<Seen> mSeen;
+    uint32_t mJitters = 0;                ///< frames in a row that gathered
+    float mGathered = 0;                  ///< frames in the gathered picture
+    bool mIsExposed = false;              ///< by AutoExposure
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
     std::vector<Renderable> mRenderables; // parallel to mPlacements
     std::vector<scene::Placement> mPlacements;

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/PrepareFrame.h"
 
 #include "filament_core/prepare/DeformationData.h"
+#include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/LightChannels.h"
 #include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
@@ -9,6 +10,7 @@
 #include "filament_core/prepare/SunDiscs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filament::prepare {
 namespace {
@@ -41,7 +43,7 @@ uint32_t movedObjects(FramePacket const& packet) {
     return packet.motionView == kNowhere ? 0 : static_cast<uint32_t>(packet.views[packet.motionView].opaque.size());
 }
 
-SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, ViewInput const& view) {
+SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, ViewInput const& view, float blurRadius) {
     return findDemand({ .counts = packet.mainView().counts,
                         .shadows = shadows,
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
@@ -49,10 +51,10 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .deformed = countDeformed(packet.deformations),
                         .copiedPixels = copiedPixels(packet.mainView().pictures),
                         .moved = movedObjects(packet),
+                        .cameraMoved = packet.last.isElsewhere,
                         .quality = view.quality,
-                        .fog = packet.effects.fog,
-                        .bloom = packet.effects.bloom,
-                        .ambientOcclusion = packet.effects.ambientOcclusion,
+                        .effects = packet.effects,
+                        .blurRadius = blurRadius,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
@@ -77,6 +79,24 @@ struct FrameViews {
     size_t size() const { return asked.size() + ofShadows.size(); }
     PreparedView const& operator[](size_t i) const { return i < asked.size() ? asked[i] : ofShadows[i - asked.size()]; }
 };
+
+/// Of what is visible, in pixels.
+float largestBlur(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                  FramePacket const& packet) {
+    if (!view.effects.depthOfField.enabled) return 0;
+    const bool hasFarthest = packet.environment.sky || !packet.discs.empty();
+    const VisibleDistances at = visibleDistances(jobs, arena, scene, packet.mainView(), makeViewSpace(view));
+    const double far = blurRadius(packet.focus, hasFarthest ? HUGE_VAL : std::max(at.farthest, at.nearest));
+    return static_cast<float>(std::max(std::abs(blurRadius(packet.focus, at.nearest)), std::abs(far)));
+}
+
+/// As they are drawn.
+std::span<const ViewInput> jittered(Arena& arena, scene::SceneData const& scene, std::span<const ViewInput> views,
+                                    LastFrame const& last) {
+    const std::span<ViewInput> drawn = arena.copy(views);
+    if (gathersFrames(drawn[0].quality, drawn[0].debugView)) drawn[0].jitterPixels = last.jitterPixels(scene, drawn[0]);
+    return drawn;
+}
 
 FramePacket packetOf(Arena& arena, scene::SceneData const& scene, FrameViews const& views) {
     const auto packets = arena.arrayForOverwrite<ViewPacket>(views.size());
@@ -104,22 +124,25 @@ void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& las
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                          std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& last) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
-    ViewInput const& main = views[0];
+    ViewInput const& main = views[0]; // without jitter, so that shadow maps and places of the last frame stay
+    const std::span<const ViewInput> drawn = jittered(arena, scene, views, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
-    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, views[i]);
+    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i]);
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, asked[0], held);
 
-    for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, views[i], asked[i]);
+    for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
     packet.environment = environmentOf(scene);
     packet.effects = main.effects;
-    packet.last = last.seenFrom(makeViewSpace(main), packet.mainView().uniforms.time);
+    packet.last = last.seenFrom(scene, makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (readsMotion(packet.mainView().counts, main.quality, main.debugView)) addMotion(arena, scene, last, packet);
-    const SunDiscs discs = findSunDiscs(arena, scene.lights, main);
+    const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
-    packet.demand = demandOf(packet, shadows.counts, main);
+    packet.focus = focusOf(main.camera, main.effects.depthOfField, main.size.y);
+    packet.demand = demandOf(packet, shadows.counts, main, largestBlur(jobs, arena, scene, main, packet));
+    if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);
     return packet;
 }
 

@@ -36,7 +36,7 @@ bool hasMoved(Moment const& moment, DrawCall const& draw, Placement const& now, 
     const bool isDeformed = draw.deformation != scene::kNotDeformed;
     const auto deformed = isDeformed ? moment.last.deformation(moment.scene, draw.deformation) : std::nullopt;
     if (isDeformed && !deformed) return false;
-    if (package.depthReadsFrame && moment.isTimePassed) return true;
+    if (package.depthReadsParameters && package.readsFrame && moment.isTimePassed) return true;
     switch (package.vertexDomain) {
     case VertexDomain::World:
         return false;

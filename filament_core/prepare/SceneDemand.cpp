@@ -3,6 +3,9 @@
 
 #include "base/Result.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace filament::prepare {
 namespace {
 
@@ -41,7 +44,7 @@ EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
 
 EffectDemand demandOfOcclusion(DemandInput const& input) {
     if (input.quality.ao == AmbientOcclusionTerm::Off) return { .reason = DemandReason::SwitchedOff };
-    if (input.ambientOcclusion.intensity == 0) return { .reason = DemandReason::HasNoIntensity };
+    if (input.effects.ambientOcclusion.intensity == 0) return { .reason = DemandReason::HasNoIntensity };
     if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
     if (!input.hasIndirectLight || input.counts.opaqueLitDraws == 0) return { .reason = DemandReason::NothingIndirect };
     return { true, DemandReason::DarkensIndirectLight, input.counts.opaqueLitDraws };
@@ -68,18 +71,81 @@ EffectDemand demandOfContactShadows(ViewCounts const& counts) {
 }
 
 EffectDemand demandOfFog(DemandInput const& input) {
-    if (!input.fog.enabled) return { .reason = DemandReason::SwitchedOff };
-    if (input.fog.density == 0 || input.fog.maximumOpacity == 0) return { .reason = DemandReason::HasNoDensity };
+    if (!input.effects.fog.enabled) return { .reason = DemandReason::SwitchedOff };
+    if (input.effects.fog.density == 0 || input.effects.fog.maximumOpacity == 0)
+        return { .reason = DemandReason::HasNoDensity };
     return { true, DemandReason::LiesInBetween };
 }
 
-EffectDemand demandOfBloom(DemandInput const& input) {
-    if (!input.bloom.enabled) return { .reason = DemandReason::SwitchedOff };
-    if (input.bloom.strength == 0) return { .reason = DemandReason::HasNoIntensity };
+/// Of an effect of the picture.
+EffectDemand demandOfPictureEffect(DemandInput const& input, bool isOn, DemandReason reason) {
+    if (!isOn) return { .reason = DemandReason::SwitchedOff };
     if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
     const bool shines = input.counts.visible > 0 || input.hasSky || input.discsInView > 0;
     if (!shines) return { .reason = DemandReason::NothingShines };
-    return { true, DemandReason::SpreadsLight };
+    return { true, reason };
+}
+
+EffectDemand demandOfBloom(DemandInput const& input) {
+    if (input.effects.bloom.enabled && input.effects.bloom.strength == 0)
+        return { .reason = DemandReason::HasNoIntensity };
+    return demandOfPictureEffect(input, input.effects.bloom.enabled, DemandReason::SpreadsLight);
+}
+
+EffectDemand demandOfTaa(DemandInput const& input) {
+    return demandOfPictureEffect(input, input.quality.antiAliasing == AntiAliasing::Taa, DemandReason::SmoothsEdges);
+}
+
+EffectDemand demandOfFxaa(DemandInput const& input) {
+    const bool isOn = input.quality.antiAliasing == AntiAliasing::Fxaa;
+    const EffectDemand demand = demandOfPictureEffect(input, isOn, DemandReason::SmoothsEdges);
+    if (demand.isNeeded && input.counts.visible == 0) return { .reason = DemandReason::NothingHasEdges };
+    return demand;
+}
+
+EffectDemand demandOfFocus(DemandInput const& input) {
+    constexpr float kSharp = 0.5f; // pixels
+    const EffectDemand demand =
+            demandOfPictureEffect(input, input.effects.depthOfField.enabled, DemandReason::IsOutOfFocus);
+    if (!demand.isNeeded) return demand;
+    if (!(input.blurRadius > kSharp)) return { .reason = DemandReason::IsInFocus };
+    return { true, demand.reason, static_cast<uint32_t>(std::ceil(input.blurRadius)) };
+}
+
+/// Of an effect that changes the picture wherever it is, nothing visible included.
+EffectDemand demandOfFinish(DemandInput const& input, bool isOn, bool isNeutral, DemandReason neutral) {
+    if (!isOn) return { .reason = DemandReason::SwitchedOff };
+    if (isNeutral) return { .reason = neutral };
+    if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
+    return { true, DemandReason::ChangesPicture };
+}
+
+bool isNeutral(Grading grading) {
+    const Grading neutral{ .enabled = grading.enabled,
+                           .tonalRanges = grading.tonalRanges, // of equal factors
+                           .midPoint = grading.midPoint };     // of straight curves
+    return grading == neutral;
+}
+
+void setFinish(DemandInput const& input, SceneDemand& demand) {
+    Effects const& effects = input.effects;
+    const auto set = [&](Effect effect, bool isOn, bool isNeutral, DemandReason neutral) {
+        demand.effects[static_cast<size_t>(effect)] = demandOfFinish(input, isOn, isNeutral, neutral);
+    };
+    ChromaticAberration const& aberration = effects.chromaticAberration;
+    set(Effect::ChromaticAberration, aberration.enabled, aberration.strength == 0, DemandReason::HasNoIntensity);
+    set(Effect::Vignette, effects.vignette.enabled, effects.vignette.color == float3(1), DemandReason::IsNeutral);
+    set(Effect::Grading, effects.grading.enabled, isNeutral(effects.grading), DemandReason::IsNeutral);
+    set(Effect::Grain, effects.grain.enabled, effects.grain.strength == 0, DemandReason::HasNoIntensity);
+}
+
+/// How many effects read the depths.
+uint32_t readersOfDepth(DemandInput const& input, SceneDemand const& demand) {
+    uint32_t readers = demand.needs(Effect::Taa) && input.cameraMoved ? 1 : 0;
+    for (const Effect effect : { Effect::AmbientOcclusion, Effect::Reflections, Effect::Motion, Effect::ContactShadows,
+                                 Effect::DepthOfField })
+        readers += demand.needs(effect) ? 1 : 0;
+    return readers;
 }
 
 /// `readers` of the depths run.
@@ -156,7 +222,8 @@ std::string describeShining(Effect effect, EffectDemand const& demand) {
 } // namespace
 
 bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView) {
-    return debugView == DebugView::Motion || (quality.ssr && counts.reflectiveDraws > 0);
+    return debugView == DebugView::Motion || (quality.ssr && counts.reflectiveDraws > 0) ||
+           gathersFrames(quality, debugView);
 }
 
 SceneDemand findDemand(DemandInput const& input) {
@@ -185,12 +252,14 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Motion, demandOfMotion(input));
     set(Effect::ContactShadows, demandOfContactShadows(counts));
     set(Effect::Fog, demandOfFog(input));
+    set(Effect::Taa, demandOfTaa(input));
+    set(Effect::DepthOfField, demandOfFocus(input));
+    set(Effect::AutoExposure,
+        demandOfPictureEffect(input, input.effects.autoExposure.enabled, DemandReason::MeasuresPicture));
     set(Effect::Bloom, demandOfBloom(input));
-    uint32_t readers = 0;
-    for (const Effect effect :
-         { Effect::AmbientOcclusion, Effect::Reflections, Effect::Motion, Effect::ContactShadows })
-        readers += demand.needs(effect) ? 1 : 0;
-    set(Effect::DepthPrepass, demandOfPrepass(input, readers));
+    setFinish(input, demand);
+    set(Effect::Fxaa, demandOfFxaa(input));
+    set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;
 }
@@ -209,8 +278,23 @@ const char* describeSwitch(Effect effect) {
         return "switched off: ssr=off";
     case Effect::Fog:
         return "switched off: fog=off";
+    case Effect::Taa:
+    case Effect::Fxaa:
+        return "switched off: antiAliasing";
+    case Effect::DepthOfField:
+        return "switched off: depthOfField=off";
+    case Effect::AutoExposure:
+        return "switched off: autoExposure=off";
     case Effect::Bloom:
         return "switched off: bloom=off";
+    case Effect::ChromaticAberration:
+        return "switched off: chromaticAberration=off";
+    case Effect::Vignette:
+        return "switched off: vignette=off";
+    case Effect::Grading:
+        return "switched off: grading=off";
+    case Effect::Grain:
+        return "switched off: grain=off";
     default:
         return "switched off: shadows=off";
     }
@@ -222,7 +306,15 @@ const char* describeNobody(Effect effect) {
         return "nothing in view refracts the picture";
     case Effect::Reflections:
         return "nothing in view reflects the picture";
+    case Effect::Taa:
+    case Effect::DepthOfField:
+    case Effect::AutoExposure:
     case Effect::Bloom:
+    case Effect::ChromaticAberration:
+    case Effect::Vignette:
+    case Effect::Grading:
+    case Effect::Grain:
+    case Effect::Fxaa:
         return "a debug view is shown";
     case Effect::Motion:
         return "no effect looks at the last picture";
@@ -252,7 +344,15 @@ const char* nameOf(Effect effect) {
                                                                "motion",
                                                                "contact shadows",
                                                                "fog",
+                                                               "taa",
+                                                               "depth of field",
+                                                               "auto exposure",
                                                                "bloom",
+                                                               "fringes",
+                                                               "vignette",
+                                                               "grading",
+                                                               "grain",
+                                                               "fxaa",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }
@@ -299,6 +399,21 @@ std::string describe(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} in view moved", demand.count);
     case DemandReason::SpreadsLight:
         return "spreads light of what is visible";
+    case DemandReason::SmoothsEdges:
+        return "smooths the edges of what is visible";
+    case DemandReason::ChangesPicture:
+        return "changes the whole picture";
+    case DemandReason::IsOutOfFocus:
+        return fmt::format("something visible is out of focus, by at most {} pixel{}", demand.count,
+                           demand.count == 1 ? "" : "s");
+    case DemandReason::IsInFocus:
+        return "everything visible is in focus";
+    case DemandReason::MeasuresPicture:
+        return "measures how bright the picture is";
+    case DemandReason::IsNeutral:
+        return "its values change nothing";
+    case DemandReason::NothingHasEdges:
+        return "no surface is visible";
     case DemandReason::NothingShines:
         return "nothing is visible, not even a sky";
     case DemandReason::NothingMoves:

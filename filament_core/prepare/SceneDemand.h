@@ -38,10 +38,18 @@ enum class Effect : uint8_t {
     Motion,      ///< of what does not stay where it is, for effects that look at the last picture
     ContactShadows,
     Fog,
+    Taa, ///< temporal anti-aliasing
+    DepthOfField,
+    AutoExposure,
     Bloom,
+    ChromaticAberration,
+    Vignette,
+    Grading,
+    Grain,
+    Fxaa,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 20;
+inline constexpr size_t kEffects = 28;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -64,6 +72,10 @@ enum class DemandReason : uint8_t {
     LiesInBetween,        ///< between the camera and what is visible
     MovesInView,          ///< `count` opaque objects do
     SpreadsLight,         ///< of what is visible
+    SmoothsEdges,         ///< of what is visible
+    ChangesPicture,       ///< as a whole
+    IsOutOfFocus,         ///< something visible is, by `count` pixels at most
+    MeasuresPicture,
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -79,8 +91,11 @@ enum class DemandReason : uint8_t {
     NothingAsks,       ///< no light in view, or no surface
     HasNoDensity,      ///< or no opacity
     HasNoIntensity,    ///< it would change nothing
+    IsNeutral,         ///< the same, by all of its values
     NothingMoves,      ///< by itself, in view
     NothingShines,     ///< nothing is in view, not even a sky
+    NothingHasEdges,   ///< no surface is in view
+    IsInFocus,         ///< everything that is visible
 };
 
 struct EffectDemand {
@@ -107,16 +122,21 @@ struct DemandInput {
     uint32_t deformed = 0;     ///< objects in view that skins or morph targets move
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
+    bool cameraMoved = false;
     Quality quality{};
-    Fog fog{};     ///< within its ranges
-    Bloom bloom{}; ///< the same
-    AmbientOcclusion ambientOcclusion{};
+    Effects effects{};    ///< within their ranges
+    float blurRadius = 0; ///< in pixels: the largest of what is visible, of the lens
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
 };
 
 SceneDemand findDemand(DemandInput const& input);
+
+/// Whether the view gathers its picture over frames, if there is anything in it.
+inline bool gathersFrames(Quality const& quality, DebugView debugView) {
+    return quality.antiAliasing == AntiAliasing::Taa && debugView == DebugView::None;
+}
 
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
 bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView);

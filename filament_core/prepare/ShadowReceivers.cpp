@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/ShadowReceivers.h"
 
+#include "filament_core/prepare/ReduceRanges.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace filament::prepare {
 namespace {
-
-constexpr size_t kRange = 4096; // about 20 us
-
-/// Reduces [0, count) by ranges: `add(part, index)`, then `join(whole, part)` in their order.
-template <class T, class Add, class Join>
-T reduce(jobs::JobSystem& jobs, Arena& arena, size_t count, Add&& add, Join&& join) {
-    const auto parts = arena.array<T>((count + kRange - 1) / kRange);
-    jobs::parallelFor<"shadow extent">(jobs, count, kRange, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) add(parts[begin / kRange], i);
-    });
-    T whole;
-    for (T const& part : parts) join(whole, part);
-    return whole;
-}
 
 double nearPlane(ViewSpace const& space) {
     const float near = space.clipFromView[3][2]; // of a lens; other projections begin at the camera
@@ -44,7 +32,7 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
                               ViewPacket const& view, ViewSpace const& space, ShadowFilter filter) {
     scene::Renderables const& renderables = scene.renderables;
     const double nearMeters = nearPlane(space);
-    return reduce<ShadowReceivers>(
+    return reduceRanges<ShadowReceivers>(
             jobs, arena, view.objects.size(),
             [&](ShadowReceivers& part, size_t i) {
                 const uint32_t at = view.objects.order[i].renderable;
@@ -65,7 +53,7 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                                 double3x3 const& worldFromLight) {
     constexpr int kNothing = scene::kNoIndices | scene::kCollapsed;
-    return reduce<LightSpaceBox>(
+    return reduceRanges<LightSpaceBox>(
             jobs, arena, renderables.count(),
             [&](LightSpaceBox& part, size_t i) {
                 if ((renderables.flags[i] & kNothing) != 0) return;

@@ -24,6 +24,16 @@ float4x4 withOrdinaryDepth(float4x4 clip) {
     return clip;
 }
 
+/// Moves the picture by pixels: row 0 is at y = -1.
+float4x4 withJitter(float4x4 clip, float2 pixels, uint2 size) {
+    const float2 moved = 2.0f * pixels / float2(size);
+    for (int column = 0; column < 4; ++column) {
+        clip[column].x += moved.x * clip[column].w;
+        clip[column].y += moved.y * clip[column].w;
+    }
+    return clip;
+}
+
 // FrameUniforms::time. The fraction of a time just below a whole second must not round up to 1.
 float4 shaderTime(double seconds) {
     const auto rounded = static_cast<float>(seconds);
@@ -62,6 +72,8 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     space.viewFromWorld = float4x4(double4x4(glm::transpose(worldFromView)));
     const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
     space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
+    if (view.jitterPixels != float2(0))
+        space.clipFromView = withJitter(space.clipFromView, view.jitterPixels, view.size);
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     space.frustum = frustumFromClip(space.clipFromWorld); // the planes do not depend on the stored depth
     if (view.quality.depthRange == DepthRange::Ordinary) {

@@ -31,12 +31,14 @@ struct ViewInput {
     /// Takes the place of the camera's lens, as parallel light or a tile of an atlas needs it. The conventions of
     /// Camera::clipFromView(): row 0 of the image at y = -1, reversed depth.
     std::optional<float4x4> clipFromView{};
-    uint2 size{ 1, 1 }; ///< pixels, >= 1
+    uint2 size{ 1, 1 };       ///< pixels, >= 1
+    float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
     Effects effects{};
     DebugView debugView = DebugView::None; ///< of the main view
+    uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
 };
 
 } // namespace filament::prepare

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Assert.h"
 #include "base/math/Math.h"
+#include "filament_core/values/Daylight.h"
 
 #include <filament/Color.h>
 
@@ -51,11 +52,15 @@ LinearColor fromTemperature(float kelvin) {
 
 LinearColor fromDaylight(float kelvin) {
     FILAMENT_ASSERT(kelvin >= 4000 && kelvin <= 25'000, "the temperature of daylight is from 4000 to 25 000 kelvin");
-    const double t = 1e3 / static_cast<double>(kelvin);
+    const double2 chromaticity = daylightChromaticity(static_cast<double>(kelvin));
+    return fromChromaticity(static_cast<float>(chromaticity.x), static_cast<float>(chromaticity.y));
+}
+
+double2 daylightChromaticity(double kelvin) {
+    const double t = 1e3 / kelvin;
     const double x = kelvin <= 7000 ? ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063
                                     : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;
-    const double y = (-3.000 * x + 2.870) * x - 0.275;
-    return fromChromaticity(static_cast<float>(x), static_cast<float>(y));
+    return { x, (-3.000 * x + 2.870) * x - 0.275 };
 }
 
 } // namespace filament::color

@@ -59,38 +59,44 @@ constexpr EffectField switchField(std::string_view name) {
              [](EffectField const&, Effects&) {} };
 }
 
-std::optional<LinearColor> colorOf(std::string_view text, float most) {
-    LinearColor color{ 0 };
-    for (int i = 0; i < 3; ++i) {
+/// Numbers with commas between them.
+template <class Vector>
+std::optional<Vector> vectorOf(std::string_view text, float least, float most) {
+    constexpr int kLast = Vector::length() - 1;
+    Vector vector{ 0 };
+    for (int i = 0; i <= kLast; ++i) {
         const size_t comma = text.find(',');
-        if ((comma == std::string_view::npos) != (i == 2)) return std::nullopt;
-        const std::optional<float> number = numberOf(text.substr(0, comma), 0, most);
+        if ((comma == std::string_view::npos) != (i == kLast)) return std::nullopt;
+        const std::optional<float> number = numberOf(text.substr(0, comma), least, most);
         if (!number) return std::nullopt;
-        color[i] = *number;
-        text.remove_prefix(i == 2 ? 0 : comma + 1);
+        vector[i] = *number;
+        text.remove_prefix(i == kLast ? 0 : comma + 1);
     }
-    return color;
+    return vector;
 }
 
 template <auto Group, auto Member>
-constexpr EffectField colorField(std::string_view name, float most, std::string_view range) {
+constexpr EffectField vectorField(std::string_view name, float least, float most, std::string_view range) {
+    using Vector = std::remove_cvref_t<decltype(Effects{}.*Group.*Member)>;
     return { { name, range },
              [](EffectField const& field, Effects& effects, std::string_view value) {
-                 const std::optional<LinearColor> color = colorOf(value, field.most);
-                 if (color) effects.*Group.*Member = *color;
-                 return color.has_value();
+                 const std::optional<Vector> vector = vectorOf<Vector>(value, field.least, field.most);
+                 if (vector) effects.*Group.*Member = *vector;
+                 return vector.has_value();
              },
              [](Effects const& effects) {
-                 LinearColor const& color = effects.*Group.*Member;
-                 return fmt::format("{},{},{}", color.x, color.y, color.z);
+                 std::string text;
+                 for (int i = 0; i < Vector::length(); ++i)
+                     text += fmt::format("{}{}", i > 0 ? "," : "", (effects.*Group.*Member)[i]);
+                 return text;
              },
              [](EffectField const& field, Effects& effects) {
-                 LinearColor& color = effects.*Group.*Member;
-                 const LinearColor initial = Effects{}.*Group.*Member;
-                 for (int i = 0; i < 3; ++i)
-                     color[i] = std::isnan(color[i]) ? initial[i] : std::clamp(color[i], field.least, field.most);
+                 Vector& vector = effects.*Group.*Member;
+                 const Vector initial = Effects{}.*Group.*Member;
+                 for (int i = 0; i < Vector::length(); ++i)
+                     vector[i] = std::isnan(vector[i]) ? initial[i] : std::clamp(vector[i], field.least, field.most);
              },
-             0,
+             least,
              most };
 }
 
@@ -99,6 +105,16 @@ constexpr auto kSsr = &Effects::reflections;
 constexpr auto kFog = &Effects::fog;
 constexpr auto kContact = &Effects::contactShadows;
 constexpr auto kBloom = &Effects::bloom;
+constexpr auto kFocus = &Effects::depthOfField;
+constexpr auto kExposure = &Effects::autoExposure;
+constexpr auto kGrading = &Effects::grading;
+constexpr auto kVignette = &Effects::vignette;
+constexpr auto kGrain = &Effects::grain;
+constexpr auto kAberration = &Effects::chromaticAberration;
+
+constexpr std::string_view kFactors = "R,G,B, each from 0 to 4", kShares = "R,G,B, each from -2 to 2",
+                           kGammas = "R,G,B, each from 0.1 to 10", kStops = "stops from -16 to 16",
+                           kShare = "a number from 0 to 1", kSpeed = "stops a second from 0 to 1000";
 
 constexpr std::array kEffectFields{
     numberField<kAo, &AmbientOcclusion::radiusMeters>("ao.radiusMeters", 1e-4f, 1e4f, "metres from 0.0001 to 10000"),
@@ -114,7 +130,7 @@ constexpr std::array kEffectFields{
     numberField<kFog, &Fog::heightMeters>("fog.heightMeters", -1e6f, 1e6f, "metres from -1000000 to 1000000"),
     numberField<kFog, &Fog::heightFalloff>("fog.heightFalloff", 0.0f, 1e3f, "1/m from 0 to 1000"),
     numberField<kFog, &Fog::maximumOpacity>("fog.maximumOpacity", 0.0f, 1.0f, "a number from 0 to 1"),
-    colorField<kFog, &Fog::color>("fog.color", 1e3f, "R,G,B, each from 0 to 1000"),
+    vectorField<kFog, &Fog::color>("fog.color", 0.0f, 1e3f, "R,G,B, each from 0 to 1000"),
     switchField<kFog, &Fog::colorFromEnvironment>("fog.colorFromEnvironment"),
     numberField<kFog, &Fog::inScatteringStartMeters>("fog.inScatteringStartMeters", 0.0f, 1e6f,
                                                      "metres from 0 to 1000000"),
@@ -127,6 +143,52 @@ constexpr std::array kEffectFields{
     numberField<kBloom, &Bloom::strength>("bloom.strength", 0.0f, 1.0f, "a number from 0 to 1"),
     numberField<kBloom, &Bloom::radius>("bloom.radius", 1e-3f, 1.0f, "a number from 0.001 to 1"),
     numberField<kBloom, &Bloom::threshold>("bloom.threshold", 0.0f, 1e4f, "a number from 0 to 10000"),
+    switchField<kFocus, &DepthOfField::enabled>("depthOfField"),
+    numberField<kFocus, &DepthOfField::focusMeters>("depthOfField.focusMeters", 0.0f, 1e9f,
+                                                    "metres from 0 to 1000000000"),
+    numberField<kFocus, &DepthOfField::blurScale>("depthOfField.blurScale", 0.0f, 100.0f, "a number from 0 to 100"),
+    numberField<kFocus, &DepthOfField::maxRadius>("depthOfField.maxRadius", 0.0f, 0.1f, "a number from 0 to 0.1"),
+    numberField<kFocus, &DepthOfField::blades>("depthOfField.blades", 0.0f, 16.0f, "a number from 0 to 16"),
+    switchField<kExposure, &AutoExposure::enabled>("autoExposure"),
+    numberField<kExposure, &AutoExposure::lowPercentile>("autoExposure.lowPercentile", 0.0f, 1.0f, kShare),
+    numberField<kExposure, &AutoExposure::highPercentile>("autoExposure.highPercentile", 0.0f, 1.0f, kShare),
+    numberField<kExposure, &AutoExposure::compensation>("autoExposure.compensation", -16.0f, 16.0f, kStops),
+    numberField<kExposure, &AutoExposure::minStops>("autoExposure.minStops", -16.0f, 16.0f, kStops),
+    numberField<kExposure, &AutoExposure::maxStops>("autoExposure.maxStops", -16.0f, 16.0f, kStops),
+    numberField<kExposure, &AutoExposure::speedUp>("autoExposure.speedUp", 0.0f, 1e3f, kSpeed),
+    numberField<kExposure, &AutoExposure::speedDown>("autoExposure.speedDown", 0.0f, 1e3f, kSpeed),
+    switchField<kGrading, &Grading::enabled>("grading"),
+    numberField<kGrading, &Grading::exposure>("grading.exposure", -16.0f, 16.0f, kStops),
+    numberField<kGrading, &Grading::temperature>("grading.temperature", -1.0f, 1.0f, "a number from -1 to 1"),
+    numberField<kGrading, &Grading::tint>("grading.tint", -1.0f, 1.0f, "a number from -1 to 1"),
+    vectorField<kGrading, &Grading::mixRed>("grading.mixRed", -2.0f, 2.0f, kShares),
+    vectorField<kGrading, &Grading::mixGreen>("grading.mixGreen", -2.0f, 2.0f, kShares),
+    vectorField<kGrading, &Grading::mixBlue>("grading.mixBlue", -2.0f, 2.0f, kShares),
+    vectorField<kGrading, &Grading::shadows>("grading.shadows", 0.0f, 4.0f, kFactors),
+    vectorField<kGrading, &Grading::midtones>("grading.midtones", 0.0f, 4.0f, kFactors),
+    vectorField<kGrading, &Grading::highlights>("grading.highlights", 0.0f, 4.0f, kFactors),
+    vectorField<kGrading, &Grading::tonalRanges>("grading.tonalRanges", 0.0f, 100.0f, "A,B,C,D, each from 0 to 100"),
+    vectorField<kGrading, &Grading::slope>("grading.slope", 0.0f, 4.0f, kFactors),
+    vectorField<kGrading, &Grading::offset>("grading.offset", -1.0f, 1.0f, "R,G,B, each from -1 to 1"),
+    vectorField<kGrading, &Grading::power>("grading.power", 0.1f, 10.0f, kGammas),
+    numberField<kGrading, &Grading::contrast>("grading.contrast", 0.0f, 2.0f, "a number from 0 to 2"),
+    numberField<kGrading, &Grading::saturation>("grading.saturation", 0.0f, 3.0f, "a number from 0 to 3"),
+    numberField<kGrading, &Grading::vibrance>("grading.vibrance", 0.0f, 3.0f, "a number from 0 to 3"),
+    vectorField<kGrading, &Grading::shadowGamma>("grading.shadowGamma", 0.1f, 10.0f, kGammas),
+    vectorField<kGrading, &Grading::midPoint>("grading.midPoint", 1e-3f, 100.0f, "R,G,B, each from 0.001 to 100"),
+    vectorField<kGrading, &Grading::highlightScale>("grading.highlightScale", 0.0f, 10.0f, "R,G,B, each from 0 to 10"),
+    switchField<kGrading, &Grading::gamutMapping>("grading.gamutMapping"),
+    switchField<kVignette, &Vignette::enabled>("vignette"),
+    numberField<kVignette, &Vignette::midPoint>("vignette.midPoint", 0.0f, 1.0f, "a number from 0 to 1"),
+    numberField<kVignette, &Vignette::roundness>("vignette.roundness", 0.0f, 1.0f, "a number from 0 to 1"),
+    numberField<kVignette, &Vignette::feather>("vignette.feather", 0.05f, 1.0f, "a number from 0.05 to 1"),
+    vectorField<kVignette, &Vignette::color>("vignette.color", 0.0f, 1.0f, "R,G,B, each from 0 to 1"),
+    switchField<kGrain, &Grain::enabled>("grain"),
+    numberField<kGrain, &Grain::strength>("grain.strength", 0.0f, 1.0f, "a number from 0 to 1"),
+    numberField<kGrain, &Grain::size>("grain.size", 1.0f, 8.0f, "pixels from 1 to 8"),
+    switchField<kAberration, &ChromaticAberration::enabled>("chromaticAberration"),
+    numberField<kAberration, &ChromaticAberration::strength>("chromaticAberration.strength", 0.0f, 0.1f,
+                                                             "a number from 0 to 0.1"),
 };
 
 EffectField const* findEffect(std::string_view name) {

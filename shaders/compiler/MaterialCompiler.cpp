@@ -63,8 +63,8 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
     return joined(both);
 }
 
-/// For shadow maps, which are kept while nothing changes what they show.
-void describeDepth(Prepared& prepared) {
+/// For shadow maps and gathered pictures, which are kept while nothing changes what they show.
+void describeInputs(Prepared& prepared) {
     MaterialPackage& package = prepared.definition.package;
     package.depthReadsParameters = prepared.definition.vertex || cutsHoles(prepared.definition, prepared.needs);
     static constexpr std::string_view kOfFrame[] = { "getTime",
@@ -75,10 +75,8 @@ void describeDepth(Prepared& prepared) {
                                                      "getMaterialGlobal2",
                                                      "getMaterialGlobal3",
                                                      "frameUniforms" };
-    const bool hasCode = package.depthReadsParameters || transmitsLight(package);
-    package.depthReadsFrame = hasCode && std::ranges::any_of(kOfFrame, [&](std::string_view word) {
-                                  return prepared.needs.words.contains(word);
-                              });
+    package.readsFrame =
+            std::ranges::any_of(kOfFrame, [&](std::string_view word) { return prepared.needs.words.contains(word); });
 }
 
 Result<Prepared> prepare(std::string_view text, std::string_view fileName, CompileOptions const& options) {
@@ -99,7 +97,7 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     MaterialPackage& package = prepared.definition.package;
     package.layout = materialLayout(prepared.definition, prepared.needs);
     package.filteredVariants |= options.filteredVariants;
-    describeDepth(prepared);
+    describeInputs(prepared);
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;
 }

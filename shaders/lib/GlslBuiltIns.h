@@ -30,6 +30,7 @@ using glm::min;
 using glm::mix;
 using glm::pow;
 using glm::sin;
+using glm::smoothstep;
 using glm::sqrt;
 
 } // namespace filament::shader::glsl

@@ -36,8 +36,10 @@ namespace {
 #include "shaders/lib/coat.glsl"
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/distance.glsl"
+#include "shaders/lib/exposure.glsl"
 #include "shaders/lib/fog.glsl"
 #include "shaders/lib/fresnel.glsl"
+#include "shaders/lib/grading.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/iridescence.glsl"
 #include "shaders/lib/light.glsl"
@@ -56,6 +58,7 @@ namespace {
 #include "shaders/lib/specular.glsl"
 #include "shaders/lib/subsurface.glsl"
 #include "shaders/lib/tangent.glsl"
+#include "shaders/lib/temporal.glsl"
 
 } // namespace
 #pragma GCC diagnostic pop

@@ -120,7 +120,7 @@ struct MaterialPackage {
     bool vertexDomainDeviceJittered = false;
     bool shadowMultiplier = false, transparentShadow = false;
     bool depthReadsParameters = false; ///< a vertex block, a mask or a discard: depth is not that of the mesh alone
-    bool depthReadsFrame = false; ///< such code, or that of what transmits light, reads the time or globals of the view
+    bool readsFrame = false;           ///< its code reads the time or globals of the view
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
     uint32_t requiredAttributes = 0; ///< bit n: the material reads AttributeLocation n; skins are not included

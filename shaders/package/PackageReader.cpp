@@ -94,7 +94,7 @@ bool readFlags(ByteReader& in, MaterialPackage& out) {
            readBool(in, out.depthCulling) && readBool(in, out.alphaToCoverage) && readBool(in, out.instanced) &&
            readBool(in, out.vertexDomainDeviceJittered) && readBool(in, out.shadowMultiplier) &&
            readBool(in, out.transparentShadow) && readBool(in, out.depthReadsParameters) &&
-           readBool(in, out.depthReadsFrame);
+           readBool(in, out.readsFrame);
 }
 
 bool readGeneral(ByteReader in, MaterialPackage& out) {

@@ -76,7 +76,7 @@ ByteWriter generalSection(MaterialPackage const& package) {
     for (const bool flag :
          { package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling, package.alphaToCoverage,
            package.instanced, package.vertexDomainDeviceJittered, package.shadowMultiplier, package.transparentShadow,
-           package.depthReadsParameters, package.depthReadsFrame })
+           package.depthReadsParameters, package.readsFrame })
         out.u8(flag);
     out.f32(package.maskThreshold);
     out.u16(package.filteredVariants);

@@ -556,6 +556,52 @@ public:
     }
 };
 
+/// Turns a switch of a full-screen material over.
+class SwitchEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    /// `constant`: its place among those of the .mat file.
+    SwitchEdit(std::string_view material, size_t constant) : mMaterial(material), mConstant(constant) {}
+    void inspect(CommandView) override { mChanged.clear(); }
+    void edit(CmdCreateProgram& command) override {
+        const std::string_view name = command.desc.debugName; // with the values of the constants: "fxaa/0/0/0"
+        if (name.substr(0, name.find('/')) != mMaterial || mConstant >= command.desc.constants.size()) return;
+        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
+        constants[mConstant].bits ^= 1;
+        command.desc.constants = constants;
+    }
+
+private:
+    std::string_view mMaterial;
+    size_t mConstant;
+    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
+};
+
+/// Those of finish.mat.
+enum FinishConstant : size_t { kAutoExposure = 4, kGraded = 5, kAberration = 7, kHasVignette = 8, kGrain = 9 };
+template <size_t Constant>
+std::unique_ptr<StreamEdit> makeFinish() {
+    return std::make_unique<SwitchEdit>("finish", Constant);
+}
+
+/// Each frame counts half as much in the picture that is gathered over frames.
+class GatheredWeightEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        constexpr size_t kBlock = 24 * sizeof(float); // a matrix, 1 / size, jitter, weight
+        for (size_t at = 0; at + kBlock <= bytes.size(); at += sizeof(float4)) {
+            const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+            const auto isReciprocal = [&](size_t i) {
+                const float size = number(i) > 0 ? 1 / number(i) : 0;
+                return size >= 1 && size < 20'000 && std::abs(size - std::round(size)) < 1e-2f;
+            };
+            const bool isGathering = isReciprocal(16) && isReciprocal(17) && std::abs(number(18)) <= 0.5f &&
+                                     std::abs(number(19)) <= 0.5f && number(20) > 0 && number(20) < 1 &&
+                                     number(21) == 0;
+            if (isGathering) writeFloat(bytes, at + 20 * sizeof(float), 0.5f * number(20));
+        }
+    }
+};
+
 class CullFaceEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -616,6 +662,16 @@ constexpr Mutation kMutations[] = {
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
     { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
     { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
+    { "fxaaBrightness", "FXAA takes the picture's values for light",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("fxaa", 0); } },
+    { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
+    { "gradingOff", "no grading by formula", makeFinish<kGraded> },
+    { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },
+    { "vignetteOff", "no vignette", makeFinish<kHasVignette> },
+    { "grainOff", "no grain", makeFinish<kGrain> },
+    { "focusTiles", "blur does not reach into the next tile",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("focus_tiles", 0); } },
+    { "gatheredWeight", "frames count half as much in the gathered picture", make<GatheredWeightEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },

@@ -91,7 +91,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
             debugViewFromName);
     reader.read("clear", view.clearColor);
     reader.read("linear", spec.linear);
-    reader.read("frames", spec.frames, 1, 16);
+    reader.read("frames", spec.frames, 1, 64);
     reader.read("secondsPerFrame", spec.secondsPerFrame, 0, 1e6);
 }
 

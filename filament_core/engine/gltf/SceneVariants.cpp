@@ -19,7 +19,7 @@ MaterialInstance materialIn(Model::Impl::PartRenderable const& part, uint32_t va
 } // namespace
 
 void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
-    scene::setMaterial(mImpl->data.renderables, renderable, mImpl->engine.instances.get(material));
+    scene::setMaterial(mImpl->changed().renderables, renderable, mImpl->engine.instances.get(material));
 }
 
 Result<void> Scene::setVariant(Node copy, std::string_view variant) {

@@ -62,6 +62,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
 }
 
 void Engine::Impl::markDirty(MaterialInstance handle) {
+    ++instanceChanges;
     scene::MaterialInstance const& instance = instances.get(handle);
     if (!instance.isDirty()) dirtyInstances.push_back(handle);
 }
@@ -236,12 +237,12 @@ void Engine::setColorWrite(MaterialInstance handle, bool writes) {
 
 void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
     mImpl->instances.get(handle).raster.depthWrite = writes;
-    ++mImpl->depthStateChanges;
+    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
 }
 
 void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
     mImpl->instances.get(handle).raster.depthCulling = tests;
-    ++mImpl->depthStateChanges;
+    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
 }
 
 void Engine::Impl::destroy(MaterialInstance handle) {

@@ -19,8 +19,9 @@ namespace filament {
 namespace {
 
 constexpr uint32_t kFewestRounds = 15; // half of them suffice for a median between least and largest
-constexpr double kDarkest = 0.01;      // of the mean: darker values count as this
-constexpr double kMostLinear = 65504;  // the largest half float
+constexpr uint32_t kGatheredFrames = 16, kFramesOfSmoothEdges = 64; // of a still picture
+constexpr double kDarkest = 0.01;                                   // of the mean: darker values count as this
+constexpr double kMostLinear = 65504;                               // the largest half float
 
 double linearFromHalf(uint16_t half) {
     const auto value = static_cast<double>(floatFromHalf(half));
@@ -112,7 +113,7 @@ struct Setting {
 class CostMeter {
 public:
     CostMeter(Engine& engine, Scene const& scene, View const& view)
-            : mEngine(engine), mScene(scene), mView(view), mPictured(engine), mDisplay(target(Format::RGBA8)),
+            : mEngine(engine), mScene(scene), mView(view), mDisplay(target(Format::RGBA8)),
               mLinear(target(Format::RGBA16F)), mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
 
     Result<QualityEffect> measure(QualityChoice const& choice, uint32_t rounds) {
@@ -120,7 +121,7 @@ public:
         QualityEffect effect{ .name = std::string(choice.name), .values = {} };
         for (Setting& setting : settings) {
             effect.values.push_back({ .value = setting.value });
-            const Result<double> error = errorOf(setting.pictured);
+            const Result<double> error = errorOf(setting.pictured, exactOf(choice.name));
             if (!error) return error.error();
             effect.values.back().error = *error;
             if (const Result<FrameCost> warmUp = time(setting); !warmUp) return warmUp.error();
@@ -138,18 +139,18 @@ public:
         return effect;
     }
 
+    /// What errors are measured against: the picture of the most exact settings, and the same with smooth edges.
     Result<void> drawExact() {
-        const Quality exact = qualityPreset(QualityPreset::Reference);
-        Result<Image> linear = draw(exact, mLinear);
-        if (!linear) return linear.error();
-        Result<Image> display = draw(exact, mDisplay);
-        if (!display) return display.error();
-        mExactLinear = std::move(*linear);
-        mExactDisplay = std::move(*display);
-        return {};
+        Quality quality = qualityPreset(QualityPreset::Reference);
+        if (const Result<void> drawn = draw(quality, 1, mExact); !drawn) return drawn;
+        quality.antiAliasing = AntiAliasing::Taa;
+        return draw(quality, kFramesOfSmoothEdges, mSmooth);
     }
 
 private:
+    struct Pictures {
+        Image linear, display;
+    };
     Owned<SwapChain> target(Format format) {
         return mEngine.own(mEngine.create(
                 SwapChainDesc{ .size = mView.size, .imageCount = 1, .format = format, .name = "quality costs" }));
@@ -170,20 +171,28 @@ private:
     }
 
     /// A setting that does not change light changes the tone mapper, or nothing.
-    Result<double> errorOf(Quality const& quality) {
-        const Result<Image> linear = draw(quality, mLinear);
-        if (!linear) return linear.error();
-        if (const double error = relativeError(*linear, mExactLinear); error > 0) return error;
-        const Result<Image> display = draw(quality, mDisplay);
-        if (!display) return display.error();
-        return relativeError(*display, mExactDisplay);
+    Result<double> errorOf(Quality const& quality, Pictures const& exact) {
+        Pictures drawn;
+        const uint32_t frames = quality.antiAliasing == AntiAliasing::Taa ? kGatheredFrames : 1;
+        if (const Result<void> result = draw(quality, frames, drawn); !result) return result.error();
+        const double error = relativeError(drawn.linear, exact.linear);
+        return error > 0 ? error : relativeError(drawn.display, exact.display);
     }
 
-    Result<Image> draw(Quality const& quality, SwapChain into) {
+    Pictures const& exactOf(std::string_view choice) const { return choice == "antiAliasing" ? mSmooth : mExact; }
+
+    Result<void> draw(Quality const& quality, uint32_t frames, Pictures& drawn) {
         View view = mView;
         view.quality = quality;
-        mPictured.render(mScene, view, into);
-        return mPictured.waitPixels(mPictured.readPixels(into));
+        for (const auto& [target, image] :
+             { std::pair(&mLinear, &drawn.linear), std::pair(&mDisplay, &drawn.display) }) {
+            Renderer renderer(mEngine); // without the frames of others
+            for (uint32_t frame = 0; frame < frames; ++frame) renderer.render(mScene, view, *target);
+            Result<Image> pixels = renderer.waitPixels(renderer.readPixels(*target));
+            if (!pixels) return pixels.error();
+            *image = std::move(*pixels);
+        }
+        return {};
     }
 
     Result<FrameCost> time(Setting& setting) {
@@ -216,9 +225,8 @@ private:
     Engine& mEngine;
     Scene const& mScene;
     View mView;
-    Renderer mPictured;
     Owned<SwapChain> mDisplay, mLinear;
-    Image mExactLinear, mExactDisplay;
+    Pictures mExact, mSmooth;
     bool mIsCpu; // a CPU driver: its clock goes on while other processes have the cores, processor time does not
 };
 

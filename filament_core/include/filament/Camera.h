@@ -14,6 +14,7 @@ struct Exposure {
     float shutterSeconds = 1.0f / 125; ///< > 0
     float iso = 100.0f;                ///< > 0
 
+    friend bool operator==(Exposure const&, Exposure const&) = default;
     /// log2(N^2 / t * 100 / S)
     float ev100() const;
     /// The factor for luminance in nits before tone mapping: 1 / (1.2 * 2^EV100).

@@ -66,12 +66,88 @@ struct Bloom {
     friend bool operator==(Bloom const&, Bloom const&) = default;
 };
 
+/// The blur of what a lens does not focus, by the aperture of the camera's exposure and the focal length of its field of
+/// view, for a sensor 24 mm high. What blends has the blur of what lies behind it.
+struct DepthOfField {
+    bool enabled = false;
+    float focusMeters = 2;   ///< distance along the view that is sharp, [0, 1e9]
+    float blurScale = 1;     ///< times what the aperture gives, [0, 100]
+    float maxRadius = 0.03f; ///< of a blurred point, as a share of the picture's height, [0, 0.1]
+    float blades = 0;        ///< of the aperture: a polygon of as many sides, [3, 16]; less than 3: round
+    friend bool operator==(DepthOfField const&, DepthOfField const&) = default;
+};
+
+/// Exposure that follows the picture: the mean luminance of the pixels between two percentiles becomes middle grey. On top
+/// of the camera's exposure. How fast it follows is measured in View::timeSeconds; the first frame is exposed at once.
+struct AutoExposure {
+    bool enabled = false;
+    float lowPercentile = 0.4f, highPercentile = 0.95f; ///< darker and brighter pixels do not count, [0, 1]
+    float compensation = 0;                             ///< stops, [-16, 16]
+    float minStops = -8, maxStops = 8;                  ///< least and most correction, [-16, 16]
+    float speedUp = 3, speedDown = 1; ///< towards brighter and darker pictures, stops a second, [0, 1e3]
+    friend bool operator==(AutoExposure const&, AutoExposure const&) = default;
+};
+
+/// Colour grading of light before the tone mapper, in linear Rec. 2020: exposure, white balance, channel mixer; shadows,
+/// midtones and highlights; slope, offset, power and contrast on the ACEScct logarithm; saturation and vibrance; curves.
+/// The neutral values of all fields together change nothing, and cost nothing. docs/grading.md has the formulas.
+struct Grading {
+    bool enabled = false;
+    float exposure = 0;    ///< stops, [-16, 16]
+    float temperature = 0; ///< [-1, 1]: cooler to warmer, along daylight from 4000 to 25 000 kelvin
+    float tint = 0;        ///< [-1, 1]: greener to more magenta
+    float3 mixRed{ 1, 0, 0 }, mixGreen{ 0, 1, 0 }, mixBlue{ 0, 0, 1 }; ///< of red, green and blue, [-2, 2]
+    float3 shadows{ 1 }, midtones{ 1 }, highlights{ 1 };               ///< factors, [0, 4]
+    float4 tonalRanges{ 0, 0.333f, 0.55f, 1 }; ///< luminances between which shadows end and highlights begin, [0, 100]
+    float3 slope{ 1 };                         ///< [0, 4]
+    float3 offset{ 0 };                        ///< [-1, 1]
+    float3 power{ 1 };                         ///< [0.1, 10]
+    float contrast = 1;                        ///< about middle grey, [0, 2]
+    float saturation = 1, vibrance = 1;        ///< of all colours, and of pale ones, [0, 3]
+    float3 shadowGamma{ 1 };                   ///< of light up to midPoint, [0.1, 10]
+    float3 midPoint{ 1 };                      ///< [1e-3, 100]
+    float3 highlightScale{ 1 };                ///< of light beyond midPoint, [0, 10]
+    bool gamutMapping = false;                 ///< colours outside of Rec. 709 lose chroma instead of components
+    friend bool operator==(Grading const&, Grading const&) = default;
+};
+
+/// Darker towards the corners, as a lens makes a picture.
+struct Vignette {
+    bool enabled = false;
+    float midPoint = 0.5f;  ///< how far from the middle it begins, [0, 1]
+    float roundness = 0.5f; ///< [0, 1]: from a rectangle by an ellipse (0.5) to a circle
+    float feather = 0.5f;   ///< how soft its edge is, [0.05, 1]
+    LinearColor color{ 0 }; ///< that the picture is multiplied by in the end, [0, 1]
+    friend bool operator==(Vignette const&, Vignette const&) = default;
+};
+
+/// Noise as of photographic film, of the display's values; another one in each frame.
+struct Grain {
+    bool enabled = false;
+    float strength = 0.05f; ///< standard deviation in the middle tones, [0, 1]
+    float size = 1.5f;      ///< of a grain, pixels, [1, 8]
+    friend bool operator==(Grain const&, Grain const&) = default;
+};
+
+/// A lens that bends blue light more than red: coloured fringes that grow with the distance from the middle.
+struct ChromaticAberration {
+    bool enabled = false;
+    float strength = 0.005f; ///< how far red and blue lie apart at the corners, as a share of the height, [0, 0.1]
+    friend bool operator==(ChromaticAberration const&, ChromaticAberration const&) = default;
+};
+
 struct Effects {
     AmbientOcclusion ambientOcclusion{};
     ScreenReflections reflections{};
     Fog fog{};
     ContactShadows contactShadows{};
     Bloom bloom{};
+    DepthOfField depthOfField{};
+    AutoExposure autoExposure{};
+    Grading grading{};
+    Vignette vignette{};
+    Grain grain{};
+    ChromaticAberration chromaticAberration{};
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 
@@ -86,6 +162,8 @@ std::span<const EffectOption> effectOptions();
 Result<void> setEffect(Effects& effects, std::string_view name, std::string_view value);
 /// The value of one field as text that setEffect() accepts, or nothing for an unknown name.
 std::optional<std::string> effectValue(Effects const& effects, std::string_view name);
+/// The matrix of exposure, white balance and channel mixer: linear Rec. 2020 from linear Rec. 709.
+double3x3 gradingMatrix(Grading const& grading);
 /// Every field within its range.
 Effects clamped(Effects const& effects);
 

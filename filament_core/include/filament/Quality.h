@@ -164,6 +164,15 @@ enum class DepthRange : uint8_t {
     Ordinary, ///< near plane 0, infinity 1, with the opposite comparison: z-fighting in the distance
 };
 
+/// How the edges of the picture are smoothed, besides by View::samples.
+enum class AntiAliasing : uint8_t {
+    Off,
+    Fxaa, ///< blends pixels along edges of the finished picture (Lottes 2009, "FXAA")
+    /// Gathers pictures over frames, each seen from another place in its pixels: Karis 2014, "High-Quality Temporal
+    /// Supersampling". The mean of all while nothing moves.
+    Taa,
+};
+
 /// How the tone mapper of View::colorGrading is evaluated, together with the transfer function of the display.
 enum class ToneMapping : uint8_t {
     Analytic, ///< its formula, for every pixel
@@ -218,6 +227,7 @@ struct Quality {
     uint8_t ssrSteps = 48;     ///< cells of the pyramid of distances that a reflected ray visits at most, [8, 255]
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
     DepthPrepass depthPrepass = DepthPrepass::Auto;
+    AntiAliasing antiAliasing = AntiAliasing::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Shaders receive positions relative to the camera, subtracted in double precision. Off: absolute floats, from
@@ -238,6 +248,7 @@ const char* toString(PositionStorage value);
 const char* toString(TangentStorage value);
 const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
+const char* toString(AntiAliasing value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
 const char* toString(AreaLightTerm value);
@@ -259,6 +270,7 @@ std::optional<PositionStorage> positionStorageFromName(std::string_view name);
 std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
+std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);
 std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);

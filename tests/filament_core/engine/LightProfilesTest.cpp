@@ -139,12 +139,13 @@ TEST_P(LightProfiles, EveryPixelOfAWallShowsTheShareOfItsDirection) {
     const auto axis = [&] {
         return float3(glm::normalize(double3(random.within(-1, 1), random.within(-1, 1), random.within(-1, 1))));
     };
-    struct Lamp {
+    struct ProfiledLamp {
         const char* name;
         double resampling; // of the table: files of type C keep their values, edges of half a degree suffer
     };
-    for (const Lamp& lamp : { Lamp{ "downlight", 2e-5 }, Lamp{ "pendant", 2e-5 }, Lamp{ "street", 2e-5 },
-                              Lamp{ "flood", 0.03 }, Lamp{ "spiral", 2e-5 }, Lamp{ "car", 0.1 } }) {
+    for (ProfiledLamp const& lamp :
+         { ProfiledLamp{ "downlight", 2e-5 }, ProfiledLamp{ "pendant", 2e-5 }, ProfiledLamp{ "street", 2e-5 },
+           ProfiledLamp{ "flood", 0.03 }, ProfiledLamp{ "spiral", 2e-5 }, ProfiledLamp{ "car", 0.1 } }) {
         const char* const name = lamp.name;
         const auto path = tools::sourceDir() / "tests/conformance/scenes/profiles" / (std::string(name) + ".ies");
         const Result<LightProfile> loaded = loadLightProfile(*engine, path);

@@ -24,7 +24,7 @@ struct MotionTest : testing::Test, BoxScene {
         const std::array views{ view };
         view.debugView = DebugView::Motion;
         const FramePacket packet = prepareFrame(jobs, arena, scene, views, {}, last);
-        last.keep(scene, view, packet.mainView(), true);
+        last.keep(scene, view, packet);
         return packet;
     }
 
@@ -100,8 +100,12 @@ TEST_F(MotionTest, OnlyOpaqueObjectsInViewHaveIt) {
 
 TEST_F(MotionTest, VertexBlocksThatReadTheTimeMoveWithIt) {
     scene::MaterialInstance* const look = material();
-    look->material->package.depthReadsFrame = true;
     add(double3(0, 0, 0), look);
+    look->material->package.readsFrame = true;
+    (void)frame();
+    view.timeSeconds = 0.5;
+    EXPECT_TRUE(moved(frame()).empty()) << "a fragment block";
+    look->material->package.depthReadsParameters = true;
     (void)frame();
     EXPECT_TRUE(moved(frame()).empty());
     view.timeSeconds = 1;

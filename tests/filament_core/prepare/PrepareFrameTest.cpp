@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PrepareFrame.h"
 
+#include "filament_core/prepare/LastFrame.h"
 #include "filament_core/prepare/ObjectData.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
@@ -316,6 +317,51 @@ TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
     EXPECT_EQ(packet.lights.size(), 1u);
     EXPECT_EQ(packet.counts.lightsOutOfView, 1u);
     EXPECT_EQ(packet.uniforms.ambient.w, 1.0f);
+}
+
+/// Passes read effects from the packet: what its hash does not see may differ between two runs unnoticed.
+TEST_F(PrepareFrameTest, TheHashSeesEveryOptionOfEveryEffect) {
+    add({ 0, 0, 0 }, material(shader::Blending::Opaque));
+    for (EffectOption const& option : effectOptions()) {
+        if (option.range != "off or on") continue;
+        ASSERT_TRUE(setEffect(view.effects, option.name, "on")) << option.name;
+    }
+    view.effects.fog.heightFalloff = 0.1f; // without it, heights do not matter
+    const uint64_t before = hashPacket(prepareFrame(jobs, arena, scene, view));
+    const Effects all = view.effects;
+    for (EffectOption const& option : effectOptions()) {
+        const std::string value = *effectValue(all, option.name);
+        for (const char* other : { "off", "0.02", "0.5", "0.75", "2", "0.5,0.25,0.75", "0.5,0.25,0.75,2" }) {
+            if (other != value && setEffect(view.effects, option.name, other)) break;
+        }
+        ASSERT_NE(effectValue(view.effects, option.name), value) << option.name;
+        EXPECT_NE(hashPacket(prepareFrame(jobs, arena, scene, view)), before) << option.name;
+        view.effects = all;
+    }
+}
+
+/// Only the picture moves in its pixels: shadow maps and the places of the last frame do not.
+TEST_F(PrepareFrameTest, GatheringMovesThePictureInsideOfItsPixels) {
+    add({ 0, 0, 0 }, material(shader::Blending::Opaque));
+    view.quality.antiAliasing = AntiAliasing::Taa;
+    const std::array views{ view };
+    LastFrame last;
+    std::array<int, 16> places{}; // in the pixel, 4 x 4 of them
+    for (int frame = 0; frame < 64; ++frame) {
+        const FramePacket packet = prepareFrame(jobs, arena, scene, views, {}, last);
+        ASSERT_TRUE(packet.demand.needs(Effect::Taa));
+        EXPECT_FALSE(packet.last.isElsewhere);
+        const float2 jitter = packet.gathering.jitterPixels;
+        EXPECT_EQ(jitter == float2(0), frame == 0);
+        EXPECT_NEAR(packet.gathering.weight, 1.0f / static_cast<float>(frame + 1), 1e-6f);
+        const float4 clip = packet.mainView().uniforms.clipFromWorld * float4(0, 0, -10, 1);
+        EXPECT_NEAR(clip.x / clip.w * 320, jitter.x, 1e-4f);
+        EXPECT_NEAR(clip.y / clip.w * 240, jitter.y, 1e-4f);
+        const int2 place = int2((jitter + 0.5f) * 4.0f);
+        ++places[static_cast<size_t>(place.y * 4 + place.x)];
+        last.keep(scene, view, packet);
+    }
+    for (const int count : places) EXPECT_NEAR(count, 4, 2) << "evenly";
 }
 
 TEST_F(PrepareFrameTest, AnEmptySceneIsAnEmptyPacket) {

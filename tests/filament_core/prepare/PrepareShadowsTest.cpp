@@ -235,7 +235,7 @@ TEST_F(PrepareShadowsTest, ParametersAndTimeCountForMaterialsWhoseDepthReadsThem
     EXPECT_EQ(frame().shadows.drawn, 1u);
     view.timeSeconds = 2;
     EXPECT_EQ(frame().shadows.drawn, 0u);
-    lit->material->package.depthReadsFrame = true;
+    lit->material->package.readsFrame = true;
     view.timeSeconds = 3;
     EXPECT_EQ(frame().shadows.drawn, 1u);
 }

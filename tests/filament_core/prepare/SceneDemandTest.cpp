@@ -38,7 +38,7 @@ TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
 
 TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
     Fog fog{ .enabled = true };
-    const auto demand = [&] { return findDemand({ .fog = fog }).of(Effect::Fog); };
+    const auto demand = [&] { return findDemand({ .effects = { .fog = fog } }).of(Effect::Fog); };
     EXPECT_TRUE(demand().isNeeded);
     EXPECT_EQ(describe(Effect::Fog, demand()), "lies between the camera and what is visible");
     fog.maximumOpacity = 0;
@@ -81,9 +81,9 @@ TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) 
     input.quality.ao = AmbientOcclusionTerm::Sao;
     EXPECT_EQ(described(), "darkens indirect light of 2 draws");
     EXPECT_TRUE(findDemand(input).needs(Effect::AmbientOcclusion));
-    input.ambientOcclusion.intensity = 0;
+    input.effects.ambientOcclusion.intensity = 0;
     EXPECT_EQ(described(), "its intensity is 0");
-    input.ambientOcclusion.intensity = 1;
+    input.effects.ambientOcclusion.intensity = 1;
     input.hasIndirectLight = false;
     EXPECT_EQ(described(), "no indirect light is seen");
     input.hasIndirectLight = true;
@@ -153,6 +153,49 @@ TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
 }
 
 std::string words(Effect effect, DemandInput const& input) { return describe(effect, findDemand(input).of(effect)); }
+
+TEST(SceneDemand, NeedsAntiAliasingOnlyWhereThereIsSomethingToSmooth) {
+    DemandInput input{ .counts = { .visible = 3, .opaqueDraws = 1 } };
+    EXPECT_EQ(words(Effect::Taa, input), "switched off: antiAliasing");
+    input.quality.antiAliasing = AntiAliasing::Taa;
+    EXPECT_EQ(words(Effect::Taa, input), "smooths the edges of what is visible");
+    EXPECT_FALSE(findDemand(input).needs(Effect::Fxaa));
+    EXPECT_FALSE(findDemand(input).needs(Effect::DepthPrepass)) << "of a still camera";
+    input.cameraMoved = true;
+    EXPECT_TRUE(findDemand(input).needs(Effect::DepthPrepass));
+    input.debugView = DebugView::Lights;
+    EXPECT_EQ(words(Effect::Taa, input), "a debug view is shown");
+    input = { .counts = {}, .hasSky = true };
+    input.quality.antiAliasing = AntiAliasing::Fxaa;
+    EXPECT_EQ(words(Effect::Fxaa, input), "no surface is visible");
+    input.quality.antiAliasing = AntiAliasing::Taa;
+    EXPECT_TRUE(findDemand(input).needs(Effect::Taa)) << "a sky has details";
+    input.hasSky = false;
+    EXPECT_EQ(words(Effect::Taa, input), "nothing is visible, not even a sky");
+}
+
+TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
+    DemandInput input;
+    EXPECT_EQ(words(Effect::Grading, input), "switched off: grading=off");
+    EXPECT_EQ(words(Effect::Vignette, input), "switched off: vignette=off");
+    EXPECT_EQ(words(Effect::Grain, input), "switched off: grain=off");
+    EXPECT_EQ(words(Effect::ChromaticAberration, input), "switched off: chromaticAberration=off");
+    input.effects.grading.enabled = input.effects.vignette.enabled = true;
+    input.effects.grain.enabled = input.effects.chromaticAberration.enabled = true;
+    EXPECT_EQ(words(Effect::Grading, input), "its values change nothing");
+    input.effects.grading.midPoint = float3(0.5f);
+    EXPECT_EQ(words(Effect::Grading, input), "its values change nothing") << "without a gamma or a scale";
+    input.effects.grading.contrast = 1.1f;
+    for (const Effect effect : { Effect::Grading, Effect::Vignette, Effect::Grain, Effect::ChromaticAberration })
+        EXPECT_EQ(words(effect, input), "changes the whole picture") << nameOf(effect);
+    input.effects.vignette.color = float3(1);
+    input.effects.grain.strength = input.effects.chromaticAberration.strength = 0;
+    EXPECT_EQ(words(Effect::Vignette, input), "its values change nothing");
+    EXPECT_EQ(words(Effect::Grain, input), "its intensity is 0");
+    EXPECT_EQ(words(Effect::ChromaticAberration, input), "its intensity is 0");
+    input.debugView = DebugView::Lights;
+    EXPECT_EQ(words(Effect::Grading, input), "a debug view is shown");
+}
 
 TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
     DemandInput input{ .counts = { .litDraws = 2 } };

@@ -28,25 +28,25 @@ Row withoutError(Row row, std::string_view why) {
 }
 
 std::vector<Row> edgeRows() {
-    const Argument u = direction("u"), v = direction("v");
+    const Argument first = direction("u"), second = direction("v");
     const Interval angle{ -3.1448, 3.1448 };
     const std::string_view kJump = "jumps by pi where the polygon's plane passes through the point, or its rim does";
     const Argument extent = number("extent", 0, 1);
     return {
         limited(areaRow("angleOverSine(float)", NUMERICS_CALL(angleOverSine(s.x)), { unit("x") }, { 0.9999, 1.5709 }),
                 relative(1e-6, 0, "a polynomial in Horner's form")),
-        withoutError(
-                withVectors(areaRow("edgeIntegral(vec3, vec3)", NUMERICS_CALL(edgeIntegral(u, v)), {}, angle), u, v),
-                "opposite directions have no normal in common"),
+        withoutError(withVectors(areaRow("edgeIntegral(vec3, vec3)", NUMERICS_CALL(edgeIntegral(u, v)), {}, angle),
+                                 first, second),
+                     "opposite directions have no normal in common"),
         limited(withVectors(areaRow("horizonBetween(vec3, vec3)",
                                     NUMERICS_CALL(horizonBetween(vec3(u.x, u.y, s.x), vec3(v.x, v.y, -s.y))),
                                     { number("above", 1e-6, 1), number("below", 1e-6, 1) }, { -1.001, 1.001 }),
-                            u, v),
+                            first, second),
                 absolute(1e-6, 0, "absolute: the sum of two parts"), "both on one side of the horizon"),
         limited(withVectors(areaRow("pointIntegral(vec3, vec3, vec3, float)",
                                     NUMERICS_CALL(pointIntegral(u, v * s.x, cross(u, v) * s.x, s.y)),
                                     { extent, number("area", 1, 4) }, { -4.01, 4.01 }),
-                            u, v),
+                            first, second),
                 absolute(1e-5, 0, "absolute: products that cancel where the polygon is seen from its side")),
         withoutError(withVectors(areaRow("polygonIntegral(vec3, vec3, vec3, vec2, vec2, int)",
                                          NUMERICS_CALL(polygonIntegral(u, v * s.x, cross(u, v) * s.x, vec2(s.y, s.z),
@@ -54,13 +54,13 @@ std::vector<Row> edgeRows() {
                                          { extent, number("corner.x", 0.5, 1), number("corner.y", 0.5, 1),
                                            number("turn.y", 1, 1) }, // as in areaIntegral(), where neither is constant
                                          { -6.29, 6.29 }),
-                                 u, v),
+                                 first, second),
                      kJump),
         withoutError(withVectors(areaRow("areaIntegral(vec3, vec3, vec3, bool)",
                                          NUMERICS_CALL(areaIntegral(u * s.y, v * s.x, cross(u, v) * s.x, s.z > s.x)),
                                          { number("extent", 0, 1e9), number("distance", 0, 1e9), unit("disc") },
                                          { -6.29, 6.29 }),
-                                 u, v),
+                                 first, second),
                      kJump),
     };
 }

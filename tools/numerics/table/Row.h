@@ -102,6 +102,8 @@ std::vector<Row> imageRows();    ///< aa, ao, ibl
 std::vector<Row> areaRows();     ///< ltc, profiles, and the range of areas of light
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
 std::vector<Row> screenRows();   ///< screen_occlusion
+std::vector<Row> temporalRows();
+std::vector<Row> gradingRows(); ///< grading, exposure
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

@@ -51,7 +51,7 @@ private:
 
 class QualityMeasurementTest : public testing::TestWithParam<Backend> {
 protected:
-    static constexpr int kAttempts = 4;
+    static constexpr int kAttempts = 8; // other work on the machine may last for minutes
 
     /// Ratio of the frame times of `quality` to those of the defaults, drawn in turns: the median of the faster half of
     /// the rounds. Measures processor time, because the devices of these tests run on the processor.

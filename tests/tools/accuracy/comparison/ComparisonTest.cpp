@@ -195,9 +195,9 @@ TEST(Comparison, TheReportHoldsEveryRowItsStepsAndItsCommand) {
         picture.read(signature, 8);
         EXPECT_STREQ(signature, "\x89PNG\r\n\x1A\n") << name;
     }
-    const auto json = jsonOf(*results);
-    EXPECT_EQ(json["rows"][0]["steps"].size(), results->rows[0].steps.size());
-    EXPECT_EQ(json["rows"][0]["rms"].get<double>(), results->rows[0].rms);
+    const auto document = jsonOf(*results);
+    EXPECT_EQ(document["rows"][0]["steps"].size(), results->rows[0].steps.size());
+    EXPECT_EQ(document["rows"][0]["rms"].get<double>(), results->rows[0].rms);
 }
 
 TEST(Comparison, RowsThatAreWrongAreRefusedWithTheirFileAndField) {

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/FinishPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <array>
+#include <cmath>
+
+namespace filament::passes {
+namespace {
+
+using backend::Format;
+using framegraph::FrameGraph;
+using framegraph::TextureId;
+using prepare::Effect;
+
+constexpr std::string_view kLightInputs[] = { "color" };
+constexpr FullScreenInterface kLight{ .pass = "light", .inputs = kLightInputs };
+constexpr std::string_view kToneInputs[] = { "color", "table" };
+constexpr FullScreenInterface kTone{ .pass = "tone map", .inputs = kToneInputs };
+constexpr std::string_view kFinishInputs[] = { "color", "around", "table", "exposure" };
+constexpr FullScreenParameter kFinishValues[] = {
+    { "fringe", ParameterType::Float },          { "vignette", ParameterType::Float4 },
+    { "vignetteColor", ParameterType::Float3 },  { "grainStrength", ParameterType::Float },
+    { "grainSize", ParameterType::Float },       { "mixRed", ParameterType::Float3 },
+    { "mixGreen", ParameterType::Float3 },       { "mixBlue", ParameterType::Float3 },
+    { "shadows", ParameterType::Float3 },        { "midtones", ParameterType::Float3 },
+    { "highlights", ParameterType::Float3 },     { "tonalRanges", ParameterType::Float4 },
+    { "slope", ParameterType::Float3 },          { "offset", ParameterType::Float3 },
+    { "power", ParameterType::Float3 },          { "contrastSaturationVibrance", ParameterType::Float3 },
+    { "shadowGamma", ParameterType::Float3 },    { "midPoint", ParameterType::Float3 },
+    { "highlightScale", ParameterType::Float3 },
+};
+constexpr FullScreenInterface kFinish{ .pass = "finish", .inputs = kFinishInputs, .values = kFinishValues };
+constexpr std::string_view kFxaaInputs[] = { "picture" };
+constexpr FullScreenParameter kFxaaValues[] = { { "grainStrength", ParameterType::Float },
+                                                { "grainSize", ParameterType::Float } };
+constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .values = kFxaaValues };
+
+/// What the passes of a frame do.
+struct Finish {
+    bool isSceneLinear = false;
+    bool smoothsEdges = false;
+    bool isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
+    bool hasGrain = false, dithers = false; // by the last pass, because smoothing takes noise for edges
+
+    /// Whether more than a tone mapper is asked for.
+    bool hasLens() const { return isExposed || isGraded || hasVignette || hasFringes || (hasGrain && !smoothsEdges); }
+};
+
+Finish finishOf(FrameContext const& context, bool isSceneLinear) {
+    prepare::SceneDemand const& demand = context.packet.demand;
+    return { .isSceneLinear = isSceneLinear,
+             .smoothsEdges = demand.needs(Effect::Fxaa),
+             .isExposed = demand.needs(Effect::AutoExposure),
+             .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
+             .hasVignette = demand.needs(Effect::Vignette),
+             .hasFringes = demand.needs(Effect::ChromaticAberration),
+             .hasGrain = demand.needs(Effect::Grain) && !isSceneLinear,
+             .dithers = context.view->colorGrading.dither && !isSceneLinear };
+}
+
+int32_t toneMapperOf(FrameContext const& context) {
+    return context.resources.toneTable ? 0 : static_cast<int32_t>(context.view->colorGrading.toneMapper);
+}
+
+void addToneMapPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId color,
+                    TextureId target) {
+    const std::array constants{ EffectConstant{ "dither", finish.dithers && !finish.smoothsEdges },
+                                EffectConstant{ "fromTable", static_cast<bool>(context.resources.toneTable) },
+                                EffectConstant{ "toneMapper", toneMapperOf(context) } };
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = color },
+                             FullScreenInput{ .name = "table", .image = context.resources.toneTable } };
+    addFullScreenPass(graph, context,
+                      { .name = "tone map",
+                        .material = context.resources.effects->get("tonemap", constants, kTone),
+                        .inputs = inputs,
+                        .target = target });
+}
+
+/// At the corners of the picture, red and blue lie `strength` of its height apart.
+float fringePerPixel(ChromaticAberration const& aberration, uint2 size) {
+    return aberration.strength * static_cast<float>(size.y) / glm::length(float2(size));
+}
+
+/// As finish.mat reads it: from a rectangle (0) by an ellipse (1/2) to a circle (1).
+float4 shapeOf(Vignette const& vignette, uint2 size) {
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    const float exponent = std::lerp(8.0f, 2.0f, std::min(2 * vignette.roundness, 1.0f));
+    const float width = std::lerp(1.0f, aspect, std::max(2 * vignette.roundness - 1, 0.0f));
+    return { vignette.midPoint, vignette.midPoint + 2 * vignette.feather, exponent, width };
+}
+
+float3 row(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
+
+auto valuesOf(FrameContext const& context) {
+    Effects const& effects = context.packet.effects;
+    Grading const& grading = effects.grading;
+    const double3x3 mix = gradingMatrix(grading);
+    const uint2 size = context.settings.size;
+    return std::array{
+        FullScreenValue{ "fringe", fringePerPixel(effects.chromaticAberration, size) },
+        FullScreenValue{ "vignette", shapeOf(effects.vignette, size) },
+        FullScreenValue{ "vignetteColor", effects.vignette.color },
+        FullScreenValue{ "grainStrength", effects.grain.strength },
+        FullScreenValue{ "grainSize", effects.grain.size },
+        FullScreenValue{ "mixRed", row(mix, 0) },
+        FullScreenValue{ "mixGreen", row(mix, 1) },
+        FullScreenValue{ "mixBlue", row(mix, 2) },
+        FullScreenValue{ "shadows", grading.shadows },
+        FullScreenValue{ "midtones", grading.midtones },
+        FullScreenValue{ "highlights", grading.highlights },
+        FullScreenValue{ "tonalRanges", grading.tonalRanges },
+        FullScreenValue{ "slope", grading.slope },
+        FullScreenValue{ "offset", grading.offset },
+        FullScreenValue{ "power", grading.power },
+        FullScreenValue{ "contrastSaturationVibrance", float3(grading.contrast, grading.saturation, grading.vibrance) },
+        FullScreenValue{ "shadowGamma", grading.shadowGamma },
+        FullScreenValue{ "midPoint", grading.midPoint },
+        FullScreenValue{ "highlightScale", grading.highlightScale },
+    };
+}
+
+void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
+                   TextureId target) {
+    const bool hasTable = static_cast<bool>(context.resources.toneTable) && !finish.isSceneLinear;
+    const std::array constants{
+        EffectConstant{ "isSceneLinear", finish.isSceneLinear },
+        EffectConstant{ "fromTable", hasTable },
+        EffectConstant{ "toneMapper", toneMapperOf(context) },
+        EffectConstant{ "dither", finish.dithers && !finish.smoothsEdges },
+        EffectConstant{ "autoExposure", finish.isExposed },
+        EffectConstant{ "graded", finish.isGraded },
+        EffectConstant{ "mapsGamut", finish.isGraded && context.packet.effects.grading.gamutMapping },
+        EffectConstant{ "aberration", finish.hasFringes },
+        EffectConstant{ "hasVignette", finish.hasVignette },
+        EffectConstant{ "grain", finish.hasGrain && !finish.smoothsEdges },
+    };
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
+                             FullScreenInput{ .name = "around",
+                                              .texture = finish.hasFringes ? targets.color : TextureId{},
+                                              .sampler = context.resources.samplers.bilinear },
+                             FullScreenInput{ .name = "table", .image = context.resources.toneTable },
+                             FullScreenInput{ .name = "exposure", .texture = targets.exposure } };
+    const auto values = valuesOf(context);
+    addFullScreenPass(graph, context,
+                      { .name = "finish",
+                        .material = context.resources.effects->get("finish", constants, kFinish),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+}
+
+void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId target) {
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = color } };
+    addFullScreenPass(graph, context,
+                      { .name = "light",
+                        .material = context.resources.effects->get("light", {}, kLight),
+                        .inputs = inputs,
+                        .target = target });
+}
+
+void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
+                 TextureId target) {
+    const std::array constants{ EffectConstant{ "isSceneLinear", finish.isSceneLinear },
+                                EffectConstant{ "dither", finish.dithers },
+                                EffectConstant{ "grain", finish.hasGrain } };
+    const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
+    Grain const& grain = context.packet.effects.grain;
+    const std::array values{ FullScreenValue{ "grainStrength", grain.strength },
+                             FullScreenValue{ "grainSize", grain.size } };
+    addFullScreenPass(graph, context,
+                      { .name = "fxaa",
+                        .material = context.resources.effects->get("fxaa", constants, kFxaa),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+}
+
+/// Before edges are smoothed. Noise that comes later needs more than 8 bits until then.
+TextureId createUnsmoothed(FrameGraph& graph, FrameContext const& context, Finish const& finish) {
+    const uint2 size = context.settings.size;
+    const bool isEightBit = !finish.isSceneLinear && !finish.dithers && !finish.hasGrain;
+    return graph.createTexture({ .width = size.x,
+                                 .height = size.y,
+                                 .format = isEightBit ? Format::RGBA8 : Format::RGBA16F,
+                                 .name = "with edges" });
+}
+
+/// Draws `target` from targets.color, by the cheapest pass that does what is asked for.
+void addPicture(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
+                TextureId target) {
+    if (finish.hasLens())
+        addFinishPass(graph, context, finish, targets, target);
+    else if (finish.isSceneLinear)
+        addLightPass(graph, context, targets.color, target);
+    else
+        addToneMapPass(graph, context, finish, targets.color, target);
+}
+
+} // namespace
+
+void addFinishPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isSceneLinear) {
+    if (targets.color == targets.output) return;
+    const Finish finish = finishOf(context, isSceneLinear);
+    if (!finish.smoothsEdges) return addPicture(graph, context, finish, targets, targets.output);
+    TextureId picture = targets.color;
+    if (finish.hasLens() || !finish.isSceneLinear) {
+        picture = createUnsmoothed(graph, context, finish);
+        addPicture(graph, context, finish, targets, picture);
+    }
+    addFxaaPass(graph, context, finish, picture, targets.output);
+}
+
+} // namespace filament::passes

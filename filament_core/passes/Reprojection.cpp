@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/Reprojection.h"
+
+namespace filament::passes {
+namespace {
+
+/// `end`: of the picture in the texture.
+double4x4 textureFromClip(double2 end) {
+    double4x4 texture(1.0);
+    texture[0][0] = texture[3][0] = end.x / 2;
+    texture[1][1] = texture[3][1] = end.y / 2;
+    return texture;
+}
+
+} // namespace
+
+double4x4 worldFromPixel(FrameContext const& context) {
+    const double2 size(context.settings.size);
+    double4x4 clipFromPixel(1.0);
+    clipFromPixel[0][0] = 2 / size.x, clipFromPixel[1][1] = 2 / size.y;
+    clipFromPixel[3] = double4(-1, -1, 0, 1);
+    return double4x4(context.packet.mainView().uniforms.worldFromClip) * clipFromPixel;
+}
+
+float4x4 lastFromPixel(FrameContext const& context, double2 end) {
+    return float4x4(textureFromClip(end) * double4x4(context.packet.last.clipFromWorld) * worldFromPixel(context));
+}
+
+} // namespace filament::passes

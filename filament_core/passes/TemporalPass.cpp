@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/TemporalPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/Reprojection.h"
+
+#include <array>
+
+namespace filament::passes {
+namespace {
+
+constexpr std::string_view kInputs[] = { "color", "history", "depth", "motion" };
+constexpr FullScreenParameter kValues[] = { { "lastFromPixel", ParameterType::Float4x4 },
+                                            { "perPixel", ParameterType::Float2 },
+                                            { "jitter", ParameterType::Float2 },
+                                            { "weight", ParameterType::Float } };
+constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .values = kValues };
+
+} // namespace
+
+void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::Taa)) return;
+    const uint2 size = context.settings.size;
+    const framegraph::History history = graph.history(
+            { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" });
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
+                             FullScreenInput{ .name = "history",
+                                              .texture = history.previous,
+                                              .sampler = context.resources.samplers.bilinear },
+                             FullScreenInput{ .name = "depth", .texture = targets.prepassDepth },
+                             FullScreenInput{ .name = "motion", .texture = targets.motion } };
+    const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, double2(1)) },
+                             FullScreenValue{ "perPixel", 1.0f / float2(size) },
+                             FullScreenValue{ "jitter", context.packet.gathering.jitterPixels },
+                             FullScreenValue{ "weight", context.packet.gathering.weight } };
+    const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motion);
+    const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
+    const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere }, EffectConstant{ "hasDepth", hasDepth },
+                                EffectConstant{ "isFixed", context.packet.gathering.isFixed },
+                                EffectConstant{ "hasMotion", hasMotion } };
+    addFullScreenPass(graph, context,
+                      { .name = "taa",
+                        .material = context.resources.effects->get("taa", constants, kInterface),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = history.current });
+    targets.color = history.current;
+}
+
+} // namespace filament::passes

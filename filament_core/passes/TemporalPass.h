@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Temporal anti-aliasing: the picture gathered over frames, each of which sees it from another place in its pixels.
+///   Draws   targets.color: the gathered picture, which the next frame finds as its history.
+///   How     Karis 2014, "High-Quality Temporal Supersampling": the history is looked up where it shows the same
+///           surface, limited to the colours around the pixel, and mixed with the new picture by Gathering::weight.
+///   Skips   all of it, unless the frame's demand needs it.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
+
+namespace filament::passes {
+
+void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+
+} // namespace filament::passes

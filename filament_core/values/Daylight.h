@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The colours of daylight: CIE 15:2004, section 3.1.
+///   Thread  any; pure.   Fails: never.
+#pragma once
+
+#include <filament/Math.h>
+
+namespace filament::color {
+
+/// CIE 1931 x, y of a phase of daylight; `kelvin` in [4000, 25000].
+double2 daylightChromaticity(double kelvin);
+
+} // namespace filament::color

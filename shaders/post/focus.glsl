@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the passes of depth of field share; included after shaders/lib/distance.glsl. The material has the parameter
+// `focus`: the members of prepare::Focus.
+
+// Radius of the disc, in pixels of the picture, as which a lens shows what a depth buffer holds; < 0: before the focus.
+float blurOfDepth(float depth) {
+    mat4 clip = getClipFromViewMatrix();
+    float nearness = 0.0;
+    if (depth != frameUniforms.exposure.w) {
+        nearness = 1.0 / distanceFromDepth(depth, vec2(clip[2].z, clip[3].z), vec2(clip[2].w, clip[3].w));
+    }
+    float most = materialParams.focus.z;
+    return clamp(materialParams.focus.x - materialParams.focus.y * nearness, -most, most);
+}

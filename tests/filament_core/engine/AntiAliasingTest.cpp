@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// FXAA and temporal anti-aliasing beside supersampling: how near they come to it, still and in motion, and that they
+// cost nothing and change nothing where there is nothing to smooth.
+#include "tests/filament_core/engine/SkyStage.h"
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tools/conformance/Flip.h"
+
+#include <filament/Renderer.h>
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace filament {
+namespace {
+
+using test::halfPixel;
+
+constexpr uint2 kFanSize(96, 80);
+
+/// Bars at all angles before a grey wall: edges of every slope, some of them thinner than a pixel.
+class Fan {
+public:
+    explicit Fan(Backend backend)
+            : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
+              scene(engine), renderer(engine), mSquare(engine), mBright(instanceOf("0.9")), mDark(instanceOf("0.05")),
+              mWall(instanceOf("0.3")) {
+        addBars();
+        mSquare.add(scene, mWall.instance, double3(0, 0, -1), 3);
+        view.size = kFanSize;
+        turn(0);
+    }
+    ~Fan() { test::expectNoErrors(engine); }
+
+    /// The camera to the right, in degrees.
+    void turn(double degrees) {
+        const double radians = glm::radians(degrees);
+        view.camera = Camera::lookAt({ 0, 0, 2 }, { std::sin(radians), 0, 2 - std::cos(radians) },
+                                     { .verticalFovDegrees = 50 });
+    }
+    void turnBars(double degrees) {
+        for (size_t i = 0; i < mBars.size(); ++i) scene.setTransform(mBars[i], placeOf(i, degrees));
+    }
+    Image draw(Renderer& with) {
+        const Owned<SwapChain> target = engine.own(engine.create(
+                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
+        with.render(scene, view, target);
+        auto image = with.waitPixels(with.readPixels(target));
+        EXPECT_TRUE(image);
+        return image ? std::move(*image) : Image{};
+    }
+    Image draw() { return draw(renderer); }
+
+    /// The mean of 8 x 8 samples a pixel.
+    Image supersampled() {
+        constexpr uint32_t kSide = 8;
+        const View seen = view;
+        view.size = seen.size * kSide;
+        view.quality.antiAliasing = AntiAliasing::Off;
+        Renderer other(engine);
+        const Image large = draw(other);
+        view = seen;
+        Image small{ .width = seen.size.x, .height = seen.size.y, .format = large.format, .pixels = {} };
+        std::vector<uint16_t> halves;
+        for (uint32_t y = 0; y < small.height; ++y) {
+            for (uint32_t x = 0; x < small.width; ++x) {
+                float4 sum(0);
+                for (uint32_t i = 0; i < kSide * kSide; ++i)
+                    sum += halfPixel(large, x * kSide + i % kSide, y * kSide + i / kSide);
+                for (int c = 0; c < 4; ++c) halves.push_back(halfFromFloat(sum[c] / float(kSide * kSide)));
+            }
+        }
+        small.pixels.resize(halves.size() * 2);
+        std::memcpy(small.pixels.data(), halves.data(), small.pixels.size());
+        return small;
+    }
+
+    Engine engine;
+    Scene scene;
+    Renderer renderer;
+    View view;
+
+private:
+    struct Shade {
+        Owned<Material> material;
+        Owned<MaterialInstance> instance;
+    };
+    Shade instanceOf(std::string_view light) {
+        Shade shade;
+        shade.material = test::loadMaterial(
+                engine, test::text("shadingModel : unlit, culling : none",
+                                   "material.baseColor = vec4(vec3(" + std::string(light) + "), 1.0);"));
+        shade.instance = engine.own(engine.createInstance(shade.material));
+        return shade;
+    }
+    static double4x4 placeOf(size_t bar, double degrees) {
+        const double angle = std::numbers::pi * static_cast<double>(bar) / 12 + glm::radians(degrees);
+        double4x4 place = glm::rotate(double4x4(1.0), angle, double3(0, 0, 1));
+        place = glm::translate(place, double3(0.5, 0, static_cast<double>(bar) * 0.01));
+        return glm::scale(place, double3(0.4, bar % 3 == 0 ? 0.005 : 0.02, 1));
+    }
+    void addBars() {
+        for (size_t i = 0; i < 24; ++i)
+            mBars.push_back(mSquare.add(scene, i % 2 ? mBright.instance : mDark.instance, placeOf(i, 3)));
+    }
+
+    test::SquareMesh mSquare;
+    Shade mBright, mDark, mWall;
+    std::vector<Renderable> mBars;
+};
+
+/// Of all components.
+double rmsBetween(Image const& a, Image const& b) {
+    double sum = 0;
+    for (uint32_t y = 0; y < a.height; ++y) {
+        for (uint32_t x = 0; x < a.width; ++x) {
+            const float3 away = float3(halfPixel(a, x, y)) - float3(halfPixel(b, x, y));
+            sum += static_cast<double>(dot(away, away)) / 3;
+        }
+    }
+    return std::sqrt(sum / (static_cast<double>(a.width) * a.height));
+}
+
+TEST(Taa, OfAStillCameraConvergesToSupersampling) {
+    Fan fan(Backend::Vulkan);
+    const Image exact = fan.supersampled();
+    const double without = rmsBetween(fan.draw(), exact);
+    fan.view.quality.antiAliasing = AntiAliasing::Taa;
+    std::vector<double> errors;
+    for (int frame = 1; frame <= 64; ++frame) errors.push_back(rmsBetween(fan.draw(), exact));
+    EXPECT_EQ(errors[0], without) << "the first frame is seen from the middle of its pixels";
+    EXPECT_LT(errors[7], 0.4 * without);
+    EXPECT_LT(errors[15], 0.3 * without);
+    EXPECT_LT(errors[63], 0.01);
+}
+
+/// FLIP beside supersampling, the mean over frames.
+double flipInMotion(AntiAliasing antiAliasing, void (*move)(Fan& fan, int frame)) {
+    Fan fan(Backend::Vulkan);
+    fan.view.quality.antiAliasing = antiAliasing;
+    double sum = 0;
+    constexpr int kWarmUp = 8, kFrames = 16;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        move(fan, frame);
+        const Image drawn = fan.draw();
+        if (frame >= kWarmUp) sum += conformance::flip(fan.supersampled(), drawn).mean / (kFrames - kWarmUp);
+    }
+    return sum;
+}
+
+TEST(Taa, InMotionIsNearerToSupersamplingThanFxaaAndNothing) {
+    const std::pair<const char*, void (*)(Fan&, int)> motions[] = {
+        { "the camera turns", [](Fan& fan, int frame) { fan.turn(0.37 * frame); } },
+        { "the camera moves", [](Fan& fan, int frame) { fan.view.camera.worldFromView[3].x = 0.013 * frame; } },
+        { "the bars turn", [](Fan& fan, int frame) { fan.turnBars(0.7 * frame); } },
+    };
+    for (auto const& [name, move] : motions) {
+        const double off = flipInMotion(AntiAliasing::Off, move), fxaa = flipInMotion(AntiAliasing::Fxaa, move),
+                     taa = flipInMotion(AntiAliasing::Taa, move);
+        EXPECT_LT(taa, fxaa) << name;
+        EXPECT_LT(taa, off) << name;
+        RecordProperty(name, fmt::format("off {:.4f}, fxaa {:.4f}, taa {:.4f}", off, fxaa, taa));
+    }
+}
+
+/// What the camera, objects, and both do in 30 frames.
+TEST(Taa, GathersTheSameBitsOnBothApisWhateverMoves) {
+    std::vector<Image> last;
+    for (const Backend backend : test::kBothApis) {
+        Fan fan(backend);
+        fan.view.quality.antiAliasing = AntiAliasing::Taa;
+        for (int frame = 0; frame < 30; ++frame) {
+            if (frame >= 5 && frame < 15) fan.turn(0.2 * frame);
+            if (frame >= 10 && frame < 25) fan.turnBars(0.5 * frame);
+            last.push_back(fan.draw());
+        }
+    }
+    for (size_t frame = 0; frame < 30; ++frame)
+        EXPECT_EQ(test::differingPixels(last[frame], last[30 + frame]), 0u) << frame;
+}
+
+/// What an object leaves behind is no longer seen: its history is not that of what it uncovers.
+TEST(Taa, LeavesNoGhosts) {
+    Fan fan(Backend::Vulkan);
+    fan.view.quality.antiAliasing = AntiAliasing::Taa;
+    for (int frame = 0; frame < 8; ++frame) fan.draw();
+    double worst = 0;
+    for (int frame = 0; frame < 8; ++frame) {
+        fan.turnBars(4.0 * frame);
+        worst = std::max(worst, rmsBetween(fan.draw(), fan.supersampled()));
+    }
+    fan.view.quality.antiAliasing = AntiAliasing::Off;
+    EXPECT_LT(worst, 1.1 * rmsBetween(fan.draw(), fan.supersampled()));
+}
+
+TEST(Taa, ForgetsAnotherSceneAndAnotherSize) {
+    Fan fan(Backend::Vulkan);
+    fan.view.quality.antiAliasing = AntiAliasing::Taa;
+    for (int frame = 0; frame < 4; ++frame) fan.draw();
+    Scene empty(fan.engine);
+    fan.view.clearColor = float4(0.25f, 0.5f, 1, 1);
+    const Owned<SwapChain> target = fan.engine.own(
+            fan.engine.create(SwapChainDesc{ .size = fan.view.size, .imageCount = 1, .format = Format::RGBA16F }));
+    fan.renderer.render(empty, fan.view, target);
+    fan.view.size = { 50, 40 };
+    Renderer fresh(fan.engine);
+    EXPECT_EQ(rmsBetween(fan.draw(), fan.draw(fresh)), 0.0);
+}
+
+TEST(Fxaa, SmoothsEdgesAndLeavesEvenSurfacesAlone) {
+    std::vector<Image> smooth;
+    for (const Backend backend : test::kBothApis) {
+        Fan fan(backend);
+        const Image off = fan.draw(), exact = fan.supersampled();
+        fan.view.quality.antiAliasing = AntiAliasing::Fxaa;
+        smooth.push_back(fan.draw());
+        EXPECT_LT(rmsBetween(smooth.back(), exact), 0.8 * rmsBetween(off, exact));
+        EXPECT_EQ(halfPixel(smooth.back(), 2, 2), halfPixel(off, 2, 2)) << "the wall";
+    }
+    EXPECT_EQ(test::differingPixels(smooth[0], smooth[1]), 0u);
+}
+
+TEST(Fxaa, HasTheSameBitsOnBothApisForDisplays) {
+    for (const bool dither : { false, true }) {
+        std::vector<Image> images;
+        for (const Backend backend : test::kBothApis) {
+            Fan fan(backend);
+            fan.view.colorGrading.dither = dither;
+            fan.view.quality.antiAliasing = AntiAliasing::Fxaa;
+            images.push_back(std::move(*fan.renderer.renderToImage(fan.scene, fan.view)));
+        }
+        EXPECT_EQ(images[0].pixels, images[1].pixels) << dither;
+    }
+}
+
+/// One texel of the picture that is no number, or the largest one there is.
+TEST(AntiAliasing, ContainsBrokenTexels) {
+    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa }) {
+        for (const char* light : { "1e30", "log(-1.0 - getUserTime().x)", "1.0 / getUserTime().x" }) {
+            std::vector<Image> images;
+            for (const Backend backend : test::kBothApis) {
+                auto engine = test::makeEngine(backend);
+                ASSERT_TRUE(engine);
+                const test::SquareMesh square(*engine);
+                const Owned<Material> material = test::loadMaterial(
+                        *engine, test::text("shadingModel : unlit",
+                                            "material.baseColor = vec4(vec3(ivec2(gl_FragCoord.xy) == ivec2(7, 9) && "
+                                            "getUserTime().x == 0.0 ? " +
+                                                    std::string(light) + " : 0.5), 1.0);"));
+                const Owned<MaterialInstance> instance = engine->own(engine->createInstance(material));
+                Scene scene(*engine);
+                square.add(scene, instance, double3(0), 4);
+                View view{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, {}), .size = { 17, 19 } };
+                view.quality.antiAliasing = antiAliasing;
+                Renderer renderer(*engine);
+                const Owned<SwapChain> target = engine->own(
+                        engine->create(SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F }));
+                for (int frame = 0; frame < 2; ++frame) {
+                    view.timeSeconds = frame;
+                    renderer.render(scene, view, target);
+                    images.push_back(std::move(*renderer.waitPixels(renderer.readPixels(target))));
+                }
+                for (uint32_t i = 0; i < 17 * 19; ++i) {
+                    const uint32_t x = i % 17, y = i / 17;
+                    const bool isBeside = std::abs(int(x) - 7) <= 1 && std::abs(int(y) - 9) <= 1;
+                    EXPECT_TRUE(isBeside || halfPixel(images[images.size() - 2], x, y).x == 0.5f) << x << " " << y;
+                    EXPECT_NEAR(halfPixel(images.back(), x, y).x, 0.5f, 2e-3f) << light << ": gone with the next frame";
+                }
+                test::expectNoErrors(*engine);
+            }
+            EXPECT_EQ(test::differingPixels(images[1], images[3]), 0u) << light;
+        }
+    }
+}
+
+TEST(AntiAliasing, IsFiniteInAllSizes) {
+    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa }) {
+        for (const uint2 size : { uint2(1, 1), uint2(2, 3), uint2(16384, 1), uint2(1, 300) }) {
+            Fan fan(Backend::Gles);
+            fan.view.quality.antiAliasing = antiAliasing;
+            fan.view.size = size;
+            fan.draw();
+            fan.turn(1);
+            EXPECT_GE(test::extremesOf(fan.draw()).least, 0.0f);
+        }
+    }
+}
+
+/// The passes of a frame, and what explain() says.
+void expectNothing(Fan& fan, Scene const& scene, AntiAliasing antiAliasing, const char* reason) {
+    fan.view.quality.antiAliasing = AntiAliasing::Off;
+    const Image before = std::move(*fan.renderer.renderToImage(scene, fan.view));
+    const FrameStatistics off = fan.renderer.statistics();
+    fan.view.quality.antiAliasing = antiAliasing;
+    (void)fan.renderer.renderToImage(scene, fan.view);
+    const Image after = std::move(*fan.renderer.renderToImage(scene, fan.view));
+    EXPECT_EQ(fan.renderer.statistics().passesRun, off.passesRun);
+    EXPECT_EQ(fan.renderer.statistics().draws, off.draws);
+    EXPECT_EQ(before.pixels, after.pixels);
+    EXPECT_NE(fan.renderer.explain().find(reason), std::string::npos) << fan.renderer.explain();
+}
+
+TEST(AntiAliasing, CostsNothingWithoutEdges) {
+    for (const Backend backend : test::kBothApis) {
+        Fan fan(backend);
+        Scene empty(fan.engine);
+        expectNothing(fan, empty, AntiAliasing::Taa, "nothing is visible, not even a sky");
+        expectNothing(fan, empty, AntiAliasing::Fxaa, "nothing is visible, not even a sky");
+        expectNothing(fan, fan.scene, AntiAliasing::Off, "switched off: antiAliasing");
+    }
+}
+
+} // namespace
+} // namespace filament
