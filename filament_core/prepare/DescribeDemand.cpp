@@ -230,7 +230,8 @@ const char* nameOf(Effect effect) {
 }
 
 std::string describe(Effect effect, EffectDemand const& demand) {
-    return demand.isNeeded ? describeNeed(effect, demand) : describeLack(effect, demand);
+    const std::string need = describeNeed(effect, demand);
+    return need.empty() ? describeLack(effect, demand) : need;
 }
 
 } // namespace filament::prepare
