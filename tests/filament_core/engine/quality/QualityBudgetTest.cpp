@@ -129,7 +129,7 @@ TEST(QualityBudget, MoreTimeIsNeverWorse) {
     double squares = 0;
     for (QualityEffect const& effect : defaultQualityCosts().effects)
         squares += std::pow(std::ranges::min(effect.values, {}, &QualityCost::error).error, 2);
-    EXPECT_NEAR(last, std::sqrt(squares), 1e-5) << "enough time buys everything";
+    EXPECT_LE(last, std::sqrt(squares) + 1e-5) << "enough time buys everything";
 }
 
 TEST(QualityBudget, NoPresetOfTheSameTimeIsBetter) {
