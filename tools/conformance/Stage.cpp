@@ -121,8 +121,9 @@ Result<void> Stage::set(SceneSpec const& spec) {
     else if (mModel && !mMaterial && mModel->environment())
         mScene->setEnvironment(*mModel->environment(), spec.environmentSettings);
     mView = spec.view;
-    mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());
     mSpec = spec;
+    setBack(0); // the camera frames what is posed
+    mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());
     mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = spec.view.size,
                                                         .imageCount = 1,
                                                         .format = spec.linear ? Format::RGBA16F : Format::RGBA8,
