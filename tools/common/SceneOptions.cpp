@@ -121,6 +121,12 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
     if (name == "debugView")
         return choose(options.debugView, debugViewFromName(value),
                       "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction or fog");
+    if (name == "samples")
+        return choose(options.samples,
+                      value == "1"   ? std::optional<uint8_t>(1)
+                      : value == "4" ? std::optional<uint8_t>(4)
+                                     : std::nullopt,
+                      "1 or 4 samples a pixel");
     if (name.starts_with("sun.")) return convertSun(name, value, options.sun);
     if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
     if (name == "environment.format")

@@ -40,6 +40,7 @@ struct SceneOptions {
     Quality quality{};
     Effects effects{};                           ///< --set fog=on, fog.density=0.2
     DebugView debugView = DebugView::None;       ///< --set debugView=froxels; not of traced pictures
+    uint8_t samples = 1;                         ///< --set samples=4: MSAA; not of traced pictures
     bool exactShaders = true;                    ///< --set exact=off
     EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear
     GltfLoadOptions modelOptions{};              ///< --set model.positions=half, model.tangents=snorm8

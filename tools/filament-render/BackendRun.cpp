@@ -50,6 +50,7 @@ View viewOf(Options const& options) {
              .colorGrading = options.colorGrading,
              .quality = options.quality,
              .effects = options.effects,
+             .samples = options.samples,
              .debugView = options.debugView,
              .timeSeconds = options.seconds.value_or(0) };
 }
