@@ -167,6 +167,17 @@ void defineDeformation(StageText& out, MaterialDefinition const& definition) {
     defineIf(out, placesAreFree, "EIGHT_JOINTS");
 }
 
+/// As many texels of a shadow map as the material is opaque.
+bool castsThroughDither(MaterialDefinition const& definition) {
+    const Blending blending = definition.package.blending;
+    return definition.package.transparentShadow && blending != Blending::Opaque && blending != Blending::Masked;
+}
+
+/// Whether the author's code decides where a variant of depth alone leaves it.
+bool shapesDepth(MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    return cutsHoles(definition, needs) || transmitsLight(definition.package);
+}
+
 Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
     const bool deforms = (variantKey & kVariantSkinning) != 0;
@@ -175,15 +186,18 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     defineSurface(out, definition, needs);
     if (deforms) defineDeformation(out, definition);
     const bool isOfMotion = (variantKey & kVariantMotion) != 0;
+    const bool isOfDepth = (variantKey & kVariantDepth) != 0 && !shapesDepth(definition, needs);
     defineIf(out, isOfMotion, "VARIANT_MOTION");
+    defineIf(out, isOfDepth, "POSITION_ALONE");
     defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
     defineVariableMacros(out, definition);
     Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl",
                                           "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
-    if (done && !isOfMotion) done = out.include("shaders/material/varyings.glsl");
+    const bool hasVaryings = !isOfMotion && !isOfDepth;
+    if (done && hasVaryings) done = out.include("shaders/material/varyings.glsl");
     if (!done) return done.error();
     declareInterface(out, definition);
-    if (!isOfMotion) {
+    if (hasVaryings) {
         declareVariables(out, definition);
         declareCustomVaryings(out, definition, needs);
     }
@@ -328,12 +342,6 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     return done;
 }
 
-/// As many texels of a shadow map as the material is opaque.
-bool castsThroughDither(MaterialDefinition const& definition) {
-    const Blending blending = definition.package.blending;
-    return definition.package.transparentShadow && blending != Blending::Opaque && blending != Blending::Masked;
-}
-
 Result<void> includeTransmission(StageText& out) {
     declareQuality(out);
     out.define("TRANSMITS_DEPTH");
@@ -345,7 +353,7 @@ Result<std::string> depthFragment(MaterialDefinition const& definition, Material
                                   IncludeResolver const& includes) {
     StageText out = stageOf(needs, includes);
     Result<void> done;
-    if (cutsHoles(definition, needs) || transmitsLight(definition.package)) {
+    if (shapesDepth(definition, needs)) {
         done = beginSurfaceFragment(out, definition, needs, variantKey);
         defineIf(out, castsThroughDither(definition), "DITHERS_DEPTH");
         if (done) done = out.include("shaders/lib/noise.glsl");
@@ -423,6 +431,12 @@ Result<std::string> postFragment(MaterialDefinition const& definition, MaterialN
 bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     return definition.package.blending == Blending::Masked || needs.words.contains("discard") ||
            castsThroughDither(definition);
+}
+
+uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage) {
+    if (stage == backend::ShaderStage::Fragment) return kAllVariantBits & ~kVariantSkinning;
+    const bool hasOwnDepth = definition.package.domain == MaterialDomain::Surface && !shapesDepth(definition, needs);
+    return static_cast<uint16_t>(kVariantSkinning | kVariantMotion | (hasOwnDepth ? kVariantDepth : 0));
 }
 
 bool MaterialNeeds::has(std::string_view term) const {

@@ -38,8 +38,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
 bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs);
 
 /// The bits of a variant that change the text of a stage.
-inline constexpr uint16_t kVertexVariantBits = kVariantSkinning | kVariantMotion;
-inline constexpr uint16_t kFragmentVariantBits = kAllVariantBits & ~kVariantSkinning;
+uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage);
 
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    uint16_t variantKey, IncludeResolver const& includes);

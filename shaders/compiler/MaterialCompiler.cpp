@@ -109,22 +109,21 @@ struct Stage {
     std::optional<Result<StageShader>> compiled{};
 };
 
-std::vector<Stage> distinctStages(std::span<const uint16_t> keys) {
+std::vector<Stage> distinctStages(Prepared const& prepared, std::span<const uint16_t> keys) {
     std::vector<Stage> stages;
     const auto add = [&](backend::ShaderStage stage, uint16_t key) {
         const auto isSame = [&](Stage const& known) { return known.stage == stage && known.key == key; };
         if (std::ranges::none_of(stages, isSame)) stages.push_back({ stage, key });
     };
     for (const uint16_t key : keys) {
-        add(backend::ShaderStage::Vertex, key & kVertexVariantBits);
-        add(backend::ShaderStage::Fragment, key & kFragmentVariantBits);
+        for (const backend::ShaderStage stage : { backend::ShaderStage::Vertex, backend::ShaderStage::Fragment })
+            add(stage, key & variantBits(prepared.definition, prepared.needs, stage));
     }
     return stages;
 }
 
-Stage& stageOf(std::vector<Stage>& stages, backend::ShaderStage stage, uint16_t key) {
-    const auto bits = static_cast<uint16_t>(
-            key & (stage == backend::ShaderStage::Vertex ? kVertexVariantBits : kFragmentVariantBits));
+Stage& stageOf(std::vector<Stage>& stages, Prepared const& prepared, backend::ShaderStage stage, uint16_t key) {
+    const auto bits = static_cast<uint16_t>(key & variantBits(prepared.definition, prepared.needs, stage));
     return *std::ranges::find_if(stages, [&](Stage const& known) { return known.stage == stage && known.key == bits; });
 }
 
@@ -160,7 +159,7 @@ Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, Com
 }
 
 std::vector<Stage> compileStages(Prepared const& prepared, CompileOptions const& options) {
-    std::vector<Stage> stages = distinctStages(prepared.keys);
+    std::vector<Stage> stages = distinctStages(prepared, prepared.keys);
     const auto compileRange = [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) stages[i].compiled = compileOne(prepared, stages[i], options);
     };
@@ -190,8 +189,8 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     }
     if (!errors.empty()) return joined(errors);
     for (const uint16_t key : prepared->keys) {
-        StageShader const& vertex = **stageOf(stages, backend::ShaderStage::Vertex, key).compiled;
-        StageShader const& fragment = **stageOf(stages, backend::ShaderStage::Fragment, key).compiled;
+        StageShader const& vertex = **stageOf(stages, *prepared, backend::ShaderStage::Vertex, key).compiled;
+        StageShader const& fragment = **stageOf(stages, *prepared, backend::ShaderStage::Fragment, key).compiled;
         if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex.vertexInputs;
         package.variants.push_back({ key, vertex.spirv, fragment.spirv, vertex.essl, fragment.essl });
     }
@@ -226,8 +225,8 @@ Result<std::string> preprocessMaterial(std::string_view text, std::string_view f
     std::string out;
     for (const uint16_t key : prepared->keys) {
         for (const backend::ShaderStage stage : { backend::ShaderStage::Vertex, backend::ShaderStage::Fragment }) {
-            std::vector<Stage> of = distinctStages({ &key, 1 });
-            Result<std::string> glsl = generate(*prepared, stageOf(of, stage, key));
+            std::vector<Stage> of = distinctStages(*prepared, { &key, 1 });
+            Result<std::string> glsl = generate(*prepared, stageOf(of, *prepared, stage, key));
             if (!glsl) return glsl.error();
             out += fmt::format("// ==== variant {} {}\n{}\n", key,
                                stage == backend::ShaderStage::Vertex ? "vertex" : "fragment", *glsl);

@@ -113,8 +113,8 @@ void main() {
 
 #else
 
-void main() {
-    MaterialVertexInputs inputs = materialVertexInputs();
+#if !defined(POSITION_ALONE)
+void writeVaryings(MaterialVertexInputs inputs) {
 #if defined(NEEDS_WORLD_POSITION)
     vertex_worldPosition = inputs.worldPosition.xyz;
 #endif
@@ -143,7 +143,14 @@ void main() {
 #endif
     MATERIAL_WRITE_VARIABLES(inputs)
     MATERIAL_WRITE_CUSTOMS
+}
+#endif
 
+void main() {
+    MaterialVertexInputs inputs = materialVertexInputs();
+#if !defined(POSITION_ALONE)
+    writeVaryings(inputs);
+#endif
     gl_Position = clipPosition(inputs, frameUniforms.clipFromWorld);
     gl_PointSize = 1.0; // both APIs leave the size of points undefined otherwise
 }
