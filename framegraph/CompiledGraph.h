@@ -94,6 +94,7 @@ struct TexturePlan {
     Lifetime lifetime;
     backend::TextureUsage usage{};
     backend::TextureHandle handle; ///< none if unused
+    uint32_t memory = kNone;       ///< equal for transients that share it; none for other textures
     uint32_t historyAge = 0;       ///< HistoryRole::Previous: see PassContext::historyAge()
 };
 

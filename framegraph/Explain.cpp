@@ -146,11 +146,11 @@ const char* originOf(Texture const& texture) {
     return texture.isImported ? ", imported" : texture.isOutput ? ", output" : "";
 }
 
-// Other transients that share the same handle.
+// Other transients in the same memory.
 void putSharing(Text text, CompiledGraph const& plan, size_t texture) {
     const char* before = ", shares memory with ";
     for (size_t i = 0; i < plan.textures.size(); ++i) {
-        if (i == texture || plan.textures[i].handle != plan.textures[texture].handle) continue;
+        if (i == texture || plan.textures[i].memory != plan.textures[texture].memory) continue;
         fmt::format_to(text, "{}'{}'", before, plan.graph->textures()[i].desc.name);
         before = ", ";
     }
@@ -176,7 +176,7 @@ void putTextures(Text text, CompiledGraph const& plan) {
             fmt::format_to(text, ", no frame before: cleared");
         if (texture.history == HistoryRole::Previous && of.historyAge > 0)
             fmt::format_to(text, ", written {} graph(s) ago", of.historyAge);
-        if (!texture.isImported && texture.history == HistoryRole::None) putSharing(text, plan, i);
+        if (of.memory != kNone) putSharing(text, plan, i);
         fmt::format_to(text, "\n");
     }
 }
@@ -184,9 +184,12 @@ void putTextures(Text text, CompiledGraph const& plan) {
 void putMemory(Text text, CompiledGraph const& plan) {
     const AttachmentMemory memory = attachmentMemory(plan);
     constexpr double kMegabyte = 1e6;
-    fmt::format_to(text, "memory: {:.2f} MB of textures, {:.2f} MB of them in the tile; sharing saves {:.2f} MB\n",
+    const double all = static_cast<double>(memory.bytes + memory.saved);
+    fmt::format_to(text,
+                   "memory: {:.2f} MB of textures, {:.2f} MB of them in the tile; sharing saves {:.2f} MB, {:.0f} %\n",
                    static_cast<double>(memory.bytes) / kMegabyte, static_cast<double>(memory.inTile) / kMegabyte,
-                   static_cast<double>(memory.saved) / kMegabyte);
+                   static_cast<double>(memory.saved) / kMegabyte,
+                   all > 0 ? 100 * static_cast<double>(memory.saved) / all : 0.0);
 }
 
 const char* nameOf(BufferUse use) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "framegraph/CompileSteps.h"
+#include "framegraph/Memory.h"
 
 #include <algorithm>
 
@@ -44,7 +45,23 @@ BufferUsage usageOf(BufferAccess const& access) {
     return access.writes ? BufferUsage{} : BufferUsage::TransferSource; // any buffer can be updated
 }
 
-/// Indices into `lifetimes`, ordered by first use: the order of requests to the pool.
+/// Indices of the textures, the largest first, and of the same size the one that is used first: the order of requests to
+/// the pool. What is small then finds room in the memory of what is large.
+std::span<uint32_t> bySize(FrameGraph const& graph, std::span<const Lifetime> lifetimes) {
+    const std::span<uint32_t> numbers = graph.arena().array<uint32_t>(lifetimes.size());
+    const std::span<uint64_t> bytes = graph.arena().array<uint64_t>(lifetimes.size());
+    for (uint32_t i = 0; i < numbers.size(); ++i) {
+        numbers[i] = i;
+        bytes[i] = bytesOf(graph.textures()[i].desc);
+    }
+    std::sort(numbers.begin(), numbers.end(), [&](uint32_t a, uint32_t b) {
+        if (bytes[a] != bytes[b]) return bytes[a] > bytes[b];
+        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
+    });
+    return numbers;
+}
+
+/// Indices into `lifetimes`, ordered by first use.
 std::span<uint32_t> byFirstUse(Arena& arena, std::span<const Lifetime> lifetimes) {
     const std::span<uint32_t> numbers = arena.array<uint32_t>(lifetimes.size());
     for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
@@ -138,13 +155,15 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
                                         std::span<const TextureUsage> usage, TransientPool& pool) {
     const std::span<TexturePlan> plans = graph.arena().array<TexturePlan>(lifetimes.size());
-    for (const uint32_t i : byFirstUse(graph.arena(), lifetimes)) {
+    for (const uint32_t i : bySize(graph, lifetimes)) {
         Texture const& texture = graph.textures()[i];
         plans[i] = { lifetimes[i], usage[i], texture.imported };
         const bool isPooled = !texture.isImported && texture.history == HistoryRole::None;
         if (!isPooled || !lifetimes[i].isUsed()) continue;
         const uint32_t last = texture.isOutput ? kNone : lifetimes[i].last; // an output outlives the last group
-        plans[i].handle = pool.acquire(descOf(texture.desc, usage[i]), lifetimes[i].first, last);
+        const PooledTransient pooled = pool.acquire(descOf(texture.desc, usage[i]), { lifetimes[i].first, last });
+        plans[i].handle = pooled.handle;
+        plans[i].memory = pooled.memory;
     }
     for (size_t i = 0; i < plans.size(); ++i) {
         if (graph.textures()[i].history == HistoryRole::Previous) assignHistory(graph, i, plans, pool);

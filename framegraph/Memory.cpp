@@ -13,6 +13,16 @@ uint64_t bytesOfLevel(GraphTextureDesc const& desc, uint32_t level) {
     return texels * desc.samples * backend::formatInfo(desc.format).bytesPerBlock;
 }
 
+/// Of the textures before this one that are in its memory; 0 if there are none.
+uint64_t largestBefore(CompiledGraph const& plan, size_t texture) {
+    uint64_t largest = 0;
+    for (size_t i = 0; i < texture && plan.textures[texture].memory != kNone; ++i) {
+        if (plan.textures[i].memory == plan.textures[texture].memory)
+            largest = std::max(largest, bytesOf(plan.graph->textures()[i].desc));
+    }
+    return largest;
+}
+
 } // namespace
 
 uint64_t bytesOf(GraphTextureDesc const& desc) {
@@ -27,11 +37,11 @@ AttachmentMemory attachmentMemory(CompiledGraph const& plan) {
         TexturePlan const& texture = plan.textures[i];
         Texture const& declared = plan.graph->textures()[i];
         if (declared.isImported || !texture.lifetime.isUsed()) continue;
-        const uint64_t bytes = bytesOf(declared.desc);
-        const auto before = plan.textures.first(i);
-        const bool shares = std::ranges::find(before, texture.handle, &TexturePlan::handle) != before.end();
-        (shares ? memory.saved : memory.bytes) += bytes;
-        if (!shares && has(texture.usage, backend::TextureUsage::Transient)) memory.inTile += bytes;
+        const uint64_t bytes = bytesOf(declared.desc), largest = largestBefore(plan, i);
+        memory.bytes += bytes > largest ? bytes - largest : 0;
+        memory.saved += std::min(bytes, largest);
+        if (has(texture.usage, backend::TextureUsage::Transient))
+            memory.inTile += bytes > largest ? bytes - largest : 0;
     }
     return memory;
 }

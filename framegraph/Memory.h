@@ -13,9 +13,9 @@ namespace filament::framegraph {
 uint64_t bytesOf(GraphTextureDesc const& desc);
 
 struct AttachmentMemory {
-    uint64_t bytes = 0;  ///< of the graph's own textures that are used, each once
+    uint64_t bytes = 0;  ///< of the memory that the graph's own textures take
     uint64_t inTile = 0; ///< of those, what devices with tile memory need no room for
-    uint64_t saved = 0;  ///< by textures that share memory with others whose lives do not overlap
+    uint64_t saved = 0;  ///< of all textures together, by those that share memory; their lives do not overlap
 };
 AttachmentMemory attachmentMemory(CompiledGraph const& plan);
 

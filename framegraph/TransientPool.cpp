@@ -20,13 +20,6 @@ bool isSameButForTheName(backend::BufferDesc const& a, backend::BufferDesc const
     return a.size == b.size && a.usage == b.usage;
 }
 
-backend::TextureHandle allocate(backend::CommandStream& stream, backend::DeviceTextureDesc const&) {
-    return stream.allocateTexture();
-}
-backend::BufferHandle allocate(backend::CommandStream& stream, backend::BufferDesc const&) {
-    return stream.allocateBuffer();
-}
-
 } // namespace
 
 TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames)
@@ -40,30 +33,68 @@ TransientPool::~TransientPool() {
 
 void TransientPool::beginGraph() { ++mGraph; }
 
-template <class Pooled, class Desc>
-auto TransientPool::acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, uint32_t first, uint32_t last) {
-    const auto isFree = [&](Pooled const& one) {
+bool TransientPool::isFree(PooledMemory const& memory, UseInterval use) const {
+    const auto overlaps = [use](UseInterval other) { return use.first <= other.last && other.first <= use.last; };
+    return memory.lastGraph != mGraph || std::ranges::none_of(memory.uses, overlaps);
+}
+
+uint32_t TransientPool::newMemory(uint64_t bytes, bool isShareable) {
+    auto found = std::ranges::find(mMemories, 0u, &PooledMemory::textures);
+    if (found == mMemories.end()) found = mMemories.emplace(mMemories.end());
+    found->bytes = bytes;
+    found->isShareable = isShareable;
+    found->lastGraph = 0;
+    return static_cast<uint32_t>(found - mMemories.begin());
+}
+
+uint32_t TransientPool::memoryFor(backend::DeviceTextureDesc const& desc, UseInterval use) {
+    const bool isShareable = mStream.info().features.sharedMemory && !has(desc.usage, backend::TextureUsage::Transient);
+    const uint64_t bytes = backend::textureBytes(desc);
+    auto best = mMemories.end();
+    for (auto memory = mMemories.begin(); memory != mMemories.end() && isShareable; ++memory) {
+        const bool isUsable =
+                memory->textures > 0 && memory->isShareable && memory->bytes >= bytes && isFree(*memory, use);
+        if (isUsable && (best == mMemories.end() || memory->bytes < best->bytes)) best = memory;
+    }
+    return best != mMemories.end() ? static_cast<uint32_t>(best - mMemories.begin()) : newMemory(bytes, isShareable);
+}
+
+TransientPool::PooledTexture& TransientPool::addTexture(backend::DeviceTextureDesc const& desc, UseInterval use) {
+    const uint32_t memory = memoryFor(desc, use);
+    backend::NewHandle handle(mStream, mStream.allocateTexture());
+    mTextures.push_back({ .desc = desc, .handle = handle, .memory = memory });
+    handle.keep();
+    ++mMemories[memory].textures;
+    return mTextures.back();
+}
+
+PooledTransient TransientPool::acquire(backend::DeviceTextureDesc const& desc, UseInterval use) {
+    const auto found = std::ranges::find_if(mTextures, [&](PooledTexture const& one) {
+        return isSameButForTheName(one.desc, desc) && isFree(mMemories[one.memory], use);
+    });
+    PooledTexture& texture = found != mTextures.end() ? *found : addTexture(desc, use);
+    if (!texture.isCreated) texture.desc.debugName = desc.debugName; // keep the name from this graph
+    PooledMemory& memory = mMemories[texture.memory];
+    if (memory.lastGraph != mGraph) memory.uses.clear();
+    memory.uses.push_back(use);
+    memory.lastGraph = texture.lastGraph = mGraph;
+    return { texture.handle, texture.memory };
+}
+
+backend::BufferHandle TransientPool::acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last) {
+    auto found = std::ranges::find_if(mBuffers, [&](PooledBuffer const& one) {
         return (one.lastGraph != mGraph || one.busyUntil < first) && isSameButForTheName(one.desc, desc);
-    };
-    auto found = std::find_if(pooled.begin(), pooled.end(), isFree);
-    if (found == pooled.end()) {
-        backend::NewHandle handle(mStream, allocate(mStream, desc));
-        pooled.push_back({ .handle = handle });
+    });
+    if (found == mBuffers.end()) {
+        backend::NewHandle handle(mStream, mStream.allocateBuffer());
+        mBuffers.push_back({ .handle = handle });
         handle.keep();
-        found = pooled.end() - 1;
+        found = mBuffers.end() - 1;
     }
     if (!found->isCreated) found->desc = desc; // keep the name from this graph
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
-}
-
-backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
-    return acquireFrom(mTextures, desc, first, last);
-}
-
-backend::BufferHandle TransientPool::acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last) {
-    return acquireFrom(mBuffers, desc, first, last);
 }
 
 TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc const& desc) {
@@ -134,9 +165,16 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
     return handle.keep();
 }
 
+backend::TextureHandle TransientPool::createdIn(uint32_t memory) const {
+    const auto found = std::ranges::find_if(
+            mTextures, [memory](PooledTexture const& one) { return one.isCreated && one.memory == memory; });
+    return found != mTextures.end() ? found->handle : backend::TextureHandle{};
+}
+
 void TransientPool::recordCreations(backend::CommandBuffer& commands) {
     for (PooledTexture& pooled : mTextures) {
         if (pooled.isCreated || pooled.lastGraph != mGraph) continue; // its graph was never recorded
+        pooled.desc.placedOn = createdIn(pooled.memory);
         commands.record(backend::CmdCreateTexture{ pooled.handle, pooled.desc });
         pooled.isCreated = true;
         pooled.desc.debugName = {}; // the name dies with the graph
@@ -183,7 +221,11 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
         pooled.isCreated ? mStream.destroy(commands, pooled.handle) : mStream.free(pooled.handle);
         return true;
     };
-    std::erase_if(mTextures, isEvicted);
+    std::erase_if(mTextures, [&](PooledTexture const& pooled) {
+        if (!isEvicted(pooled)) return false;
+        --mMemories[pooled.memory].textures;
+        return true;
+    });
     std::erase_if(mBuffers, isEvicted);
 }
 

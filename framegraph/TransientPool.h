@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// TransientPool: the textures, buffers and bind groups behind the transients of frame graphs, reused across passes and
 /// frames.
-///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture;
-///           the two textures of a history are never shared.
+///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture; others
+///           share memory where the device can (DeviceFeatures::sharedMemory). The two textures of a history never do.
 ///   Thread  one at a time.
 ///   Memory  device memory of everything used by one of the last `keepFrames` graphs; small lists on the heap that stop
 ///           growing after warm-up.
@@ -27,6 +27,17 @@ class CommandStream;
 
 namespace filament::framegraph {
 
+/// From the first to the last use of a transient: groups of the graph.
+struct UseInterval {
+    uint32_t first = 0, last = 0;
+};
+
+/// A texture of acquire().
+struct PooledTransient {
+    backend::TextureHandle handle;
+    uint32_t memory = 0; ///< equal for textures that share it
+};
+
 /// The textures of FrameGraph::history().
 struct PooledHistory {
     backend::TextureHandle previous, current;
@@ -45,10 +56,10 @@ public:
 
     /// Starts a graph: every texture is free again.
     void beginGraph();
-    /// A texture of this description that is free from `first` to `last`. Request the lifetimes of one graph with
-    /// ascending `first`.
-    backend::TextureHandle acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last);
-    /// The same for a buffer.
+    /// A texture of this description that is free during `use`. Sharing wastes least if a graph requests its largest
+    /// textures first (textureBytes()), and equal ones with ascending `first`.
+    PooledTransient acquire(backend::DeviceTextureDesc const& desc, UseInterval use);
+    /// A buffer that is free from `first` to `last`. Request the lifetimes of one graph with ascending `first`.
     backend::BufferHandle acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last);
     /// The textures kept under desc.debugName, new ones if the description changed. `writes`: this graph writes the
     /// current one, which becomes the previous one at keepHistory().
@@ -73,9 +84,17 @@ private:
     struct PooledTexture {
         backend::DeviceTextureDesc desc;
         backend::TextureHandle handle;
+        uint32_t memory = 0; // of mMemories
         uint64_t lastGraph = 0;
-        uint32_t busyUntil = 0; // in graph `lastGraph`
         bool isCreated = false;
+    };
+    /// Of one texture, or of several that are not used at the same time.
+    struct PooledMemory {
+        uint64_t bytes = 0;    // of the texture that it was made for
+        uint32_t textures = 0; // none: the entry is free
+        bool isShareable = false;
+        uint64_t lastGraph = 0;
+        std::vector<UseInterval> uses; // in graph `lastGraph`
     };
     struct PooledBuffer {
         backend::BufferDesc desc;
@@ -100,8 +119,13 @@ private:
         uint64_t lastGraph = 0;
     };
 
-    template <class Pooled, class Desc>
-    auto acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, uint32_t first, uint32_t last);
+    bool isFree(PooledMemory const& memory, UseInterval use) const;
+    /// The smallest that is free and large enough; a new one, if there is none.
+    uint32_t memoryFor(backend::DeviceTextureDesc const& desc, UseInterval use);
+    uint32_t newMemory(uint64_t bytes, bool isShareable);
+    /// A texture that the driver knows; none, if there is none yet.
+    backend::TextureHandle createdIn(uint32_t memory) const;
+    PooledTexture& addTexture(backend::DeviceTextureDesc const& desc, UseInterval use);
     KeptHistory newHistory(backend::DeviceTextureDesc const& desc);
     static void createHistory(backend::CommandBuffer& commands, KeptHistory& history);
     void destroy(backend::CommandBuffer& commands, KeptHistory const& history);
@@ -110,6 +134,7 @@ private:
     const uint32_t mKeepFrames;
     uint64_t mGraph = 1;
     std::vector<PooledTexture> mTextures;
+    std::vector<PooledMemory> mMemories;
     std::vector<PooledBuffer> mBuffers;
     std::vector<KeptHistory> mHistories;
     std::vector<KeptHistory> mOutdated; // histories whose description changed: destroyed with the next evictions

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/api/Descriptions.h"
 
+#include <algorithm>
+
 namespace filament::backend {
 namespace {
 
@@ -9,6 +11,13 @@ bool isUniform(BindingType type) {
 }
 
 } // namespace
+
+uint64_t textureBytes(DeviceTextureDesc const& desc) {
+    uint64_t bytes = 0;
+    for (uint32_t level = 0; level < std::min<uint32_t>(desc.levels, 32); ++level)
+        bytes += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
+    return bytes * desc.layers * desc.samples;
+}
 
 uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding) {
     uint8_t uniforms = 0, textures = 0, storage = 0;

@@ -44,14 +44,6 @@ void uploadLayers(Api const& gl, GLenum target, GLint level, Area area, GLint la
 
 } // namespace
 
-uint64_t textureBytes(DeviceTextureDesc const& desc) {
-    uint64_t bytes = 0;
-    for (uint32_t level = 0; level < desc.levels; ++level) {
-        bytes += imageBytes(desc.format, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u));
-    }
-    return bytes * desc.layers * desc.samples;
-}
-
 Textures::~Textures() {
     mTextures.forEach([this](Texture& texture) { destroy(texture); });
 }

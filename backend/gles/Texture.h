@@ -28,9 +28,6 @@ struct Texture {
     std::vector<View> views{}; ///< one for each part that a bind group has shown
 };
 
-/// Bytes of all levels, layers and samples.
-uint64_t textureBytes(DeviceTextureDesc const& desc);
-
 class Textures {
 public:
     explicit Textures(Device& device) : mDevice(device) {}

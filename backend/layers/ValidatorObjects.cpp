@@ -107,6 +107,14 @@ void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
 
 void Validator::checkTextureUsage(DeviceTextureDesc const& desc) {
     FormatInfo const& format = formatInfo(desc.format);
+    if (desc.placedOn) {
+        require(mInfo.features.sharedMemory, Harm::Crash,
+                "placed on another texture, which needs DeviceFeatures::sharedMemory; this device lacks it");
+        require(mTextures.find(desc.placedOn), Harm::Crash, "placed on texture {}, which does not exist",
+                desc.placedOn.index());
+        require(!has(desc.usage, TextureUsage::Transient), Harm::Crash,
+                "placed on another texture, but Transient: tile memory is not shared");
+    }
     require(has(desc.usage, kAttachmentUsage | kOutlivingUsage), Harm::Crash, "the usage is empty; say what it is for");
     require(!has(desc.usage, kAttachmentUsage) || format.isRenderable, Harm::Crash,
             "format {} cannot be an attachment; drop the attachment usage or choose a renderable format", format.name);

@@ -9,14 +9,6 @@
 namespace filament::backend {
 namespace {
 
-uint64_t textureBytes(DeviceTextureDesc const& desc) {
-    uint64_t sum = 0;
-    for (uint32_t level = 0; level < std::min<uint32_t>(desc.levels, 32); ++level) {
-        sum += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
-    }
-    return sum * desc.layers * desc.samples;
-}
-
 // Depth formats read back as D32F floats, whatever their format.
 uint64_t readbackBytes(Format format, Rect const& rect) {
     return imageBytes(hasDepth(format) ? Format::D32F : format, rect.width, rect.height);
@@ -51,6 +43,7 @@ DeviceInfo describeNullDevice() {
                       .depthResolve = true,
                       .textureViews = true,
                       .cubeArrays = true,
+                      .sharedMemory = true,
                       .halfFloatShaders = true };
     return info;
 }

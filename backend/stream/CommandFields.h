@@ -101,7 +101,8 @@ FILAMENT_FIELDS(DeviceTextureDesc, "DeviceTextureDesc", FILAMENT_FIELD(DeviceTex
                 FILAMENT_FIELD(DeviceTextureDesc, format), FILAMENT_FIELD(DeviceTextureDesc, usage),
                 FILAMENT_FIELD(DeviceTextureDesc, samples), FILAMENT_FIELD(DeviceTextureDesc, levels),
                 FILAMENT_FIELD(DeviceTextureDesc, layers), FILAMENT_FIELD(DeviceTextureDesc, width),
-                FILAMENT_FIELD(DeviceTextureDesc, height), FILAMENT_FIELD(DeviceTextureDesc, debugName));
+                FILAMENT_FIELD(DeviceTextureDesc, height), FILAMENT_FIELD(DeviceTextureDesc, debugName),
+                FILAMENT_FIELD(DeviceTextureDesc, placedOn));
 FILAMENT_FIELDS(SamplerDesc, "SamplerDesc", FILAMENT_FIELD(SamplerDesc, magFilter),
                 FILAMENT_FIELD(SamplerDesc, minFilter), FILAMENT_FIELD(SamplerDesc, mipFilter),
                 FILAMENT_FIELD(SamplerDesc, wrapU), FILAMENT_FIELD(SamplerDesc, wrapV),

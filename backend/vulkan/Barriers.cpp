@@ -70,11 +70,12 @@ bool SubresourceUses::isUniform(SubresourceRange const& range) const {
 
 void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
     UseInfo const& next = infoOf(use);
+    const VkAccessFlags writtenByOther = texture.hasMemory() ? 0 : takeMemory(texture, next);
     texture.uses.forEachPart(range, [&](SubresourceRange const& part, Use before) {
         if (before == use && next.written == 0) return; // a read after a read
         UseInfo const& last = infoOf(before);
         auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
-        barrier.srcAccessMask = last.written;
+        barrier.srcAccessMask = last.written | writtenByOther;
         barrier.dstAccessMask = next.access;
         barrier.oldLayout = contents == Contents::Discard ? VK_IMAGE_LAYOUT_UNDEFINED : last.layout;
         barrier.newLayout = next.layout;
@@ -86,6 +87,20 @@ void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, C
         mTargetStages |= next.stages;
     });
     leave(texture, range, use);
+}
+
+VkAccessFlags Barriers::takeMemory(Texture& texture, UseInfo const& next) {
+    VkAccessFlags written = 0;
+    if (Texture* const last = texture.takeMemory()) {
+        forget(*last);
+        last->uses.forEachPart(last->uses.all(), [&](SubresourceRange const&, Use use) {
+            memory(infoOf(use).stages, infoOf(use).written, next.stages, next.access);
+            written |= infoOf(use).written;
+        });
+        last->uses.set(last->uses.all(), Use::Undefined);
+    }
+    texture.uses.set(texture.uses.all(), Use::Undefined);
+    return written;
 }
 
 void Barriers::leave(Texture& texture, SubresourceRange const& range, Use use) {
@@ -149,6 +164,7 @@ bool Barriers::isAttached(Texture const& texture, uint32_t level, uint32_t layer
 }
 
 bool Barriers::settle(Texture& texture) {
+    if (!texture.hasMemory()) return true; // another one has it: there is nothing to read
     if (std::ranges::find(mAttached, &texture, &Attached::texture) == mAttached.end()) {
         image(texture, texture.uses.all(), Use::ShaderRead);
         return true;

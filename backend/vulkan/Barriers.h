@@ -6,6 +6,7 @@
 ///                  vkCmdPipelineBarrier, or nothing. Sampled textures go back to ShaderRead together, when the next
 ///                  pass or dispatch begins, so that uploads, blits and passes in a row cost one barrier, not one each.
 ///                  Buffers are not told apart, but for transfers in a row: what was written becomes visible to all.
+///                  Textures that share memory: one that is used takes it, and the one that had it has no contents.
 ///   Thread  the driver thread.
 ///   Limits  a level and layer that is an attachment of a pass is not sampled in it.
 #pragma once
@@ -115,6 +116,9 @@ private:
     /// Makes all of the texture readable that is not attached; whether that is everything.
     bool settle(Texture& texture);
     void settleAll();
+    /// The memory of the texture becomes its own: what another one did with it comes before `next`. Returns how that
+    /// wrote it, which a transition must wait for as well.
+    VkAccessFlags takeMemory(Texture& texture, UseInfo const& next);
     /// Makes what transfers and dispatches wrote to buffers visible to every command.
     void publishWrites();
     void memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,

@@ -16,7 +16,8 @@ void Executor::execute(CmdCreateBuffer const& command) {
 }
 
 void Executor::execute(CmdCreateTexture const& command) {
-    store(mTextures, command.handle, Texture::create(*mDevice, command.desc), DriverErrorKind::Other);
+    Texture const* const host = command.desc.placedOn ? mTextures.find(command.desc.placedOn) : nullptr;
+    store(mTextures, command.handle, Texture::create(*mDevice, command.desc, host), DriverErrorKind::Other);
     if (Texture* texture = mTextures.find(command.handle)) mBarriers.add(*texture);
 }
 

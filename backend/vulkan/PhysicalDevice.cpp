@@ -108,6 +108,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.mergedPasses = true; // subpasses are core
     info.features.depthResolve = device.depthResolve;
     info.features.textureViews = true; // so are image views
+    info.features.sharedMemory = true; // and images that alias
     info.features.cubeArrays = features.features.imageCubeArray;
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;

@@ -52,19 +52,11 @@ VkImageViewType viewType(TextureType type) {
     return VK_IMAGE_VIEW_TYPE_2D;
 }
 
-uint64_t bytesOf(DeviceTextureDesc const& desc) {
-    uint64_t bytes = 0;
-    for (uint32_t level = 0; level < desc.levels; ++level) {
-        bytes += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
-    }
-    return bytes * desc.layers * desc.samples;
-}
-
 /// "texture 'hdr' (1280x720 RGBA16F, 3 levels, 1 layers, 4 samples, 9830400 bytes)"
 std::string describe(DeviceTextureDesc const& desc) {
     return fmt::format("texture '{}' ({}x{} {}, {} levels, {} layers, {} samples, {} bytes)", desc.debugName,
                        desc.width, desc.height, formatInfo(desc.format).name, desc.levels, desc.layers, desc.samples,
-                       bytesOf(desc));
+                       textureBytes(desc));
 }
 
 /// Queried first: an image beyond these limits is invalid usage, not an error that vkCreateImage would report.
@@ -85,11 +77,17 @@ Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, V
                     describe(desc), device.info().deviceName, limits.maxExtent.width, limits.maxExtent.height,
                     limits.maxMipLevels, limits.maxArrayLayers);
     }
-    if (bytesOf(desc) > limits.maxResourceSize) {
+    if (textureBytes(desc) > limits.maxResourceSize) {
         return fail(ErrorCode::OutOfMemory, "{}: '{}' allows {} bytes for one texture", describe(desc),
                     device.info().deviceName, limits.maxResourceSize);
     }
     return {};
+}
+
+/// Whether an image may be bound where another one is.
+bool fits(VkMemoryRequirements const& needs, ImageMemory const& memory) {
+    return needs.size <= memory.allocation.bytes && memory.allocation.offset % needs.alignment == 0 &&
+           needs.memoryTypeBits == memory.needs.memoryTypeBits;
 }
 
 } // namespace
@@ -99,10 +97,10 @@ Texture::Texture(Device& device, DeviceTextureDesc const& desc)
           mAspects(aspectsOf(desc.format)), mExtent{ desc.width, desc.height }, mLevels(desc.levels),
           mLayers(desc.layers), mName(desc.debugName) {}
 
-Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDesc const& desc) {
+Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDesc const& desc, Texture const* host) {
     if (Result<void> support = checkSupport(device, desc, imageInfo(desc)); !support) return support.error();
     std::unique_ptr<Texture> texture(new Texture(device, desc));
-    VkResult result = texture->createImage(desc);
+    VkResult result = texture->createImage(desc, host);
     if (result == VK_SUCCESS && has(desc.usage, TextureUsage::Sampled)) {
         result = texture->createView(viewType(desc.type), copyAspectOf(desc.format), texture->uses.all(),
                                      texture->mSampledView);
@@ -111,7 +109,7 @@ Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDe
     return texture;
 }
 
-VkResult Texture::createImage(DeviceTextureDesc const& desc) {
+VkResult Texture::createImage(DeviceTextureDesc const& desc, Texture const* host) {
     VolkDeviceTable const& fn = mDevice.fn();
     const VkImageCreateInfo info = imageInfo(desc);
     const VkResult created = fn.vkCreateImage(mDevice.handle(), &info, nullptr, &mImage);
@@ -120,12 +118,26 @@ VkResult Texture::createImage(DeviceTextureDesc const& desc) {
 
     VkMemoryRequirements needs{};
     fn.vkGetImageMemoryRequirements(mDevice.handle(), mImage, &needs);
-    const bool isTransient = (info.usage & VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT) != 0;
+    if (host && fits(needs, *host->mMemory))
+        mMemory = host->mMemory;
+    else if (const VkResult allocated = allocate(needs, (info.usage & VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT) != 0);
+             allocated != VK_SUCCESS)
+        return allocated;
+    Allocation const& at = mMemory->allocation;
+    return fn.vkBindImageMemory(mDevice.handle(), mImage, Memory::handleOf(at), at.offset);
+}
+
+VkResult Texture::allocate(VkMemoryRequirements const& needs, bool isTransient) {
     const auto allocation = mDevice.memory().allocate(needs, ResourceKind::Optimal,
                                                       isTransient ? MemoryPurpose::Transient : MemoryPurpose::Device);
     if (!allocation) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    mAllocation = *allocation;
-    return fn.vkBindImageMemory(mDevice.handle(), mImage, Memory::handleOf(*allocation), allocation->offset);
+    try {
+        mMemory = std::shared_ptr<ImageMemory>(new ImageMemory{ mDevice, needs, *allocation, this });
+    } catch (...) {
+        mDevice.memory().free(*allocation);
+        throw;
+    }
+    return VK_SUCCESS;
 }
 
 VkResult Texture::createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
@@ -171,7 +183,7 @@ Texture::~Texture() {
     for (PartView const& each : mSampledParts) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
     fn.vkDestroyImageView(mDevice.handle(), mSampledView, nullptr);
     fn.vkDestroyImage(mDevice.handle(), mImage, nullptr);
-    if (mAllocation.bytes > 0) mDevice.memory().free(mAllocation);
+    if (mMemory && hasMemory()) mMemory->user = nullptr;
 }
 
 } // namespace filament::backend::vulkan

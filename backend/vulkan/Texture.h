@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Texture: a VkImage with its memory and views, and the last use of every level and layer.
 ///   Thread  the driver thread.
-///   Memory  Device memory; tile memory for Transient attachments where the device has it. One view for sampling
+///   Memory  Device memory, which textures may share; tile memory for Transient attachments where the device has it. One view for sampling
 ///           everything, and one for each part that a bind group has shown or a pass has attached.
 ///   Fails   create(): OutOfMemory with name and size, Unsupported with the format and usage that the device lacks.
 #pragma once
@@ -10,14 +10,30 @@
 #include "backend/vulkan/Barriers.h"
 #include "backend/vulkan/Device.h"
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filament::backend::vulkan {
 
+class Texture;
+
+/// Memory of one image, or of several that share it.
+struct ImageMemory {
+    Device& device;
+    VkMemoryRequirements needs; ///< of the image that it was allocated for
+    Allocation allocation;
+    Texture* user = nullptr; ///< the only one with contents; null: it is gone
+
+    ~ImageMemory() { device.memory().free(allocation); }
+};
+
 class Texture final : public DeviceObject {
 public:
-    static Result<std::unique_ptr<Texture>> create(Device& device, DeviceTextureDesc const& desc);
+    /// `host`: of DeviceTextureDesc::placedOn.
+    static Result<std::unique_ptr<Texture>> create(Device& device, DeviceTextureDesc const& desc,
+                                                   Texture const* host = nullptr);
     ~Texture() override;
 
     VkImage image() const { return mImage; }
@@ -38,6 +54,11 @@ public:
     }
     std::string const& name() const { return mName; }
 
+    /// Whether the memory is this texture's at present.
+    bool hasMemory() const { return mMemory->user == this; }
+    /// It is from now on. Returns the texture that had it, if there is one.
+    Texture* takeMemory() { return std::exchange(mMemory->user, this); }
+
     // Bookkeeping of Barriers.
     SubresourceUses uses;
     bool isUnsettled = false; ///< listed for a transition to Use::ShaderRead
@@ -49,7 +70,8 @@ private:
     };
 
     Texture(Device& device, DeviceTextureDesc const& desc);
-    VkResult createImage(DeviceTextureDesc const& desc);
+    VkResult createImage(DeviceTextureDesc const& desc, Texture const* host);
+    VkResult allocate(VkMemoryRequirements const& needs, bool isTransient);
     VkResult createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
                         VkImageView& view);
     VkImageView partView(std::vector<PartView>& views, SubresourceRange const& range, VkImageViewType type,
@@ -59,7 +81,7 @@ private:
     VkImage mImage = VK_NULL_HANDLE;
     VkImageView mSampledView = VK_NULL_HANDLE;
     std::vector<PartView> mSampledParts, mAttachmentViews;
-    Allocation mAllocation;
+    std::shared_ptr<ImageMemory> mMemory;
     TextureType mType;
     Format mFormat;
     VkImageAspectFlags mAspects;

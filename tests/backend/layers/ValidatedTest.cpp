@@ -258,6 +258,17 @@ std::vector<Case> objectCases() {
           "2 samples" },
         { "SampledMultisample", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 4; })); },
           "resolve into another" },
+        { "OnNoTexture",
+          [](C& to) { to.record(textureWith([](auto& d) { d.placedOn = TextureHandle::make(99, 1); })); },
+          "placed on texture 99, which does not exist" },
+        { "TransientOnAnother",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.placedOn = TextureHandle::make(1, 1);
+                  d.usage = TextureUsage::ColorAttachment | TextureUsage::Transient;
+              }));
+          },
+          "tile memory is not shared" },
         { "UnrenderableAttachment",
           [](C& to) {
               to.record(
