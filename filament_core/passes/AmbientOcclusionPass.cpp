@@ -2,6 +2,7 @@
 #include "filament_core/passes/AmbientOcclusionPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/Reprojection.h"
 
 #include <algorithm>
 #include <array>
@@ -15,22 +16,24 @@ using framegraph::FrameGraph;
 using framegraph::GraphTextureDesc;
 using framegraph::TextureId;
 
-constexpr std::string_view kPointInputs[] = { "distances" };
-constexpr FullScreenParameter kPointValues[] = { { "rays", ParameterType::Float4 },
+constexpr std::string_view kPointInputs[] = { "depth" };
+constexpr FullScreenParameter kPointValues[] = { { "inverseOfDepth", ParameterType::Float2 },
+                                                 { "rays", ParameterType::Float4 },
                                                  { "reach", ParameterType::Float4 },
                                                  { "last", ParameterType::Float2 },
                                                  { "intensity", ParameterType::Float } };
 constexpr FullScreenInterface kPoints{ .pass = "ambient occlusion", .inputs = kPointInputs, .values = kPointValues };
-constexpr std::string_view kFilterInputs[] = { "occlusion", "distances" };
-constexpr FullScreenParameter kBlurValues[] = { { "last", ParameterType::Float2 },
-                                                { "lastTexel", ParameterType::Float2 },
-                                                { "axis", ParameterType::Float2 },
-                                                { "stride", ParameterType::Float },
-                                                { "deviation", ParameterType::Float } };
+constexpr std::string_view kFilterInputs[] = { "occlusion", "depth" };
+constexpr FullScreenParameter kBlurValues[] = {
+    { "inverseOfDepth", ParameterType::Float2 }, { "last", ParameterType::Float2 },
+    { "lastTexel", ParameterType::Float2 },      { "axis", ParameterType::Float2 },
+    { "stride", ParameterType::Float },          { "deviation", ParameterType::Float }
+};
 constexpr FullScreenInterface kOcclusionBlur{ .pass = "occlusion blur",
                                               .inputs = kFilterInputs,
                                               .values = kBlurValues };
-constexpr FullScreenParameter kUpsampleValues[] = { { "last", ParameterType::Float2 },
+constexpr FullScreenParameter kUpsampleValues[] = { { "inverseOfDepth", ParameterType::Float2 },
+                                                    { "last", ParameterType::Float2 },
                                                     { "lastTexel", ParameterType::Float2 } };
 constexpr FullScreenInterface kUpsample{ .pass = "occlusion upsample",
                                          .inputs = kFilterInputs,
@@ -69,16 +72,24 @@ float4 raysOf(float4x4 const& clip, uint2 size) {
 /// The fixed inputs of all passes of the effect.
 struct OcclusionSource {
     FrameContext const& context;
-    TextureId distances;
+    TextureId depth;
     OcclusionGrid grid;
-    Format format;
+    bool hasBentNormals;
 
-    TextureId texture(FrameGraph& graph, uint2 size, std::string_view name) const {
+    /// Whether filters look up depths. Otherwise each texel knows its distance; it has no room beside a bent normal, and
+    /// those of a checkerboard do not lie along the axes of the blur.
+    bool isFromDepth() const { return hasBentNormals || grid.code == 2; }
+    Format resultFormat() const { return hasBentNormals ? Format::RGBA8 : Format::R8; }
+    float2 inverse() const { return inverseOfDepth(context.packet.mainView().uniforms.clipFromView); }
+
+    TextureId texture(FrameGraph& graph, bool isResult, std::string_view name) const {
+        const uint2 size = grid.size;
+        const Format format = isResult || isFromDepth() ? resultFormat() : Format::RG32F;
         return graph.createTexture({ .width = size.x, .height = size.y, .format = format, .name = name });
     }
 };
 
-TextureId addPoints(FrameGraph& graph, OcclusionSource const& from) {
+TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResult) {
     FrameContext const& context = from.context;
     Quality const& quality = context.view->quality;
     const AmbientOcclusion effect = context.packet.effects.ambientOcclusion;
@@ -90,13 +101,13 @@ TextureId addPoints(FrameGraph& graph, OcclusionSource const& from) {
         EffectConstant{ "samples", quality.ao == AmbientOcclusionTerm::Sao ? int32_t{ quality.aoSamples } : 0 },
         EffectConstant{ "slices", int32_t{ quality.aoSlices } }, EffectConstant{ "bentNormals", quality.aoBentNormals }
     };
-    const std::array values{ FullScreenValue{ "rays", rays },
+    const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() }, FullScreenValue{ "rays", rays },
                              FullScreenValue{ "reach", float4(radius, 1 / radius, radius / std::abs(rays.x),
                                                               static_cast<float>(std::max(size.x, size.y)) / 2) },
                              FullScreenValue{ "last", lastOf(size) },
                              FullScreenValue{ "intensity", effect.intensity } };
-    const std::array inputs{ FullScreenInput{ .name = "distances", .texture = from.distances } };
-    const TextureId target = from.texture(graph, from.grid.size, "occlusion of points");
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = from.depth } };
+    const TextureId target = from.texture(graph, isResult, "occlusion of points");
     addFullScreenPass(graph, context,
                       { .name = "ambient occlusion",
                         .material = context.resources.effects->get("ambient_occlusion", constants, kPoints),
@@ -109,20 +120,22 @@ TextureId addPoints(FrameGraph& graph, OcclusionSource const& from) {
 /// Surfaces closer together than this part of the radius share what hides them.
 constexpr float kDeviation = 0.1f;
 
-TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion, bool alongX) {
+TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion, bool alongX, bool isResult) {
     FrameContext const& context = from.context;
-    const std::array constants{ EffectConstant{ "grid", from.grid.code } };
+    const std::array constants{ EffectConstant{ "grid", from.grid.code },
+                                EffectConstant{ "fromDepth", from.isFromDepth() } };
     const float radius = context.packet.effects.ambientOcclusion.radiusMeters;
-    const std::array values{ FullScreenValue{ "last", lastOf(context.settings.size) },
+    const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
+                             FullScreenValue{ "last", lastOf(context.settings.size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) },
                              FullScreenValue{ "axis", alongX ? float2(1, 0) : float2(0, 1) },
                              FullScreenValue{ "stride",
                                               static_cast<float>(alongX ? from.grid.stride.x : from.grid.stride.y) },
                              FullScreenValue{ "deviation", radius * kDeviation } };
     const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
-                             FullScreenInput{ .name = "distances", .texture = from.distances } };
-    const TextureId target =
-            from.texture(graph, from.grid.size, alongX ? "occlusion, half blurred" : "occlusion, blurred");
+                             FullScreenInput{ .name = "depth",
+                                              .texture = from.isFromDepth() ? from.depth : TextureId{} } };
+    const TextureId target = from.texture(graph, isResult, alongX ? "occlusion, half blurred" : "occlusion, blurred");
     addFullScreenPass(graph, context,
                       { .name = "occlusion blur",
                         .material = context.resources.effects->get("occlusion_blur", constants, kOcclusionBlur),
@@ -134,12 +147,16 @@ TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occl
 
 TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion) {
     FrameContext const& context = from.context;
-    const std::array constants{ EffectConstant{ "grid", from.grid.code } };
-    const std::array values{ FullScreenValue{ "last", lastOf(context.settings.size) },
+    const std::array constants{ EffectConstant{ "grid", from.grid.code },
+                                EffectConstant{ "fromDepth", from.isFromDepth() } };
+    const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
+                             FullScreenValue{ "last", lastOf(context.settings.size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) } };
     const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
-                             FullScreenInput{ .name = "distances", .texture = from.distances } };
-    const TextureId target = from.texture(graph, context.settings.size, "occlusion");
+                             FullScreenInput{ .name = "depth", .texture = from.depth } };
+    const uint2 size = context.settings.size;
+    const TextureId target = graph.createTexture(
+            { .width = size.x, .height = size.y, .format = from.resultFormat(), .name = "occlusion" });
     addFullScreenPass(graph, context,
                       { .name = "occlusion upsample",
                         .material = context.resources.effects->get("occlusion_upsample", constants, kUpsample),
@@ -153,16 +170,17 @@ TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId 
 
 void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::AmbientOcclusion)) return;
-    FILAMENT_ASSERT(targets.distances, "a frame with ambient occlusion has distances");
+    FILAMENT_ASSERT(targets.prepassDepth, "a frame with ambient occlusion has depths");
     Quality const& quality = context.view->quality;
-    const OcclusionSource from{ context, targets.distances, gridOf(quality.aoResolution, context.settings.size),
-                                quality.aoBentNormals ? Format::RGBA8 : Format::R8 };
-    targets.occlusion = addPoints(graph, from);
+    const OcclusionSource from{ context, targets.prepassDepth, gridOf(quality.aoResolution, context.settings.size),
+                                quality.aoBentNormals };
+    const bool isUpsampled = from.grid.code != 0;
+    targets.occlusion = addPoints(graph, from, !quality.aoBlur && !isUpsampled);
     if (quality.aoBlur) {
-        targets.occlusion = addBlur(graph, from, targets.occlusion, true);
-        targets.occlusion = addBlur(graph, from, targets.occlusion, false);
+        targets.occlusion = addBlur(graph, from, targets.occlusion, true, false);
+        targets.occlusion = addBlur(graph, from, targets.occlusion, false, !isUpsampled);
     }
-    if (from.grid.code != 0) targets.occlusion = addUpsample(graph, from, targets.occlusion);
+    if (isUpsampled) targets.occlusion = addUpsample(graph, from, targets.occlusion);
 }
 
 } // namespace filament::passes

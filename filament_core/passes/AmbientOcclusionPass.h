@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ambient occlusion from the distances of the picture (docs/ambient-occlusion.md).
+/// Ambient occlusion from the depths of the picture (docs/ambient-occlusion.md).
 ///   Draws   targets.occlusion, of the view's size: what samples or horizons hide at all pixels, half of them or a
 ///           quarter; then, as Quality says, a blur along each axis, and the step up to all pixels.
-///   Reads   targets.distances.
+///   Reads   targets.prepassDepth.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 

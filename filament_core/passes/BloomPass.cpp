@@ -22,10 +22,6 @@ constexpr FullScreenInterface kDown{ .pass = "bloom down", .inputs = kLevelInput
 constexpr FullScreenParameter kUpValues[] = { { "perTexel", ParameterType::Float2 },
                                               { "weight", ParameterType::Float } };
 constexpr FullScreenInterface kUp{ .pass = "bloom up", .inputs = kLevelInputs, .values = kUpValues };
-constexpr std::string_view kBloomInputs[] = { "color", "spread" };
-constexpr FullScreenParameter kBloomValues[] = { { "strength", ParameterType::Float },
-                                                 { "threshold", ParameterType::Float } };
-constexpr FullScreenInterface kBloom{ .pass = "bloom", .inputs = kBloomInputs, .values = kBloomValues };
 
 float2 perTexel(FrameGraph const& graph, TextureId texture, uint8_t level) {
     framegraph::GraphTextureDesc const& desc = graph.texture(texture).desc;
@@ -73,23 +69,6 @@ void addUp(FrameGraph& graph, FrameContext const& context, TextureId spread, uin
                         .level = level });
 }
 
-void addSum(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId spread, TextureId target) {
-    const Bloom bloom = context.packet.effects.bloom;
-    const std::array inputs{ FullScreenInput{ .name = "color", .texture = color },
-                             FullScreenInput{ .name = "spread",
-                                              .texture = spread,
-                                              .sampler = context.resources.samplers.bilinear,
-                                              .range = backend::oneLevel(0) } };
-    const std::array values{ FullScreenValue{ "strength", bloom.strength },
-                             FullScreenValue{ "threshold", bloom.threshold } };
-    addFullScreenPass(graph, context,
-                      { .name = "bloom",
-                        .material = context.resources.effects->get("bloom", {}, kBloom),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = target });
-}
-
 } // namespace
 
 uint8_t bloomLevels(uint2 view, float radiusPixels) {
@@ -111,10 +90,7 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     for (uint8_t level = 0; level < levels; ++level) addDown(graph, context, targets.color, spread, level);
     for (int level = levels - 2; level >= 0; --level)
         addUp(graph, context, spread, static_cast<uint8_t>(level), levels);
-    const TextureId sum = graph.createTexture(
-            { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color with bloom" });
-    addSum(graph, context, targets.color, spread, sum);
-    targets.color = sum;
+    targets.spread = spread;
 }
 
 } // namespace filament::passes

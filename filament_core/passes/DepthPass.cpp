@@ -39,8 +39,9 @@ void recordDepths(PassContext& pass, FrameContext const& context, ChosenDepth co
     recordDrawRanges(pass, draws, view.packet.opaque, chosen.pipelines);
 }
 
-bool isDepthRead(prepare::SceneDemand const& demand) {
-    return demand.of(prepare::Effect::DepthPrepass).reason == prepare::DemandReason::DepthIsRead;
+/// Materials read distances; full-screen passes take the depths themselves.
+bool isDistanceRead(prepare::SceneDemand const& demand) {
+    return demand.needs(prepare::Effect::Reflections) || demand.needs(prepare::Effect::ContactShadows);
 }
 
 constexpr std::string_view kDistanceInputs[] = { "depth" };
@@ -104,7 +105,7 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
                 return chooseDepth(pass, *of, target);
             },
             [of = &context](PassContext& pass, ChosenDepth const& chosen) { recordDepths(pass, *of, chosen); });
-    if (isDepthRead(context.packet.demand)) addDistances(graph, context, targets);
+    if (isDistanceRead(context.packet.demand)) addDistances(graph, context, targets);
 }
 
 } // namespace filament::passes

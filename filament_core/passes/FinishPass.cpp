@@ -18,8 +18,9 @@ constexpr std::string_view kLightInputs[] = { "color" };
 constexpr FullScreenInterface kLight{ .pass = "light", .inputs = kLightInputs };
 constexpr std::string_view kToneInputs[] = { "color", "table" };
 constexpr FullScreenInterface kTone{ .pass = "tone map", .inputs = kToneInputs };
-constexpr std::string_view kFinishInputs[] = { "color", "around", "table", "exposure" };
+constexpr std::string_view kFinishInputs[] = { "color", "around", "spread", "table", "exposure" };
 constexpr FullScreenParameter kFinishValues[] = {
+    { "bloomStrength", ParameterType::Float },   { "bloomThreshold", ParameterType::Float },
     { "fringe", ParameterType::Float },          { "vignette", ParameterType::Float4 },
     { "vignetteColor", ParameterType::Float3 },  { "grainStrength", ParameterType::Float },
     { "grainSize", ParameterType::Float },       { "mixRed", ParameterType::Float3 },
@@ -41,17 +42,20 @@ constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .val
 struct Finish {
     bool isSceneLinear = false;
     bool smoothsEdges = false;
-    bool isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
+    bool hasBloom = false, isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
     bool hasGrain = false, dithers = false; // by the last pass, because smoothing takes noise for edges
 
     /// Whether more than a tone mapper is asked for.
-    bool hasLens() const { return isExposed || isGraded || hasVignette || hasFringes || (hasGrain && !smoothsEdges); }
+    bool hasLens() const {
+        return hasBloom || isExposed || isGraded || hasVignette || hasFringes || (hasGrain && !smoothsEdges);
+    }
 };
 
 Finish finishOf(FrameContext const& context, bool isSceneLinear) {
     prepare::SceneDemand const& demand = context.packet.demand;
     return { .isSceneLinear = isSceneLinear,
              .smoothsEdges = demand.needs(Effect::Fxaa),
+             .hasBloom = demand.needs(Effect::Bloom),
              .isExposed = demand.needs(Effect::AutoExposure),
              .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
              .hasVignette = demand.needs(Effect::Vignette),
@@ -99,6 +103,8 @@ auto valuesOf(FrameContext const& context) {
     const double3x3 mix = gradingMatrix(grading);
     const uint2 size = context.settings.size;
     return std::array{
+        FullScreenValue{ "bloomStrength", effects.bloom.strength },
+        FullScreenValue{ "bloomThreshold", effects.bloom.threshold },
         FullScreenValue{ "fringe", fringePerPixel(effects.chromaticAberration, size) },
         FullScreenValue{ "vignette", shapeOf(effects.vignette, size) },
         FullScreenValue{ "vignetteColor", effects.vignette.color },
@@ -130,6 +136,7 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "toneMapper", toneMapperOf(context) },
         EffectConstant{ "dither", finish.dithers && !finish.smoothsEdges },
         EffectConstant{ "autoExposure", finish.isExposed },
+        EffectConstant{ "bloom", finish.hasBloom },
         EffectConstant{ "graded", finish.isGraded },
         EffectConstant{ "mapsGamut", finish.isGraded && context.packet.effects.grading.gamutMapping },
         EffectConstant{ "aberration", finish.hasFringes },
@@ -140,6 +147,11 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
                              FullScreenInput{ .name = "around",
                                               .texture = finish.hasFringes ? targets.color : TextureId{},
                                               .sampler = context.resources.samplers.bilinear },
+                             FullScreenInput{ .name = "spread",
+                                              .texture = targets.spread,
+                                              .sampler = context.resources.samplers.bilinear,
+                                              .range =
+                                                      targets.spread ? backend::oneLevel(0) : backend::TextureRange{} },
                              FullScreenInput{ .name = "table", .image = context.resources.toneTable },
                              FullScreenInput{ .name = "exposure", .texture = targets.exposure } };
     const auto values = valuesOf(context);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/Reprojection.h"
 
+#include "base/Assert.h"
+
 namespace filament::passes {
 namespace {
 
@@ -24,6 +26,11 @@ double4x4 worldFromPixel(FrameContext const& context) {
 
 float4x4 lastFromPixel(FrameContext const& context, double2 end) {
     return float4x4(textureFromClip(end) * double4x4(context.packet.last.clipFromWorld) * worldFromPixel(context));
+}
+
+float2 inverseOfDepth(float4x4 const& clip) {
+    FILAMENT_ASSERT(clip[3].w == 0, "cameras are perspective");
+    return { 1 / clip[3].z, clip[2].z / clip[3].z }; // depth = (m22 z + m32) / -z
 }
 
 } // namespace filament::passes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where the last picture shows what a pixel of this one shows.
+/// What pixels and their depths say: where they are, and where the last picture shows it.
 ///   Thread  any; pure.   Memory: none.   Fails: never.
 #pragma once
 
@@ -12,5 +12,8 @@ double4x4 worldFromPixel(FrameContext const& context);
 
 /// The same to coordinates of the texture of the last picture, whose upper left part `end` the picture fills.
 float4x4 lastFromPixel(FrameContext const& context, double2 end);
+
+/// 1 / distance = depth * x + y, for a perspective projection.
+float2 inverseOfDepth(float4x4 const& clipFromView);
 
 } // namespace filament::passes

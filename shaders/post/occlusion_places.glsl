@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels the texels of an occlusion texture stand for, and the distances there. Includes need: the parameter
-// `distances`, the value `last`, and the constant `grid`: 0 full, 1 half, 2 checkerboard.
+// `depth`, the values `last` and `inverseOfDepth`, and the constant `grid`: 0 full, 1 half, 2 checkerboard.
 
 const int kGridFull = 0;
 const int kGridHalf = 1;
@@ -16,8 +16,10 @@ vec2 pixelOfTexel(vec2 texel) {
     return min(pixel, materialParams.last);
 }
 
-// 1 / distance; of the nearest pixel of the picture.
+// 1 / distance, which is linear in the depth of a perspective projection; 1 / kFarDistance where nothing is. Of the
+// nearest pixel of the picture.
 float inverseAt(vec2 pixel) {
     vec2 inside = clamp(pixel, vec2(0.0), materialParams.last);
-    return 1.0 / texelFetch(materialParams_distances, ivec2(inside), 0).x;
+    float depth = texelFetch(materialParams_depth, ivec2(inside), 0).x;
+    return max(depth * materialParams.inverseOfDepth.x + materialParams.inverseOfDepth.y, 1e-30);
 }
