@@ -48,6 +48,13 @@ Texture createDfg(Engine::Impl& engine, uint32_t size) {
                                   .name = fmt::format("dfg {}", size) });
 }
 
+/// One of few: without numbers of its user.
+bool isPlain(engine::ToneTable const& table) {
+    return !table.key.grading &&
+           table.key.colorGrading == ColorGrading{ .toneMapper = table.key.colorGrading.toneMapper,
+                                                   .agxLook = table.key.colorGrading.agxLook };
+}
+
 } // namespace
 
 Texture Engine::Impl::dfgTable(uint32_t size) {
@@ -80,28 +87,27 @@ Texture Engine::Impl::unsetTexture(shader::Parameter const& parameter) {
     return texture;
 }
 
-Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size, std::optional<Grading> const& grading) {
-    constexpr std::ptrdiff_t kMostGraded = 4;
+Texture Engine::Impl::toneTable(engine::ToneTableKey const& key) {
+    constexpr std::ptrdiff_t kMostOfUsers = 4;
     std::vector<engine::ToneTable>& tables = defaults.toneTables;
-    const auto known = std::ranges::find_if(tables, [&](engine::ToneTable const& table) {
-        return table.mapper == mapper && table.size == size && table.grading == grading;
-    });
+    const auto known = std::ranges::find(tables, key, &engine::ToneTable::key);
     if (known != tables.end()) return known->texture;
-    const auto isGraded = [](engine::ToneTable const& table) { return table.grading.has_value(); };
-    if (grading && std::ranges::count_if(tables, isGraded) == kMostGraded) {
-        const auto oldest = std::ranges::find_if(tables, isGraded);
+    const auto isOfUser = [](engine::ToneTable const& table) { return !isPlain(table); };
+    if (isOfUser({ .key = key, .texture = {} }) && std::ranges::count_if(tables, isOfUser) == kMostOfUsers) {
+        const auto oldest = std::ranges::find_if(tables, isOfUser);
         destroy(oldest->texture);
         tables.erase(oldest);
     }
     const assets::Image colors =
-            assets::bakeToneTable(jobs, static_cast<int>(mapper), size, grading ? &*grading : nullptr);
-    tables.push_back({ .mapper = mapper, .size = size, .grading = grading }); // found again only with its texture
+            assets::bakeToneTable(jobs, key.colorGrading, key.size, key.grading ? &*key.grading : nullptr);
+    tables.push_back({ .key = key, .texture = {} }); // found again only with its texture
     try {
-        tables.back().texture = createTexture({ .format = colors.format,
-                                                .width = colors.width,
-                                                .height = colors.height,
-                                                .pixels = colors.data,
-                                                .name = fmt::format("tone table {} {}", toString(mapper), size) });
+        tables.back().texture = createTexture(
+                { .format = colors.format,
+                  .width = colors.width,
+                  .height = colors.height,
+                  .pixels = colors.data,
+                  .name = fmt::format("tone table {} {}", toString(key.colorGrading.toneMapper), key.size) });
     } catch (std::bad_alloc const&) {
         tables.pop_back();
         throw;

@@ -94,11 +94,16 @@ struct SwapChainState {
     std::string name;
 };
 
-/// Colours of a tone mapper, and of a grading before it.
-struct ToneTable {
-    ToneMapper mapper{};
+/// What is baked into a table of colours: a tone mapper and what comes with it, and a grading before it.
+struct ToneTableKey {
+    ColorGrading colorGrading{}; ///< without what changes no entry
     uint32_t size = 0;
-    std::optional<Grading> grading;
+    std::optional<Grading> grading{};
+    friend bool operator==(ToneTableKey const&, ToneTableKey const&) = default;
+};
+
+struct ToneTable {
+    ToneTableKey key;
     Texture texture;
 };
 
@@ -154,9 +159,9 @@ struct Engine::Impl {
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);
-    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept. Of tables with a grading
-    /// the last ones are kept.
-    Texture toneTable(ToneMapper mapper, uint32_t size, std::optional<Grading> const& grading);
+    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept. Of tables with a grading,
+    /// a look or other numbers the last ones are kept.
+    Texture toneTable(engine::ToneTableKey const& key);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
     void removeMaterial(Material material) noexcept;

@@ -15,6 +15,17 @@ uint32_t toneTableSize(ToneMapping mapping) {
     return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
 }
 
+/// Without what changes no colour, so that equal tables are one.
+ColorGrading keyOf(ColorGrading const& grading) {
+    constexpr ToneCurve kCurve{};
+    ColorGrading key = clamped(grading);
+    key.dither = false;
+    if (key.toneMapper != ToneMapper::Agx) key.agxLook = AgxLook::Base;
+    if (key.toneMapper != ToneMapper::Generic) key.toneCurve = kCurve;
+    if (key.outputSpace != OutputSpace::Rec2020Pq) key.whiteNits = ColorGrading{}.whiteNits;
+    return key;
+}
+
 } // namespace
 
 FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket const& packet,
@@ -83,10 +94,13 @@ scene::Material const* FrameResourceCache::debugView(DebugView debugView, bool i
 /// None: the view computes its tones.
 backend::TextureHandle FrameResourceCache::toneTable(View const& view, prepare::FramePacket const& packet) {
     const ToneMapping mapping = view.quality.toneMapping;
-    if (mapping == ToneMapping::Analytic) return {};
+    const bool hasFormula = view.colorGrading.toneMapper != ToneMapper::AcesReference && !view.colorGrading.look;
+    if (mapping == ToneMapping::Analytic && hasFormula) return {};
     const bool isGraded = packet.demand.needs(prepare::Effect::Grading);
-    return mEngine.textureHandle(mEngine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping),
-                                                   isGraded ? std::optional(packet.effects.grading) : std::nullopt));
+    return mEngine.textureHandle(
+            mEngine.toneTable({ .colorGrading = keyOf(view.colorGrading),
+                                .size = toneTableSize(mapping),
+                                .grading = isGraded ? std::optional(packet.effects.grading) : std::nullopt }));
 }
 
 } // namespace filament::engine

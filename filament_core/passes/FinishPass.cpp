@@ -2,6 +2,7 @@
 #include "filament_core/passes/FinishPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/values/ToneShader.h"
 
 #include <array>
 #include <cmath>
@@ -30,7 +31,8 @@ constexpr FullScreenParameter kFinishValues[] = {
     { "slope", ParameterType::Float3 },          { "offset", ParameterType::Float3 },
     { "power", ParameterType::Float3 },          { "contrastSaturationVibrance", ParameterType::Float3 },
     { "shadowGamma", ParameterType::Float3 },    { "midPoint", ParameterType::Float3 },
-    { "highlightScale", ParameterType::Float3 },
+    { "highlightScale", ParameterType::Float3 }, { "nightAdaptation", ParameterType::Float },
+    { "toneCurve", ParameterType::Float4 },      { "whiteShare", ParameterType::Float },
 };
 constexpr FullScreenInterface kFinish{ .pass = "finish", .inputs = kFinishInputs, .values = kFinishValues };
 constexpr std::string_view kFxaaInputs[] = { "picture" };
@@ -43,13 +45,19 @@ struct Finish {
     bool isSceneLinear = false;
     bool smoothsEdges = false;
     bool hasBloom = false, isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
+    bool hasToneValues = false;             // of a formula with numbers, or for a display other than sRGB
     bool hasGrain = false, dithers = false; // by the last pass, because smoothing takes noise for edges
 
     /// Whether more than a tone mapper is asked for.
     bool hasLens() const {
-        return hasBloom || isExposed || isGraded || hasVignette || hasFringes || (hasGrain && !smoothsEdges);
+        return hasBloom || isExposed || isGraded || hasVignette || hasFringes || hasToneValues ||
+               (hasGrain && !smoothsEdges);
     }
 };
+
+bool needsValues(ColorGrading const& grading) {
+    return grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb;
+}
 
 Finish finishOf(FrameContext const& context, bool isSceneLinear) {
     prepare::SceneDemand const& demand = context.packet.demand;
@@ -60,12 +68,13 @@ Finish finishOf(FrameContext const& context, bool isSceneLinear) {
              .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
              .hasVignette = demand.needs(Effect::Vignette),
              .hasFringes = demand.needs(Effect::ChromaticAberration),
+             .hasToneValues = !isSceneLinear && !context.resources.toneTable && needsValues(context.view->colorGrading),
              .hasGrain = demand.needs(Effect::Grain) && !isSceneLinear,
              .dithers = context.view->colorGrading.dither && !isSceneLinear };
 }
 
 int32_t toneMapperOf(FrameContext const& context) {
-    return context.resources.toneTable ? 0 : static_cast<int32_t>(context.view->colorGrading.toneMapper);
+    return context.resources.toneTable ? 0 : shaderToneMapper(context.view->colorGrading);
 }
 
 void addToneMapPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId color,
@@ -101,6 +110,7 @@ auto valuesOf(FrameContext const& context) {
     Effects const& effects = context.packet.effects;
     Grading const& grading = effects.grading;
     const double3x3 mix = gradingMatrix(grading);
+    const ColorGrading tone = clamped(context.view->colorGrading);
     const uint2 size = context.settings.size;
     return std::array{
         FullScreenValue{ "bloomStrength", effects.bloom.strength },
@@ -124,6 +134,9 @@ auto valuesOf(FrameContext const& context) {
         FullScreenValue{ "shadowGamma", grading.shadowGamma },
         FullScreenValue{ "midPoint", grading.midPoint },
         FullScreenValue{ "highlightScale", grading.highlightScale },
+        FullScreenValue{ "nightAdaptation", grading.nightAdaptation },
+        FullScreenValue{ "toneCurve", shaderToneCurve(tone.toneCurve) },
+        FullScreenValue{ "whiteShare", whiteShareOf(tone) },
     };
 }
 
@@ -142,6 +155,8 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "aberration", finish.hasFringes },
         EffectConstant{ "hasVignette", finish.hasVignette },
         EffectConstant{ "grain", finish.hasGrain && !finish.smoothsEdges },
+        EffectConstant{ "outputSpace", hasTable ? 0 : shaderOutputSpace(context.view->colorGrading) },
+        EffectConstant{ "adaptsToNight", finish.isGraded && context.packet.effects.grading.nightAdaptation > 0 },
     };
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
                              FullScreenInput{ .name = "around",

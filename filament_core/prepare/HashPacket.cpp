@@ -43,8 +43,9 @@ uint64_t hashValues(uint64_t seed, Values const&... values) {
 
 uint64_t hashGrading(Grading const& grading, uint64_t seed) {
     seed = hashWords(seed, grading.enabled, grading.gamutMapping);
-    seed = hashValues(seed, grading.exposure, grading.temperature, grading.tint, grading.mixRed, grading.mixGreen,
-                      grading.mixBlue, grading.shadows, grading.midtones, grading.highlights, grading.tonalRanges);
+    seed = hashValues(seed, grading.nightAdaptation, grading.exposure, grading.temperature, grading.tint,
+                      grading.mixRed, grading.mixGreen, grading.mixBlue, grading.shadows, grading.midtones,
+                      grading.highlights, grading.tonalRanges);
     return hashValues(seed, grading.slope, grading.offset, grading.power, grading.contrast, grading.saturation,
                       grading.vibrance, grading.shadowGamma, grading.midPoint, grading.highlightScale);
 }

@@ -3,10 +3,10 @@
 
 #include "base/Result.h"
 #include "base/Suggest.h"
+#include "filament_core/values/NumberText.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 namespace filament {
@@ -21,14 +21,6 @@ struct EffectField {
     void (*clamp)(EffectField const& field, Effects& effects);
     float least = 0, most = 0; ///< of numbers and components
 };
-
-std::optional<float> numberOf(std::string_view text, float least, float most) {
-    float number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool isNumber = error == std::errc{} && end == text.data() + text.size();
-    if (!isNumber || !(number >= least && number <= most)) return std::nullopt;
-    return number;
-}
 
 template <auto Group, auto Member>
 constexpr EffectField numberField(std::string_view name, float least, float most, std::string_view range) {
@@ -158,6 +150,7 @@ constexpr std::array kEffectFields{
     numberField<kExposure, &AutoExposure::speedUp>("autoExposure.speedUp", 0.0f, 1e3f, kSpeed),
     numberField<kExposure, &AutoExposure::speedDown>("autoExposure.speedDown", 0.0f, 1e3f, kSpeed),
     switchField<kGrading, &Grading::enabled>("grading"),
+    numberField<kGrading, &Grading::nightAdaptation>("grading.nightAdaptation", 0.0f, 1.0f, kShare),
     numberField<kGrading, &Grading::exposure>("grading.exposure", -16.0f, 16.0f, kStops),
     numberField<kGrading, &Grading::temperature>("grading.temperature", -1.0f, 1.0f, "a number from -1 to 1"),
     numberField<kGrading, &Grading::tint>("grading.tint", -1.0f, 1.0f, "a number from -1 to 1"),

@@ -3,17 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace filament {
 namespace {
-
-constexpr std::array<std::pair<ToneMapper, std::string_view>, 4> kNames{ {
-        { ToneMapper::Linear, "linear" },
-        { ToneMapper::Aces, "aces" },
-        { ToneMapper::Filmic, "filmic" },
-        { ToneMapper::Mobile, "mobile" },
-} };
 
 // In the order of the enumerators.
 constexpr std::array<std::string_view, 11> kDebugViews{ "none",       "cascades",  "atlas",       "froxels",
@@ -21,15 +13,6 @@ constexpr std::array<std::string_view, 11> kDebugViews{ "none",       "cascades"
                                                         "refraction", "fog",       "motion" };
 
 } // namespace
-
-const char* toString(ToneMapper toneMapper) { return kNames[static_cast<size_t>(toneMapper)].second.data(); }
-
-std::optional<ToneMapper> toneMapperFromName(std::string_view name) {
-    for (auto const& [toneMapper, known] : kNames) {
-        if (known == name) return toneMapper;
-    }
-    return std::nullopt;
-}
 
 const char* toString(DebugView debugView) { return kDebugViews[static_cast<size_t>(debugView)].data(); }
 

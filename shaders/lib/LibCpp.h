@@ -59,6 +59,7 @@ namespace {
 #include "shaders/lib/subsurface.glsl"
 #include "shaders/lib/tangent.glsl"
 #include "shaders/lib/temporal.glsl"
+#include "shaders/lib/tone.glsl"
 
 } // namespace
 #pragma GCC diagnostic pop

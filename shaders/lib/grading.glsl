@@ -72,7 +72,29 @@ vec3 withinGamut(vec3 light) {
     return max(vec3(y) + (light - y) * chroma, 0.0f);
 }
 
+// What an eye sees at night: rods add to the signals of the cones, so that dark colours are brighter, bluer and paler
+// (the Purkinje shift). Kirk and O'Brien 2011, "Perceptually Based Tone Mapping for Low-Light Conditions", with the
+// opponent model of Cao et al. 2008 and its parameters K = 45, S = 10, k3 = 0.6, rw = 0.139, p = 0.6189; rods enter by
+// 0.2, 0.2, 0.3 of their signal. Cones and rods see linear Rec. 709 as in Patry 2021, "Real-Time Samurai Cinema"; a
+// light of 1 is `kNightLight` times their unit, with which rods shift middle grey by twice its blue. The matrix of the
+// last step is all of theirs together: from the gains of the cones to Rec. 709. light >= 0; amount: 0 to 1.
+// The result may leave Rec. 709.
+vec3 nightVision(vec3 light, float amount) {
+    const float kNightLight = 380.0f;
+    float rods = dot(light, vec3(0.466386f, 15.564362f, 10.059963f));
+    vec3 cones = vec3(dot(light, vec3(7.696847f, 18.424824f, 2.068096f)),
+            dot(light, vec3(2.431137f, 18.697937f, 3.012463f)), dot(light, vec3(0.289117f, 1.401833f, 13.792292f)));
+    vec3 seen = (cones + vec3(0.2f, 0.2f, 0.3f) * rods) * kNightLight;
+    vec3 g = vec3(inversesqrt(1.0f + 0.517882645f * seen.x), inversesqrt(1.0f + 0.840935732f * seen.y),
+            inversesqrt(1.0f + 0.205428287f * seen.z)); // 0.33 over the most sensitivity of a kind of cones
+    vec3 shift = vec3(dot(g, vec3(0.319458494f, -0.342068047f, 0.010506945f)),
+            dot(g, vec3(0.058097612f, 0.239182537f, -0.011333066f)),
+            dot(g, vec3(0.659213676f, 0.654597998f, 0.061863378f)));
+    return light + shift * (rods * amount);
+}
+
 struct Grading {
+    float nightAdaptation; // nightVision(); 0: none
     vec3 mixRed, mixGreen, mixBlue; // linear Rec. 2020 from linear Rec. 709: exposure, white balance, channel mixer
     vec3 shadows, midtones, highlights;
     vec4 tonalRanges; // tonalBalance()
@@ -85,6 +107,7 @@ struct Grading {
 // The matrix to linear Rec. 2020 alone (ITU-R BT.2087-0), and neutral values of everything else.
 Grading neutralGrading() {
     Grading grading;
+    grading.nightAdaptation = 0.0f;
     grading.mixRed = vec3(0.627403896f, 0.329283038f, 0.043313066f);
     grading.mixGreen = vec3(0.069097289f, 0.919540395f, 0.011362316f);
     grading.mixBlue = vec3(0.016391439f, 0.088013308f, 0.895595253f);
@@ -107,6 +130,7 @@ Grading neutralGrading() {
 
 // light: linear Rec. 709, as the result, which is >= 0.
 vec3 graded(vec3 light, Grading grading) {
+    if (grading.nightAdaptation > 0.0f) light = nightVision(max(light, 0.0f), grading.nightAdaptation);
     vec3 color = vec3(dot(light, grading.mixRed), dot(light, grading.mixGreen), dot(light, grading.mixBlue));
     color = tonalBalance(max(color, 0.0f), grading.shadows, grading.midtones, grading.highlights, grading.tonalRanges);
     vec3 even = slopeOffsetPower(gradingLog(color), grading.slope, grading.offset, grading.power);

@@ -26,7 +26,8 @@ struct Choice {
 };
 
 constexpr std::string_view kSamples[] = { "1", "4" };
-constexpr std::string_view kToneMappers[] = { "linear", "aces", "filmic", "mobile" };
+constexpr std::string_view kToneMappers[] = { "linear",     "aces",          "filmic",  "mobile",      "agx",
+                                              "pbrNeutral", "acesReference", "generic", "displayRange" };
 constexpr std::string_view kSwitch[] = { "off", "on" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 constexpr std::string_view kBudgets[] = { "0.8", "0.9", "1", "1.1", "1.2", "1.4" };
@@ -109,7 +110,7 @@ bool setExact(Settings& settings, std::string const& value) {
 
 constexpr std::array kChoices{
     Choice{ "samples", kSamples, setSamples, "1 or 4" },
-    Choice{ "toneMapper", kToneMappers, setToneMapper, "linear, aces, filmic or mobile" },
+    Choice{ "toneMapper", kToneMappers, setToneMapper, toneMapperNames() },
     Choice{ "dither", kSwitch, setDither, "off or on" },
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
     Choice{ "budget", kBudgets, setBudget, "how many times the default's time, above 0" },
@@ -136,6 +137,7 @@ Error unknown(std::string_view name) {
     for (Choice const& choice : kChoices) known.push_back(choice.name);
     for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
     for (EffectOption const& option : effectOptions()) known.push_back(option.name);
+    for (ColorGradingOption const& option : colorGradingOptions()) known.push_back(option.name);
     return fail(ErrorCode::NotFound, "there is no setting '{}'{}", name, suggestion(name, known));
 }
 
@@ -149,6 +151,8 @@ Result<void> change(Settings& settings, std::string_view word) {
     const std::string value(word.substr(equals + 1));
     Choice const* choice = findChoice(name);
     if (!choice && effectValue(settings.effects, name)) return setEffect(settings.effects, name, value);
+    if (!choice && colorGradingValue(settings.colorGrading, name))
+        return setColorGrading(settings.colorGrading, name, value);
     if (!choice) {
         Result<void> done = setQuality(settings.quality, name, value);
         return !done && done.error().code == ErrorCode::NotFound ? Result<void>(unknown(name)) : done;

@@ -578,7 +578,15 @@ private:
 };
 
 /// Those of finish.mat.
-enum FinishConstant : size_t { kAutoExposure = 4, kGraded = 5, kAberration = 7, kHasVignette = 8, kGrain = 9 };
+enum FinishConstant : size_t {
+    kAutoExposure = 4,
+    kGraded = 5,
+    kAberration = 7,
+    kHasVignette = 8,
+    kGrain = 9,
+    kOutputSpace = 10,
+    kAdaptsToNight = 11
+};
 template <size_t Constant>
 std::unique_ptr<StreamEdit> makeFinish() {
     return std::make_unique<SwitchEdit>("finish", Constant);
@@ -669,6 +677,10 @@ constexpr Mutation kMutations[] = {
     { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },
     { "vignetteOff", "no vignette", makeFinish<kHasVignette> },
     { "grainOff", "no grain", makeFinish<kGrain> },
+    { "outputSpace", "another colour space of the display", makeFinish<kOutputSpace> },
+    { "nightOff", "no vision at night", makeFinish<kAdaptsToNight> },
+    { "toneMapper", "another tone mapper by formula",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("tonemap", 1); } },
     { "focusTiles", "blur does not reach into the next tile",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("focus_tiles", 0); } },
     { "gatheredWeight", "frames count half as much in the gathered picture", make<GatheredWeightEdit> },

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
+#include "filament_core/assets/tables/DisplayColor.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <nlohmann/json.hpp>
@@ -17,17 +18,9 @@ namespace lib = shader::lib;
 
 using Json = nlohmann::ordered_json;
 
-static_assert(static_cast<int>(ToneMapper::Linear) == lib::kToneMapLinear &&
-              static_cast<int>(ToneMapper::Aces) == lib::kToneMapAces &&
-              static_cast<int>(ToneMapper::Filmic) == lib::kToneMapFilmic &&
-              static_cast<int>(ToneMapper::Mobile) == lib::kToneMapMobile);
-
 // Like shaders/post/tonemap.mat, followed by the conversion to UNORM.
-float3 displayColor(float3 color, ColorGrading const& grading, float2 pixelCenter) {
-    const int mapper = static_cast<int>(grading.toneMapper);
-    float3 result = lib::toneMap(color, mapper);
-    if (!lib::toneMapIncludesTransfer(mapper)) result = lib::srgbFromLinear(result);
-    if (grading.dither) result += (lib::interleavedGradientNoise(pixelCenter) - 0.5f) * (1.0f / 255.0f);
+float3 ditheredColor(float3 result, bool dither, float2 pixelCenter) {
+    if (dither) result += (lib::interleavedGradientNoise(pixelCenter) - 0.5f) * (1.0f / 255.0f);
     return lib::saturate(result);
 }
 
@@ -42,9 +35,10 @@ double largestError(ReferenceImage const& image) {
 std::vector<std::byte> displayPixels(ReferenceImage const& image, ColorGrading const& grading) {
     std::vector<std::byte> pixels;
     pixels.reserve(image.color.size() * 4);
+    const assets::DisplayColor displayColor(grading);
     for (size_t i = 0; i < image.color.size(); ++i) {
         const float2 center(static_cast<float>(i % image.width) + 0.5f, static_cast<float>(i / image.width) + 0.5f);
-        const float3 display = displayColor(image.color[i], grading, center);
+        const float3 display = ditheredColor(displayColor(image.color[i]), grading.dither, center);
         for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(display[c] * 255.0f)));
         pixels.push_back(std::byte{ 255 });
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// bakeToneTable: colour grading, a tone mapper and the display's transfer function as a cube of colours, for shaders that
-/// interpolate instead of computing. The look-up costs the same for any grading.
+/// bakeToneTable: colour grading, a tone mapper, a look and the display's transfer function as a cube of colours, for
+/// shaders that interpolate instead of computing. The look-up costs the same for any grading.
 ///   Out     RGBA16F, size * size wide and size high: the entry (r, g, b) is at (r + b * size, g). Entries are evenly
 ///           spaced in toneTableCoordinate() of shaders/lib/color.glsl; entry 0 is black, the last one 256.
 ///   Read    by shaders/post/tone_table.glsl.
@@ -11,11 +11,13 @@
 #include "filament_core/assets/image/Image.h"
 #include "jobsystem/JobSystem.h"
 
+#include <filament/ColorGrading.h>
 #include <filament/Effects.h>
 
 namespace filament::assets {
 
-/// `mapper`: kToneMap... of shaders/lib/color.glsl. size >= 2. `grading`: within its ranges; null: none.
-Image bakeToneTable(jobs::JobSystem& jobs, int mapper, uint32_t size, Grading const* grading = nullptr);
+/// size >= 2. `grading`: within its ranges; null: none.
+Image bakeToneTable(jobs::JobSystem& jobs, ColorGrading const& colorGrading, uint32_t size,
+                    Grading const* grading = nullptr);
 
 } // namespace filament::assets

@@ -88,14 +88,16 @@ struct AutoExposure {
     friend bool operator==(AutoExposure const&, AutoExposure const&) = default;
 };
 
-/// Colour grading of light before the tone mapper, in linear Rec. 2020: exposure, white balance, channel mixer; shadows,
-/// midtones and highlights; slope, offset, power and contrast on the ACEScct logarithm; saturation and vibrance; curves.
-/// The neutral values of all fields together change nothing, and cost nothing. docs/grading.md has the formulas.
+/// Colour grading of light before the tone mapper, in linear Rec. 2020: vision at night; exposure, white balance, channel
+/// mixer; shadows, midtones and highlights; slope, offset, power and contrast on the ACEScct logarithm; saturation and
+/// vibrance; curves. The neutral values of all fields together change nothing, and cost nothing. docs/finish.md has the
+/// formulas.
 struct Grading {
     bool enabled = false;
-    float exposure = 0;    ///< stops, [-16, 16]
-    float temperature = 0; ///< [-1, 1]: cooler to warmer, along daylight from 4000 to 25 000 kelvin
-    float tint = 0;        ///< [-1, 1]: greener to more magenta
+    float nightAdaptation = 0; ///< [0, 1]: of an eye that sees by its rods; dark colours get brighter, bluer and paler
+    float exposure = 0;        ///< stops, [-16, 16]
+    float temperature = 0;     ///< [-1, 1]: cooler to warmer, along daylight from 4000 to 25 000 kelvin
+    float tint = 0;            ///< [-1, 1]: greener to more magenta
     float3 mixRed{ 1, 0, 0 }, mixGreen{ 0, 1, 0 }, mixBlue{ 0, 0, 1 }; ///< of red, green and blue, [-2, 2]
     float3 shadows{ 1 }, midtones{ 1 }, highlights{ 1 };               ///< factors, [0, 4]
     float4 tonalRanges{ 0, 0.333f, 0.55f, 1 }; ///< luminances between which shadows end and highlights begin, [0, 100]

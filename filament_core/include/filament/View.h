@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filament/Camera.h>
+#include <filament/ColorGrading.h>
 #include <filament/Effects.h>
 #include <filament/Objects.h>
 #include <filament/Quality.h>
@@ -12,20 +13,6 @@
 #include <string_view>
 
 namespace filament {
-
-enum class ToneMapper : uint8_t {
-    Linear, ///< clamp to [0, 1]
-    Aces,   ///< Hill's fit of the ACES transforms: highlights desaturate
-    Filmic, ///< Narkowicz 2015, the ACES curve per component
-    Mobile, ///< x / (x + 0.155) * 1.019: includes the transfer function
-};
-const char* toString(ToneMapper toneMapper);
-std::optional<ToneMapper> toneMapperFromName(std::string_view name);
-
-struct ColorGrading {
-    ToneMapper toneMapper = ToneMapper::Aces;
-    bool dither = false; ///< adds interleaved gradient noise of one least significant bit before rounding to 8 bits
-};
 
 /// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and
 /// docs/lights.md ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.

@@ -7,6 +7,7 @@
 #include <filament/Box.h>
 #include <filament/Camera.h>
 #include <filament/Color.h>
+#include <filament/ColorGrading.h>
 #include <filament/Effects.h>
 #include <filament/Engine.h>
 #include <filament/Environment.h>
@@ -15,6 +16,7 @@
 #include <filament/Light.h>
 #include <filament/LightProfile.h>
 #include <filament/Lines.h>
+#include <filament/Look.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
 #include <filament/Node.h>

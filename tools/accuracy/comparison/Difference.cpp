@@ -2,6 +2,7 @@
 #include "tools/accuracy/comparison/Difference.h"
 
 #include "base/Assert.h"
+#include "filament_core/assets/tables/DisplayColor.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <algorithm>
@@ -105,13 +106,12 @@ Image differenceMap(Picture const& a, Picture const& b, DifferenceScale const& s
 
 double displayError(Picture const& shown, Picture const& linear, ToneMapper toneMapper) {
     namespace lib = shader::lib;
-    const int mapper = static_cast<int>(toneMapper);
+    const assets::DisplayColor displayColor({ .toneMapper = toneMapper });
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < shown.pixels.size(); ++i) {
         if (isBlack(linear.pixels[i])) continue; // rounding does not affect the background
-        float3 exact = lib::toneMap(linear.pixels[i], mapper);
-        if (!lib::toneMapIncludesTransfer(mapper)) exact = lib::srgbFromLinear(exact);
+        const float3 exact = displayColor(linear.pixels[i]);
         const double3 error = double3(lib::srgbFromLinear(shown.pixels[i])) - double3(lib::saturate(exact));
         sum += glm::dot(error, error) / 3;
         ++count;

@@ -104,6 +104,7 @@ std::vector<Row> geometryRows(); ///< light, sampling, tangent
 std::vector<Row> screenRows();   ///< screen_occlusion
 std::vector<Row> temporalRows();
 std::vector<Row> gradingRows(); ///< grading, exposure
+std::vector<Row> toneRows();    ///< tone, and night in grading
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

@@ -31,7 +31,7 @@ TEST(ToneTable, TheAxisGoesFromBlackTo256AndBack) {
 
 TEST(ToneTable, EachEntryIsWhatTheMapperShowsOfItsLight) {
     jobs::JobSystem jobs({ .workers = 1 });
-    const Image table = bakeToneTable(jobs, lib::kToneMapFilmic, 9);
+    const Image table = bakeToneTable(jobs, { .toneMapper = ToneMapper::Filmic }, 9);
     ASSERT_EQ(table.width, 81u);
     ASSERT_EQ(table.height, 9u);
     // Coordinates 0.5, 0.625 and 0.25 of 16 stops above 2^-8 are 1, 4 and 2^-4.
@@ -45,14 +45,14 @@ TEST(ToneTable, EachEntryIsWhatTheMapperShowsOfItsLight) {
 
 TEST(ToneTable, AMapperThatHoldsItsTransferGetsNoSecondOne) {
     jobs::JobSystem jobs({ .workers = 0 });
-    const float3 shown = entry(bakeToneTable(jobs, lib::kToneMapMobile, 9), 4, 4, 4);
+    const float3 shown = entry(bakeToneTable(jobs, { .toneMapper = ToneMapper::Mobile }, 9), 4, 4, 4);
     const float light = 1 - 1.0f / 256;
     EXPECT_NEAR(shown.x, light / (light + 0.155f) * 1.019f, 0.0006f);
 }
 
 TEST(ToneTable, TheBitsDoNotDependOnTheWorkers) {
     jobs::JobSystem none({ .workers = 0 }), three({ .workers = 3 });
-    EXPECT_EQ(bakeToneTable(none, lib::kToneMapAces, 16).data, bakeToneTable(three, lib::kToneMapAces, 16).data);
+    EXPECT_EQ(bakeToneTable(none, {}, 16).data, bakeToneTable(three, {}, 16).data);
 }
 
 } // namespace

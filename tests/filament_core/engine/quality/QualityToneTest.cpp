@@ -80,7 +80,7 @@ TEST_P(QualityToneTest, ATableIsInterpolatedTetrahedrally) {
     const std::vector<Rgba8> bytes = shown(*engine, ToneMapper::Aces, ToneMapping::Table16);
     ASSERT_EQ(bytes.size(), kColors.size());
     jobs::JobSystem jobs({ .workers = 0 });
-    const assets::Image table = assets::bakeToneTable(jobs, lib::kToneMapAces, 16);
+    const assets::Image table = assets::bakeToneTable(jobs, { .toneMapper = ToneMapper::Aces }, 16);
     for (size_t i = 0; i < kColors.size(); ++i) {
         const float3 expected = interpolated(table, kColors[i]) * 255.0f;
         for (int c = 0; c < 3; ++c) {

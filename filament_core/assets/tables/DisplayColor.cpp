@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/tables/DisplayColor.h"
+
+#include "filament_core/values/AcesReference.h"
+#include "filament_core/values/ToneShader.h"
+#include "shaders/lib/LibCpp.h"
+
+#include <filament/Look.h>
+
+namespace filament::assets {
+
+namespace lib = shader::lib;
+
+namespace {
+
+static_assert(static_cast<int>(ToneMapper::Linear) == lib::kToneMapLinear &&
+              static_cast<int>(ToneMapper::Aces) == lib::kToneMapAces &&
+              static_cast<int>(ToneMapper::Filmic) == lib::kToneMapFilmic &&
+              static_cast<int>(ToneMapper::Mobile) == lib::kToneMapMobile &&
+              static_cast<int>(ToneMapper::Agx) == lib::kToneMapAgx &&
+              static_cast<int>(ToneMapper::PbrNeutral) == lib::kToneMapPbrNeutral &&
+              static_cast<int>(ToneMapper::AcesReference) == lib::kToneMapAcesReference &&
+              static_cast<int>(ToneMapper::Generic) == lib::kToneMapGeneric &&
+              static_cast<int>(ToneMapper::DisplayRange) == lib::kToneMapDisplayRange);
+static_assert(static_cast<int>(OutputSpace::Srgb) == lib::kOutputSrgb &&
+              static_cast<int>(OutputSpace::LinearRec709) == lib::kOutputLinearRec709 &&
+              static_cast<int>(OutputSpace::DisplayP3) == lib::kOutputDisplayP3 &&
+              static_cast<int>(OutputSpace::Rec2020Pq) == lib::kOutputRec2020Pq);
+
+float3 row(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
+
+lib::Grading asInShaders(Grading const& grading, double3x3 const& mix) {
+    lib::Grading values;
+    values.nightAdaptation = grading.nightAdaptation;
+    values.mixRed = row(mix, 0), values.mixGreen = row(mix, 1), values.mixBlue = row(mix, 2);
+    values.shadows = grading.shadows, values.midtones = grading.midtones, values.highlights = grading.highlights;
+    values.tonalRanges = grading.tonalRanges;
+    values.slope = grading.slope, values.offset = grading.offset, values.power = grading.power;
+    values.contrast = grading.contrast, values.saturation = grading.saturation, values.vibrance = grading.vibrance;
+    values.shadowGamma = grading.shadowGamma, values.midPoint = grading.midPoint;
+    values.highlightScale = grading.highlightScale;
+    values.mapsGamut = grading.gamutMapping;
+    return values;
+}
+
+lib::ToneSettings asInShaders(ColorGrading const& grading) {
+    return lib::toneSettings(shaderToneMapper(grading), shaderToneCurve(grading.toneCurve), shaderOutputSpace(grading),
+                             whiteShareOf(grading));
+}
+
+float3 finiteOf(float3 light) { return glm::clamp(light, float3(0), float3(1e4f)); }
+
+} // namespace
+
+DisplayColor::DisplayColor(ColorGrading const& colorGrading, Grading const* grading)
+        : mColorGrading(clamped(colorGrading)), mGrading(grading ? *grading : Grading{}), mMix(gradingMatrix(mGrading)),
+          mIsGraded(grading != nullptr) {}
+
+float3 DisplayColor::operator()(float3 light) const {
+    return mapped(mIsGraded ? lib::graded(light, asInShaders(mGrading, mMix)) : light);
+}
+
+float3 DisplayColor::mapped(float3 light) const {
+    lib::ToneSettings tone = asInShaders(mColorGrading);
+    const bool isReference = mColorGrading.toneMapper == ToneMapper::AcesReference;
+    if (!isReference && !mColorGrading.look) return lib::displayColor(light, tone);
+    const int space = tone.space;
+    tone.space = lib::kOutputSrgb;
+    float3 color = isReference ? lib::srgbFromLinear(float3(acesReference(double3(finiteOf(light)))))
+                               : lib::displayColor(light, tone);
+    if (mColorGrading.look) color = lookedUp(*mColorGrading.look, color);
+    if (space == lib::kOutputSrgb) return color;
+    tone.space = space;
+    return lib::encodedForDisplay(lib::linearFromSrgb(lib::saturate(color)), tone);
+}
+
+} // namespace filament::assets
