@@ -6,9 +6,9 @@
 
 namespace filament {
 
-Result<void> savePng(std::filesystem::path const& path, Image const& image) {
+Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space) {
     FILAMENT_ASSERT(image.format == Format::RGBA8, "a PNG is written from RGBA8 pixels");
-    return assets::writePng(path, image.width, image.height, image.pixels);
+    return assets::writePng(path, image.width, image.height, image.pixels, space);
 }
 
 Result<void> saveExr(std::filesystem::path const& path, Image const& image) {

@@ -4,6 +4,7 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/PngColor.h"
 
 #include <glm/common.hpp>
 #include <png.h>
@@ -39,6 +40,9 @@ struct Plane {
     std::vector<std::byte> samples;
 };
 
+// Red, green, blue, white: ITU-R BT.709-6, item 1.
+constexpr std::array kRec709{ 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f };
+
 // OpenEXR requires planes in alphabetical order; `planes` is sorted.
 Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<Plane> planes,
                          int pixelType) {
@@ -59,6 +63,11 @@ Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint
     header.pixel_types = types.data();
     header.requested_pixel_types = types.data();
     header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+    std::array<float, 8> chromaticities = kRec709;
+    EXRAttribute attribute{ "chromaticities", "chromaticities", reinterpret_cast<unsigned char*>(&chromaticities),
+                            sizeof(chromaticities), 0 };
+    header.custom_attributes = &attribute;
+    header.num_custom_attributes = 1;
     image.images = samples.data();
     image.width = static_cast<int>(width);
     image.height = static_cast<int>(height);
@@ -137,7 +146,7 @@ void appendHdrRow(std::vector<std::byte>& out, std::span<const float3> row) {
 } // namespace
 
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
-                      std::span<const std::byte> rgba8) {
+                      std::span<const std::byte> rgba8, OutputSpace space) {
     FILAMENT_ASSERT(width > 0 && height > 0 && rgba8.size() == size_t(width) * height * 4,
                     "writePng takes width * height * 4 bytes, more than none");
     PngImage png;
@@ -151,7 +160,8 @@ Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_
     if (!png_image_write_to_memory(&png.value, bytes.data(), &size, 0, rgba8.data(), 0, nullptr)) {
         return pngFailure(path, "encode", png);
     }
-    return replaceFile(path, std::span(bytes).first(size));
+    bytes.resize(size);
+    return replaceFile(path, withColorSpace(std::move(bytes), space));
 }
 
 Result<Image> readPng(std::filesystem::path const& path) {

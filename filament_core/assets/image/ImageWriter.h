@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Writes pictures: PNG for display, OpenEXR and Radiance .hdr for scene-linear light. Also reads PNG.
 ///   In      tightly packed pixels, row 0 is the top row; the span's size is checked against width and height.
-///   Out     a complete file or none: written under another name and renamed. PNG pixels are stored as sRGB codes,
-///           unconverted.
+///   Out     a complete file or none: written under another name and renamed. PNG pixels are stored unconverted.
+///           EXR pixels are linear Rec. 709, and say so.
 ///   Thread  any; no shared state.
 ///   Memory  at most a second copy of the picture.
 ///   Fails   Unreadable with path and reason; an empty picture is the caller's bug.
@@ -14,14 +14,16 @@
 #include "filament_core/assets/image/HdrImage.h"
 #include "filament_core/assets/image/Image.h"
 
+#include <filament/ColorGrading.h>
+
 #include <filesystem>
 #include <span>
 
 namespace filament::assets {
 
-/// RGBA8, 4 bytes per pixel.
+/// RGBA8, 4 bytes per pixel. The file says that they are codes of `space`.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
-                      std::span<const std::byte> rgba8);
+                      std::span<const std::byte> rgba8, OutputSpace space = OutputSpace::Srgb);
 
 /// Any PNG as RGBA8, one level.
 Result<Image> readPng(std::filesystem::path const& path);

@@ -2,6 +2,7 @@
 /// Image: pixels in memory, tightly packed, row 0 at the top.
 #pragma once
 
+#include <filament/ColorGrading.h>
 #include <filament/Format.h>
 #include <filament/Result.h>
 
@@ -18,9 +19,10 @@ struct Image {
     std::vector<std::byte> pixels{};
 };
 
-/// RGBA8 only. Errors: Unreadable with path and reason.
-Result<void> savePng(std::filesystem::path const& path, Image const& image);
-/// RGBA16F only, stored as half floats.
+/// RGBA8 only, codes of ColorGrading::outputSpace, which the file names (sRGB; cICP, gAMA, cHRM). Errors: Unreadable with
+/// path and reason.
+Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space = OutputSpace::Srgb);
+/// RGBA16F only, stored as half floats; linear Rec. 709, which the file says.
 Result<void> saveExr(std::filesystem::path const& path, Image const& image);
 
 } // namespace filament

@@ -122,5 +122,59 @@ TEST(ImageLevels, OffsetsOfACubeCountAllFacesAndLevels) {
     EXPECT_EQ(blocks.levelBytes(0), 3u * 8) << "partial blocks count whole";
 }
 
+/// Name and data of every chunk; expects that their checksums are right, because libpng reads the file.
+std::vector<std::pair<std::string, std::vector<int>>> chunksOf(std::filesystem::path const& path) {
+    const std::vector<std::byte> bytes = readFileBytes(path).value();
+    std::vector<std::pair<std::string, std::vector<int>>> chunks;
+    for (size_t at = 8; at + 12 <= bytes.size();) {
+        size_t size = 0;
+        for (size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<size_t>(bytes[at + i]);
+        auto& [name, data] = chunks.emplace_back();
+        for (size_t i = 4; i < 8; ++i) name += static_cast<char>(bytes[at + i]);
+        for (size_t i = 0; i < size; ++i) data.push_back(static_cast<int>(bytes[at + 8 + i]));
+        at += size + 12;
+    }
+    EXPECT_TRUE(readPng(path).ok());
+    return chunks;
+}
+
+std::vector<std::string> namesOf(std::filesystem::path const& path) {
+    std::vector<std::string> names;
+    for (auto const& [name, data] : chunksOf(path)) names.push_back(name);
+    return names;
+}
+
+TEST(ImageWriter, PngsNameTheirColourSpace) {
+    const TemporaryFolder folder;
+    const auto written = [&](OutputSpace space) {
+        const std::filesystem::path path = folder / (std::string(toString(space)) + ".png");
+        EXPECT_TRUE(writePng(path, 3, 2, noise(24), space));
+        return path;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(namesOf(written(OutputSpace::Srgb)), (Names{ "IHDR", "sRGB", "IDAT", "IEND" }));
+    EXPECT_EQ(namesOf(written(OutputSpace::LinearRec709)), (Names{ "IHDR", "cICP", "gAMA", "cHRM", "IDAT", "IEND" }));
+    EXPECT_EQ(namesOf(written(OutputSpace::DisplayP3)), (Names{ "IHDR", "cICP", "gAMA", "cHRM", "IDAT", "IEND" }));
+    EXPECT_EQ(namesOf(written(OutputSpace::Rec2020Pq)), (Names{ "IHDR", "cICP", "cHRM", "IDAT", "IEND" }));
+    const auto dataOf = [&](OutputSpace space) { return chunksOf(written(space))[1].second; };
+    EXPECT_EQ(dataOf(OutputSpace::LinearRec709), (std::vector{ 1, 8, 0, 1 }));
+    EXPECT_EQ(dataOf(OutputSpace::DisplayP3), (std::vector{ 12, 13, 0, 1 }));
+    EXPECT_EQ(dataOf(OutputSpace::Rec2020Pq), (std::vector{ 9, 16, 0, 1 }));
+    EXPECT_EQ(chunksOf(written(OutputSpace::DisplayP3))[2].second, (std::vector{ 0, 0, 177, 143 })) << "45 455";
+}
+
+TEST(ImageWriter, EveryExrSaysThatItIsRec709) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeExr(folder / "light.exr", 2, 1, std::vector{ float3(1), float3(2) }, ExrPrecision::Float));
+    const std::vector<std::byte> bytes = readFileBytes(folder / "light.exr").value();
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string_view attribute("chromaticities\0chromaticities\0\x20\0\0\0", 34);
+    const size_t at = text.find(attribute);
+    ASSERT_NE(at, std::string_view::npos);
+    std::array<float, 8> values{};
+    std::memcpy(values.data(), bytes.data() + at + attribute.size(), sizeof(values));
+    EXPECT_EQ(values, (std::array{ 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f }));
+}
+
 } // namespace
 } // namespace filament::assets

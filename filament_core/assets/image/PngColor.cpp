@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// W3C, "Portable Network Graphics (PNG) Specification (Third Edition)", section 11.3.2: colour space information.
+#include "filament_core/assets/image/PngColor.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace filament::assets {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+constexpr size_t kSignature = 8, kFrame = 12; // a chunk's length, name and checksum
+
+void appendWord(Bytes& bytes, uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFF));
+}
+
+uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint32_t>(bytes[at + i]);
+    return value;
+}
+
+void appendChunk(Bytes& bytes, std::string_view name, std::span<const std::byte> data) {
+    appendWord(bytes, static_cast<uint32_t>(data.size()));
+    const size_t first = bytes.size();
+    for (const char c : name) bytes.push_back(static_cast<std::byte>(c));
+    bytes.insert(bytes.end(), data.begin(), data.end());
+    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + first);
+    appendWord(bytes, static_cast<uint32_t>(crc32(0, checked, static_cast<uInt>(bytes.size() - first))));
+}
+
+/// Code points of ITU-T H.273: primaries, transfer function, no matrix, full range.
+void appendCicp(Bytes& bytes, uint8_t primaries, uint8_t transfer) {
+    const std::array data{ std::byte{ primaries }, std::byte{ transfer }, std::byte{ 0 }, std::byte{ 1 } };
+    appendChunk(bytes, "cICP", data);
+}
+
+/// The encoding exponent times 100 000.
+void appendGamma(Bytes& bytes, uint32_t gamma) {
+    Bytes data;
+    appendWord(data, gamma);
+    appendChunk(bytes, "gAMA", data);
+}
+
+/// x and y of D65 and of the primaries, times 100 000.
+void appendChromaticities(Bytes& bytes, std::array<uint32_t, 6> const& primaries) {
+    Bytes data;
+    for (const uint32_t value : { 31270u, 32900u }) appendWord(data, value);
+    for (const uint32_t value : primaries) appendWord(data, value);
+    appendChunk(bytes, "cHRM", data);
+}
+
+/// cICP first; the others are for decoders that do not know it. PQ has no gamma.
+void appendColor(Bytes& bytes, OutputSpace space) {
+    constexpr uint8_t kRec709 = 1, kRec2020 = 9, kP3 = 12, kLinear = 8, kSrgb = 13, kPq = 16;
+    switch (space) {
+    case OutputSpace::Srgb:
+        return;
+    case OutputSpace::LinearRec709:
+        appendCicp(bytes, kRec709, kLinear);
+        appendGamma(bytes, 100'000);
+        return appendChromaticities(bytes, { 64000, 33000, 30000, 60000, 15000, 6000 });
+    case OutputSpace::DisplayP3:
+        appendCicp(bytes, kP3, kSrgb);
+        appendGamma(bytes, 45'455);
+        return appendChromaticities(bytes, { 68000, 32000, 26500, 69000, 15000, 6000 });
+    case OutputSpace::Rec2020Pq:
+        appendCicp(bytes, kRec2020, kPq);
+        return appendChromaticities(bytes, { 70800, 29200, 17000, 79700, 13100, 4600 });
+    }
+}
+
+} // namespace
+
+std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace space) {
+    if (space == OutputSpace::Srgb) return png;
+    constexpr std::array<std::string_view, 5> kReplaced{ "sRGB", "gAMA", "cHRM", "iCCP", "cICP" };
+    Bytes result(png.begin(), png.begin() + kSignature);
+    for (size_t at = kSignature; at + kFrame <= png.size();) {
+        const size_t size = wordAt(png, at) + kFrame;
+        const std::string_view name(reinterpret_cast<const char*>(png.data() + at + 4), 4);
+        if (std::ranges::find(kReplaced, name) == kReplaced.end()) {
+            const auto first = png.begin() + static_cast<std::ptrdiff_t>(at);
+            result.insert(result.end(), first, first + static_cast<std::ptrdiff_t>(size));
+        }
+        if (name == "IHDR") appendColor(result, space);
+        at += size;
+    }
+    return result;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// withColorSpace: a PNG whose chunks say which colour space its codes belong to.
+///   In      a complete PNG as libpng writes it.
+///   Out     the same with its colour chunks (sRGB, gAMA, cHRM, iCCP, cICP) replaced. sRGB: the PNG as it is.
+///   Fails   never.   Memory: a second copy of the file.
+#pragma once
+
+#include <filament/ColorGrading.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace filament::assets {
+
+std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace space);
+
+} // namespace filament::assets
