@@ -3,6 +3,8 @@
 
 #include "tools/common/CommandLine.h"
 
+#include <filament/Look.h>
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -26,9 +28,14 @@ Result<void> convertSize(SceneWords const& words, SceneOptions& options) {
 
 Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
     const auto toneMapper = toneMapperFromName(words.toneMapper);
-    if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile");
+    if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, toneMapperNames());
     options.colorGrading.toneMapper = *toneMapper;
 
+    if (!words.look.empty()) {
+        auto look = loadLook(words.look);
+        if (!look) return fail(look.error().code, "--look {}", look.error().message);
+        options.colorGrading.look = std::move(*look);
+    }
     if (auto done = convertSwitch("--skybox", words.skybox, options.skybox); !done) return done;
     if (auto done = convertSwitch("--dither", words.dither, options.colorGrading.dither); !done) return done;
     if (words.out.empty()) return invalidOption("--out", words.out, "the path of a folder");
@@ -162,9 +169,10 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
             if (!*chosen) return *chosen;
             continue;
         }
-        const bool isEffect = effectValue(options.effects, name).has_value();
-        const Result<void> done =
-                isEffect ? setEffect(options.effects, name, value) : setQuality(options.quality, name, value);
+        const Result<void> done = effectValue(options.effects, name) ? setEffect(options.effects, name, value)
+                                  : colorGradingValue(options.colorGrading, name)
+                                          ? setColorGrading(options.colorGrading, name, value)
+                                          : setQuality(options.quality, name, value);
         if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
     }
     return {};
@@ -194,7 +202,8 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
             ->expected(4)
             ->allow_extra_args(false);
     app.add_option("--skybox", words.skybox, "on or off: the environment as background (on)");
-    app.add_option("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile (aces)");
+    app.add_option("--tone-mapper", words.toneMapper, std::string(toneMapperNames()) + " (aces)");
+    app.add_option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
     app.add_option("--dither", words.dither, "on or off (off)");
     app.add_option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
     app.add_option("--set", words.set, "NAME=VALUE: one choice of docs/quality.md, after --quality; repeatable")

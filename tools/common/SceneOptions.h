@@ -50,7 +50,7 @@ struct SceneOptions {
 /// The words of those options as given.
 struct SceneWords {
     std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
-                                    dither, out = "out";
+                                    look, dither, out = "out";
     std::vector<std::string> eye, at, exposure, sun;
     std::string quality;
     std::vector<std::string> set; ///< name=value

@@ -4,6 +4,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/conformance/SceneLights.h"
 
+#include <filament/Look.h>
+
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
@@ -74,6 +76,27 @@ void readExposure(JsonReader& reader, Exposure& exposure) {
     reader.read("iso", exposure.iso, 1, 1e6);
 }
 
+void readColorGrading(JsonReader& reader, ColorGrading& grading) {
+    for (ColorGradingOption const& option : colorGradingOptions()) {
+        const char* const key = option.name.data(); // a literal
+        Json const* value = reader.raw(key);
+        if (!value) continue;
+        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
+        if (const Result<void> done = setColorGrading(grading, option.name, word); !done)
+            reader.complain(key, done.error().message);
+    }
+}
+
+/// A path from the scene's folder.
+void readLook(JsonReader& reader, SceneSpec& spec) {
+    std::string file;
+    reader.read("look", file);
+    if (file.empty()) return;
+    auto look = loadLook(spec.folder / file);
+    if (!look) return reader.complain("look", look.error().message);
+    spec.view.colorGrading.look = std::move(*look);
+}
+
 void readView(JsonReader& reader, SceneSpec& spec) {
     View& view = spec.view;
     reader.read("size", view.size);
@@ -83,7 +106,9 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     reader.read("samples", samples, 1, 4);
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
     view.samples = static_cast<uint8_t>(samples);
-    reader.choice("toneMapper", view.colorGrading.toneMapper, "linear, aces, filmic or mobile", toneMapperFromName);
+    reader.choice("toneMapper", view.colorGrading.toneMapper, toneMapperNames(), toneMapperFromName);
+    readColorGrading(reader, view.colorGrading);
+    readLook(reader, spec);
     reader.read("dither", view.colorGrading.dither);
     reader.choice(
             "debugView", view.debugView,

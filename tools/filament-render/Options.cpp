@@ -16,7 +16,8 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 /// The options that only this program has.
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
-                affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation;
+                affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
+                saveLook;
     std::vector<std::string> values;
 };
 
@@ -79,6 +80,7 @@ Result<void> convertThreads(Words const& words, Options& options) {
 }
 
 Result<void> convertBudget(Words const& words, Options& options) {
+    options.saveLook = words.saveLook;
     options.costs = words.costs;
     options.measureCosts = words.measureCosts;
     if (words.budget.empty()) return {};
@@ -117,6 +119,8 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
     app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
+    app.add_option("--save-look", words.saveLook,
+                   "FILE.cube: write grading, tone mapper and look as a cube for other programs");
     app.add_flag("--timing", options.timing, "print the time taken by start-up and frames");
     app.add_flag("--explain", options.explain, "print what ran, what was culled, and why");
     app.add_flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");

@@ -12,6 +12,8 @@
 #include "tools/imgdiff/ImageCompare.h"
 #include "tools/materials/MaterialFile.h"
 
+#include <filament/Look.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,6 +22,8 @@
 
 namespace filament::tools {
 namespace {
+
+constexpr uint32_t kSavedLookSize = 33; // a side: that of most programs
 
 int listAllDevices() {
     const std::vector<DeviceDescription> devices = listDevices();
@@ -54,8 +58,9 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
         for (std::string const& warning : run->warnings) printWarning(warning);
         for (std::string const& error : run->errors) note(fmt::format("{}: {}", fileStem(backend), error));
         const std::filesystem::path path = picturePath(options, backend);
-        const Result<void> saved =
-                options.format == PictureFormat::Exr ? saveExr(path, run->image) : savePng(path, run->image);
+        const Result<void> saved = options.format == PictureFormat::Exr
+                                           ? saveExr(path, run->image)
+                                           : savePng(path, run->image, options.colorGrading.outputSpace);
         if (!saved)
             note(saved.error().message);
         else
@@ -101,6 +106,10 @@ int render(Options const& options) {
     const Result<showcase::Files> files = chooseFiles(options);
     if (!files) return failed(files.error());
 
+    if (!options.saveLook.empty()) {
+        const Look look = bakeLook(options.colorGrading, options.effects.grading, kSavedLookSize);
+        if (const Result<void> saved = saveLook(options.saveLook, look); !saved) return failed(saved.error());
+    }
     std::vector<std::string> errors;
     const std::vector<BackendRun> runs = drawAll(options, *files, errors);
     std::optional<ImageComparison> comparison;
