@@ -100,6 +100,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     out.define(shadingDefine(package.shading));
     out.define(blendDefine(package.blending));
     out.define(vertexDomainDefine(package.vertexDomain));
+    defineIf(out, package.vertexDomainDeviceJittered, "VERTEX_DOMAIN_DEVICE_JITTERED");
     defineIf(out, definition.flipUv, "FLIP_UV");
     defineIf(out, definition.fullScreenTriangle, "FULL_SCREEN_TRIANGLE");
     defineIf(out, definition.wideLines, "WIDE_LINES");

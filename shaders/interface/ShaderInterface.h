@@ -80,6 +80,7 @@ struct FrameUniforms {
     float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed, towards the sun; w: exponent of the cosine
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has them
+    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; zw: unused
 };
 
 // ---- PassUniforms

@@ -42,6 +42,7 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 fogSun;
     vec4 fogSunDirection;
     vec4 contactShadows;
+    vec4 jitter;
 } frameUniforms;
 
 struct ObjectRecord {

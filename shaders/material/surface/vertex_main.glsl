@@ -78,6 +78,9 @@ vec4 clipPosition(MaterialVertexInputs inputs, mat4 clipFromWorld) {
 #else
     vec4 clip = clipFromWorld * vec4(inputs.worldPosition.xyz, 1.0);
 #endif
+#if defined(VERTEX_DOMAIN_DEVICE) && defined(VERTEX_DOMAIN_DEVICE_JITTERED)
+    clip.xy += frameUniforms.jitter.xy * clip.w; // as clipFromWorld does elsewhere
+#endif
 #if defined(WIDE_LINES)
     vec4 lineEnd = clipFromWorld * vec4(inputs.lineEnd.xyz, 1.0);
     clip = widened(inFront(clip, lineEnd), lineEnd, mesh_custom0.w, inputs.lineWidth);
@@ -100,7 +103,8 @@ void main() {
     gl_Position = clipPosition(inputs, frameUniforms.clipFromWorld);
     gl_PointSize = 1.0;
 #if defined(VERTEX_DOMAIN_VIEW) || defined(VERTEX_DOMAIN_DEVICE)
-    vertex_lastClip = gl_Position; // it goes with the camera
+    vertex_lastClip = gl_Position; // it goes with the camera, but not with the jitter
+    vertex_lastClip.xy -= frameUniforms.jitter.xy * gl_Position.w;
     vertex_distances = vec2(1.0);
 #else
     isLastFrame = true;

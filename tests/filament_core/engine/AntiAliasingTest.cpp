@@ -1,126 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // FXAA and temporal anti-aliasing beside supersampling: how near they come to it, still and in motion, and that they
 // cost nothing and change nothing where there is nothing to smooth.
-#include "tests/filament_core/engine/SkyStage.h"
-#include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tests/filament_core/engine/Fan.h"
 #include "tools/conformance/Flip.h"
 
-#include <filament/Renderer.h>
-
-#include <glm/ext/matrix_transform.hpp>
-
 #include <cmath>
-#include <numbers>
 
 namespace filament {
 namespace {
 
+using test::Fan;
 using test::halfPixel;
-
-constexpr uint2 kFanSize(96, 80);
-
-/// Bars at all angles before a grey wall: edges of every slope, some of them thinner than a pixel.
-class Fan {
-public:
-    explicit Fan(Backend backend)
-            : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
-              scene(engine), renderer(engine), mSquare(engine), mBright(instanceOf("0.9")), mDark(instanceOf("0.05")),
-              mWall(instanceOf("0.3")) {
-        addBars();
-        mSquare.add(scene, mWall.instance, double3(0, 0, -1), 3);
-        view.size = kFanSize;
-        turn(0);
-    }
-    ~Fan() { test::expectNoErrors(engine); }
-
-    /// The camera to the right, in degrees.
-    void turn(double degrees) {
-        const double radians = glm::radians(degrees);
-        view.camera = Camera::lookAt({ 0, 0, 2 }, { std::sin(radians), 0, 2 - std::cos(radians) },
-                                     { .verticalFovDegrees = 50 });
-    }
-    void turnBars(double degrees) {
-        for (size_t i = 0; i < mBars.size(); ++i) scene.setTransform(mBars[i], placeOf(i, degrees));
-    }
-    Image draw(Renderer& with) {
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        with.render(scene, view, target);
-        auto image = with.waitPixels(with.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
-    }
-    Image draw() { return draw(renderer); }
-
-    /// The mean of 8 x 8 samples a pixel.
-    Image supersampled() {
-        constexpr uint32_t kSide = 8;
-        const View seen = view;
-        view.size = seen.size * kSide;
-        view.quality.antiAliasing = AntiAliasing::Off;
-        Renderer other(engine);
-        const Image large = draw(other);
-        view = seen;
-        Image small{ .width = seen.size.x, .height = seen.size.y, .format = large.format, .pixels = {} };
-        std::vector<uint16_t> halves;
-        for (uint32_t y = 0; y < small.height; ++y) {
-            for (uint32_t x = 0; x < small.width; ++x) {
-                float4 sum(0);
-                for (uint32_t i = 0; i < kSide * kSide; ++i)
-                    sum += halfPixel(large, x * kSide + i % kSide, y * kSide + i / kSide);
-                for (int c = 0; c < 4; ++c) halves.push_back(halfFromFloat(sum[c] / float(kSide * kSide)));
-            }
-        }
-        small.pixels.resize(halves.size() * 2);
-        std::memcpy(small.pixels.data(), halves.data(), small.pixels.size());
-        return small;
-    }
-
-    Engine engine;
-    Scene scene;
-    Renderer renderer;
-    View view;
-
-private:
-    struct Shade {
-        Owned<Material> material;
-        Owned<MaterialInstance> instance;
-    };
-    Shade instanceOf(std::string_view light) {
-        Shade shade;
-        shade.material = test::loadMaterial(
-                engine, test::text("shadingModel : unlit, culling : none",
-                                   "material.baseColor = vec4(vec3(" + std::string(light) + "), 1.0);"));
-        shade.instance = engine.own(engine.createInstance(shade.material));
-        return shade;
-    }
-    static double4x4 placeOf(size_t bar, double degrees) {
-        const double angle = std::numbers::pi * static_cast<double>(bar) / 12 + glm::radians(degrees);
-        double4x4 place = glm::rotate(double4x4(1.0), angle, double3(0, 0, 1));
-        place = glm::translate(place, double3(0.5, 0, static_cast<double>(bar) * 0.01));
-        return glm::scale(place, double3(0.4, bar % 3 == 0 ? 0.005 : 0.02, 1));
-    }
-    void addBars() {
-        for (size_t i = 0; i < 24; ++i)
-            mBars.push_back(mSquare.add(scene, i % 2 ? mBright.instance : mDark.instance, placeOf(i, 3)));
-    }
-
-    test::SquareMesh mSquare;
-    Shade mBright, mDark, mWall;
-    std::vector<Renderable> mBars;
-};
-
-/// Of all components.
-double rmsBetween(Image const& a, Image const& b) {
-    double sum = 0;
-    for (uint32_t y = 0; y < a.height; ++y) {
-        for (uint32_t x = 0; x < a.width; ++x) {
-            const float3 away = float3(halfPixel(a, x, y)) - float3(halfPixel(b, x, y));
-            sum += static_cast<double>(dot(away, away)) / 3;
-        }
-    }
-    return std::sqrt(sum / (static_cast<double>(a.width) * a.height));
-}
+using test::rmsBetween;
 
 TEST(Taa, OfAStillCameraConvergesToSupersampling) {
     Fan fan(Backend::Vulkan);
@@ -206,6 +97,37 @@ TEST(Taa, ForgetsAnotherSceneAndAnotherSize) {
     fan.view.size = { 50, 40 };
     Renderer fresh(fan.engine);
     EXPECT_EQ(rmsBetween(fan.draw(), fan.draw(fresh)), 0.0);
+}
+
+/// Vertices of the domain `device` are where their material puts them, and have smooth edges if it says that the jitter
+/// moves them. The square ends at 21.28 of 32 pixels.
+TEST(Taa, SmoothsTheEdgesOfTheDeviceDomainWhereTheJitterMovesThem) {
+    for (const bool isJittered : { false, true }) {
+        const std::string text =
+                fmt::format("material {{ name : stage, shadingModel : unlit, culling : none, vertexDomain : device, "
+                            "vertexDomainDeviceJittered : {} }}\n"
+                            "vertex {{ void materialVertex(inout MaterialVertexInputs material) {{\n"
+                            "material.clipSpaceTransform[0].x = 0.33; material.clipSpaceTransform[3].z = 0.5; }} }}\n"
+                            "fragment {{ void material(inout MaterialInputs material) {{ prepareMaterial(material);\n"
+                            "material.baseColor = vec4(1.0); }} }}",
+                            isJittered);
+        std::vector<Image> images;
+        for (const Backend backend : test::kBothApis) {
+            test::SquareStage stage(backend, text);
+            Scene scene(stage.engine);
+            stage.square.add(scene, stage.instance);
+            View view = test::SquareMesh::view({ 32, 8 });
+            view.quality.antiAliasing = AntiAliasing::Taa;
+            Renderer renderer(stage.engine);
+            const Owned<SwapChain> target = stage.engine.own(stage.engine.create(
+                    SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F }));
+            for (int frame = 0; frame < 64; ++frame) renderer.render(scene, view, target);
+            images.push_back(std::move(*renderer.waitPixels(renderer.readPixels(target))));
+        }
+        EXPECT_EQ(images[0].pixels, images[1].pixels);
+        EXPECT_NEAR(halfPixel(images[0], 21, 4).x, isJittered ? 0.28f : 0.0f, 0.02f);
+        EXPECT_NEAR(halfPixel(images[0], 20, 4).x, 1, 1e-3f);
+    }
 }
 
 TEST(Fxaa, SmoothsEdgesAndLeavesEvenSurfacesAlone) {
