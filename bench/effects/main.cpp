@@ -180,6 +180,29 @@ void addAntiAliasing(std::vector<Pair>& all, const char* file) {
     all.push_back({ .name = "taa, and the model turns", .file = file, .plain = off, .effect = taa, .isTurning = true });
 }
 
+void addResolutions(std::vector<Pair>& all, const char* file) {
+    const auto drawn = [](Upscaling filter, AntiAliasing antiAliasing, float scale) {
+        return [=](Scene&, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            view.quality.upscale = filter;
+            view.quality.antiAliasing = antiAliasing;
+            view.effects.resolution.scale = float2(scale);
+        };
+    };
+    const auto off = drawn(Upscaling::Off, AntiAliasing::Off, 1);
+    const auto filtered = [&](Upscaling filter, float scale) { return drawn(filter, AntiAliasing::Off, scale); };
+    all.push_back({ "bilinear, half", file, off, filtered(Upscaling::Bilinear, 0.5f) });
+    all.push_back({ "catmullRom, half", file, off, filtered(Upscaling::CatmullRom, 0.5f) });
+    all.push_back({ "edgeAdaptive, half", file, off, filtered(Upscaling::EdgeAdaptive, 0.5f) });
+    all.push_back({ "edgeAdaptive, two thirds", file, off, filtered(Upscaling::EdgeAdaptive, 0.67f) });
+    all.push_back({ "taa of half the pixels", file, off, drawn(Upscaling::Off, AntiAliasing::Taa, 0.5f) });
+    all.push_back({ "edgeAdaptive of all pixels", file, off, filtered(Upscaling::EdgeAdaptive, 1), true });
+    all.push_back({ "sharpening", file, off, [](Scene&, View& view) {
+                       view.quality.shadows = ShadowFilter::Off;
+                       view.effects.sharpening.enabled = true;
+                   } });
+}
+
 std::function<void(Scene&, View&)> withEffects(std::function<void(View&)> const& set) {
     return [set](Scene&, View& view) {
         view.quality.shadows = ShadowFilter::Off;
@@ -293,6 +316,7 @@ std::vector<Pair> pairs() {
     addBloom(all, kHelmet);
     addAntiAliasing(all, kHelmet);
     addFinish(all, kHelmet);
+    addResolutions(all, kHelmet);
     addChain(all, kHelmet);
     return all;
 }

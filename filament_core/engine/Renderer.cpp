@@ -28,14 +28,16 @@ using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
 
-/// `contents`: see ViewInput.
-prepare::ViewInput inputOf(View const& view, uint64_t contents) {
+/// `contents`: see ViewInput. `effects`: those of the view, within their ranges.
+prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t contents) {
+    const uint2 drawn = prepare::drawnSize(view.size, effects.resolution.scale, view.quality, view.debugView);
     return { .camera = view.camera,
-             .size = view.size,
+             .size = drawn,
+             .shownSize = view.size,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,
-             .effects = clamped(view.effects),
+             .effects = effects,
              .debugView = view.debugView,
              .contents = contents };
 }
@@ -64,12 +66,17 @@ struct Renderer::Impl {
     /// Both only ever grow.
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
+    /// As the view asks for it.
+    prepare::ViewInput inputFor(Scene const& scene, View const& view) const {
+        return inputOf(view, clamped(view.effects), contentsOf(scene));
+    }
+
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
     FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines) {
         arena.reset();
         graph.reset();
         plan = {};
-        const std::array views{ inputOf(view, contentsOf(scene)) };
+        const std::array views{ inputFor(scene, view) };
         const prepare::FramePacket packet =
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
@@ -87,7 +94,7 @@ struct Renderer::Impl {
     /// Without memory for it, the next frame is as a first one.
     void keepLast(Scene const& scene, View const& view, prepare::FramePacket const& packet) {
         try {
-            last.keep(scene.impl().upToDate(), inputOf(view, contentsOf(scene)), packet);
+            last.keep(scene.impl().upToDate(), inputFor(scene, view), packet);
         } catch (std::bad_alloc const&) {
             last.forget();
         }

@@ -40,7 +40,7 @@ scene::Material const& materialOf(FrameContext const& context, std::string_view 
 }
 
 TextureId addSamples(FrameGraph& graph, FrameContext const& context, TextureId color) {
-    const uint2 size = samplesOf(context.settings.size);
+    const uint2 size = samplesOf(sizeOf(graph, color));
     const TextureId luminance =
             graph.createTexture({ .width = size.x, .height = size.y, .format = Format::R32F, .name = "luminance" });
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = color } };

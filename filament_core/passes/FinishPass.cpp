@@ -2,6 +2,7 @@
 #include "filament_core/passes/FinishPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/ResolutionPass.h"
 #include "filament_core/values/ToneShader.h"
 
 #include <array>
@@ -43,15 +44,17 @@ constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .val
 /// What the passes of a frame do.
 struct Finish {
     bool isSceneLinear = false;
-    bool smoothsEdges = false;
+    bool smoothsEdges = false, enlarges = false, sharpens = false; // in this order, after the others
     bool hasBloom = false, isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
     bool hasToneValues = false;             // of a formula with numbers, or for a display other than sRGB
-    bool hasGrain = false, dithers = false; // by the last pass, because smoothing takes noise for edges
+    bool hasGrain = false, dithers = false; // by the last pass, because the others take noise for edges
 
+    bool goesOn() const { return smoothsEdges || changesPixels(); }
+    bool changesPixels() const { return enlarges || sharpens; }
     /// Whether more than a tone mapper is asked for.
     bool hasLens() const {
         return hasBloom || isExposed || isGraded || hasVignette || hasFringes || hasToneValues ||
-               (hasGrain && !smoothsEdges);
+               (hasGrain && !goesOn());
     }
 };
 
@@ -59,10 +62,12 @@ bool needsValues(ColorGrading const& grading) {
     return grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb;
 }
 
-Finish finishOf(FrameContext const& context, bool isSceneLinear) {
+Finish finishOf(FrameContext const& context, bool isSceneLinear, bool enlarges) {
     prepare::SceneDemand const& demand = context.packet.demand;
     return { .isSceneLinear = isSceneLinear,
              .smoothsEdges = demand.needs(Effect::Fxaa),
+             .enlarges = enlarges,
+             .sharpens = demand.needs(Effect::Sharpening),
              .hasBloom = demand.needs(Effect::Bloom),
              .isExposed = demand.needs(Effect::AutoExposure),
              .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
@@ -79,7 +84,7 @@ int32_t toneMapperOf(FrameContext const& context) {
 
 void addToneMapPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId color,
                     TextureId target) {
-    const std::array constants{ EffectConstant{ "dither", finish.dithers && !finish.smoothsEdges },
+    const std::array constants{ EffectConstant{ "dither", finish.dithers && !finish.goesOn() },
                                 EffectConstant{ "fromTable", static_cast<bool>(context.resources.toneTable) },
                                 EffectConstant{ "toneMapper", toneMapperOf(context) } };
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = color },
@@ -111,7 +116,7 @@ auto valuesOf(FrameContext const& context) {
     Grading const& grading = effects.grading;
     const double3x3 mix = gradingMatrix(grading);
     const ColorGrading tone = clamped(context.view->colorGrading);
-    const uint2 size = context.settings.size;
+    const uint2 size = context.packet.shownSize;
     return std::array{
         FullScreenValue{ "bloomStrength", effects.bloom.strength },
         FullScreenValue{ "bloomThreshold", effects.bloom.threshold },
@@ -147,14 +152,14 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "isSceneLinear", finish.isSceneLinear },
         EffectConstant{ "fromTable", hasTable },
         EffectConstant{ "toneMapper", toneMapperOf(context) },
-        EffectConstant{ "dither", finish.dithers && !finish.smoothsEdges },
+        EffectConstant{ "dither", finish.dithers && !finish.goesOn() },
         EffectConstant{ "autoExposure", finish.isExposed },
         EffectConstant{ "bloom", finish.hasBloom },
         EffectConstant{ "graded", finish.isGraded },
         EffectConstant{ "mapsGamut", finish.isGraded && context.packet.effects.grading.gamutMapping },
         EffectConstant{ "aberration", finish.hasFringes },
         EffectConstant{ "hasVignette", finish.hasVignette },
-        EffectConstant{ "grain", finish.hasGrain && !finish.smoothsEdges },
+        EffectConstant{ "grain", finish.hasGrain && !finish.goesOn() },
         EffectConstant{ "outputSpace", hasTable ? 0 : shaderOutputSpace(context.view->colorGrading) },
         EffectConstant{ "adaptsToNight", finish.isGraded && context.packet.effects.grading.nightAdaptation > 0 },
     };
@@ -190,8 +195,8 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
 void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
                  TextureId target) {
     const std::array constants{ EffectConstant{ "isSceneLinear", finish.isSceneLinear },
-                                EffectConstant{ "dither", finish.dithers },
-                                EffectConstant{ "grain", finish.hasGrain } };
+                                EffectConstant{ "dither", finish.dithers && !finish.changesPixels() },
+                                EffectConstant{ "grain", finish.hasGrain && !finish.changesPixels() } };
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
     Grain const& grain = context.packet.effects.grain;
     const std::array values{ FullScreenValue{ "grainStrength", grain.strength },
@@ -204,14 +209,13 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& f
                         .target = target });
 }
 
-/// Before edges are smoothed. Noise that comes later needs more than 8 bits until then.
-TextureId createUnsmoothed(FrameGraph& graph, FrameContext const& context, Finish const& finish) {
-    const uint2 size = context.settings.size;
-    const bool isEightBit = !finish.isSceneLinear && !finish.dithers && !finish.hasGrain;
+/// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their steps.
+TextureId createUnfinished(FrameGraph& graph, Finish const& finish, uint2 size, std::string_view name) {
+    const bool isEightBit = !finish.isSceneLinear && !finish.dithers && !finish.hasGrain && !finish.sharpens;
     return graph.createTexture({ .width = size.x,
                                  .height = size.y,
                                  .format = isEightBit ? Format::RGBA8 : Format::RGBA16F,
-                                 .name = "with edges" });
+                                 .name = name });
 }
 
 /// Draws `target` from targets.color, by the cheapest pass that does what is asked for.
@@ -229,14 +233,28 @@ void addPicture(FrameGraph& graph, FrameContext const& context, Finish const& fi
 
 void addFinishPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isSceneLinear) {
     if (targets.color == targets.output) return;
-    const Finish finish = finishOf(context, isSceneLinear);
-    if (!finish.smoothsEdges) return addPicture(graph, context, finish, targets, targets.output);
+    const uint2 size = sizeOf(graph, targets.color), shown = sizeOf(graph, targets.output);
+    const Finish finish = finishOf(context, isSceneLinear, size != shown);
+    if (!finish.goesOn()) return addPicture(graph, context, finish, targets, targets.output);
     TextureId picture = targets.color;
     if (finish.hasLens() || !finish.isSceneLinear) {
-        picture = createUnsmoothed(graph, context, finish);
+        picture = createUnfinished(graph, finish, size, finish.smoothsEdges ? "with edges" : "with few pixels");
         addPicture(graph, context, finish, targets, picture);
     }
-    addFxaaPass(graph, context, finish, picture, targets.output);
+    if (finish.smoothsEdges) {
+        const TextureId smooth =
+                finish.changesPixels() ? createUnfinished(graph, finish, size, "smooth") : targets.output;
+        addFxaaPass(graph, context, finish, picture, smooth);
+        picture = smooth;
+    }
+    const LastStep last{ .isSceneLinear = isSceneLinear, .hasGrain = finish.hasGrain, .dithers = finish.dithers };
+    if (finish.enlarges) {
+        const TextureId large = finish.sharpens ? createUnfinished(graph, finish, shown, "large") : targets.output;
+        addUpscalingPass(graph, context, { picture, large },
+                         finish.sharpens ? LastStep{ .isSceneLinear = isSceneLinear } : last);
+        picture = large;
+    }
+    if (finish.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
 }
 
 } // namespace filament::passes

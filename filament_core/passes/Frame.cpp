@@ -57,7 +57,7 @@ ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
 
 PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
     FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-    return { .size = view.size,
+    return { .size = packet.size,
              .samples = view.debugView == DebugView::None ? view.samples : uint8_t{ 1 }, // its depths are read
              .clearColor = view.clearColor,
              .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet), screenOf(view, packet)),
@@ -71,9 +71,10 @@ bool showsDecisions(FrameContext const& context) { return context.packet.demand.
 /// Whether an effect takes the picture of the colour pass and makes another one of it.
 bool changesPicture(FrameContext const& context) {
     using prepare::Effect;
-    constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,       Effect::ChromaticAberration,
-                                            Effect::Vignette,     Effect::Grading,     Effect::Fxaa,
-                                            Effect::DepthOfField, Effect::AutoExposure };
+    constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,        Effect::ChromaticAberration,
+                                            Effect::Vignette,     Effect::Grading,      Effect::Fxaa,
+                                            Effect::DepthOfField, Effect::AutoExposure, Effect::Upscaling,
+                                            Effect::Sharpening };
     return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
 }
 
@@ -113,9 +114,11 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addAmbientOcclusionPass(graph, context, targets);
     addReflectedPicture(graph, context, targets);
     addColorPass(graph, context, targets);
-    addTemporalPass(graph, context, targets);
+    const bool isEnlarged = gathersLarger(context); // depth of field and reflections have as many pixels as the depths
+    if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;
     addFocusPasses(graph, context, targets);
+    if (isEnlarged) addTemporalPass(graph, context, targets);
     addExposurePasses(graph, context, targets);
     addBloomPasses(graph, context, targets);
     if (showsDecisions(context))

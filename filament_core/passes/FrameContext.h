@@ -25,6 +25,12 @@ struct PassSettings {
     TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the materials' textures
 };
 
+/// Of a picture of the graph.
+inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId texture) {
+    framegraph::GraphTextureDesc const& desc = graph.texture(texture).desc;
+    return { desc.width, desc.height };
+}
+
 /// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
 inline PassSlot slotOf(PassSettings const& settings, backend::PassLayout const& layout, uint8_t subpass) {
     return { layout, subpass, settings.shading, settings.depthRange, settings.precision };

@@ -13,14 +13,23 @@ constexpr std::string_view kInputs[] = { "color", "history", "depth", "motion" }
 constexpr FullScreenParameter kValues[] = { { "lastFromPixel", ParameterType::Float4x4 },
                                             { "perPixel", ParameterType::Float2 },
                                             { "jitter", ParameterType::Float2 },
-                                            { "weight", ParameterType::Float } };
+                                            { "weight", ParameterType::Float },
+                                            { "ramp", ParameterType::Float },
+                                            { "perSample", ParameterType::Float2 } };
 constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .values = kValues };
 
 } // namespace
 
+bool gathersLarger(FrameContext const& context) {
+    prepare::FramePacket const& packet = context.packet;
+    return packet.demand.needs(prepare::Effect::Taa) && packet.size != packet.shownSize &&
+           prepare::gathersLarger(context.view->quality, context.view->debugView);
+}
+
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Taa)) return;
-    const uint2 size = context.settings.size;
+    const bool isEnlarged = gathersLarger(context);
+    const uint2 size = isEnlarged ? context.packet.shownSize : context.packet.size;
     const framegraph::History history = graph.history(
             { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" });
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
@@ -32,12 +41,14 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
     const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, double2(1)) },
                              FullScreenValue{ "perPixel", 1.0f / float2(size) },
                              FullScreenValue{ "jitter", context.packet.gathering.jitterPixels },
-                             FullScreenValue{ "weight", context.packet.gathering.weight } };
+                             FullScreenValue{ "weight", context.packet.gathering.weight },
+                             FullScreenValue{ "ramp", context.packet.gathering.ramp },
+                             FullScreenValue{ "perSample", 1.0f / float2(context.packet.size) } };
     const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motion);
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
     const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere }, EffectConstant{ "hasDepth", hasDepth },
                                 EffectConstant{ "isFixed", context.packet.gathering.isFixed },
-                                EffectConstant{ "hasMotion", hasMotion } };
+                                EffectConstant{ "hasMotion", hasMotion }, EffectConstant{ "isEnlarged", isEnlarged } };
     addFullScreenPass(graph, context,
                       { .name = "taa",
                         .material = context.resources.effects->get("taa", constants, kInterface),

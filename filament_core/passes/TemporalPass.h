@@ -3,6 +3,8 @@
 ///   Draws   targets.color: the gathered picture, which the next frame finds as its history.
 ///   How     Karis 2014, "High-Quality Temporal Supersampling": the history is looked up where it shows the same
 ///           surface, limited to the colours around the pixel, and mixed with the new picture by Gathering::weight.
+///   Size    that of the output, if no filter of Quality::upscale enlarges the picture. Each pixel then gathers the samples
+///           that lie in it, weighted by their distances.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 
@@ -12,5 +14,7 @@
 namespace filament::passes {
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+/// Whether the picture is as large as the output afterwards, and was not before.
+bool gathersLarger(FrameContext const& context);
 
 } // namespace filament::passes

@@ -66,6 +66,10 @@ const char* describeSwitch(Effect effect) {
         return "switched off: grading=off";
     case Effect::Grain:
         return "switched off: grain=off";
+    case Effect::Upscaling:
+        return "switched off: upscale=off";
+    case Effect::Sharpening:
+        return "switched off: sharpening=off";
     default:
         return "switched off: shadows=off";
     }
@@ -86,6 +90,8 @@ const char* describeNobody(Effect effect) {
     case Effect::Grading:
     case Effect::Grain:
     case Effect::Fxaa:
+    case Effect::Upscaling:
+    case Effect::Sharpening:
         return "a debug view is shown";
     case Effect::Motion:
         return "no effect looks at the last picture";
@@ -143,6 +149,8 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
                            demand.count == 1 ? "" : "s");
     case DemandReason::MeasuresPicture:
         return "measures how bright the picture is";
+    case DemandReason::EnlargesPicture:
+        return fmt::format("{} x {} pixels are drawn", demand.count, demand.others);
     default:
         return {};
     }
@@ -225,6 +233,8 @@ const char* nameOf(Effect effect) {
                                                                "grading",
                                                                "grain",
                                                                "fxaa",
+                                                               "upscaling",
+                                                               "sharpening",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }

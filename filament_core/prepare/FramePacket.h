@@ -162,10 +162,14 @@ struct Gathering {
     float2 jitterPixels{ 0 }; ///< ViewInput::jitterPixels of the main view
     float weight = 1;         ///< of this frame in the gathered picture, (0, 1]
     bool isFixed = false;     ///< nothing changed but where the camera looks: the gathered picture is right
+    float ramp =
+            0; ///< of a picture that gathering enlarges: half the width, in pixels, of the edge of the samples' filter
 };
 
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
+    uint2 size{ 1, 1 };                ///< pixels that the main view draws
+    uint2 shownSize{ 1, 1 };           ///< of the picture that is made of them
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
     Gathering gathering;               ///< the same

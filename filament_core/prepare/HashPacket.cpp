@@ -52,7 +52,8 @@ uint64_t hashGrading(Grading const& grading, uint64_t seed) {
 
 // Fog and contact shadows are in the uniforms of the views, but for two switches.
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
-    auto const& [ao, reflections, fog, contact, bloom, focus, exposure, grading, vignette, grain, aberration] = effects;
+    auto const& [ao, reflections, fog, contact, bloom, focus, exposure, grading, vignette, grain, aberration,
+                 resolution, sharpening] = effects;
     seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold);
     seed = hashValues(seed, focus.focusMeters, focus.blurScale, focus.maxRadius, focus.blades);
     seed = hashValues(seed, exposure.lowPercentile, exposure.highPercentile, exposure.compensation, exposure.minStops,
@@ -60,7 +61,8 @@ uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
                       grain.size, aberration.strength);
     seed = hashWords(seed, bloom.enabled, focus.enabled, exposure.enabled, vignette.enabled, grain.enabled,
-                     aberration.enabled);
+                     aberration.enabled, sharpening.enabled);
+    seed = hashValues(seed, resolution.scale, sharpening.strength);
     return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));
 }
 
@@ -75,8 +77,8 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashEffects(packet.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed);
-    hash = hashValues(hash, packet.gathering.jitterPixels, packet.gathering.weight, packet.focus,
-                      packet.last.secondsSince);
+    hash = hashValues(hash, packet.size, packet.shownSize, packet.gathering.jitterPixels, packet.gathering.weight,
+                      packet.gathering.ramp, packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

@@ -4,6 +4,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace filament::prepare {
 namespace {
@@ -15,11 +16,17 @@ constexpr float kGatheredInTurn = 9; // of the camera alone
 constexpr float kMostGathered = 255; // of a still picture
 constexpr uint32_t kJitters = 1024;
 
+// A pixel of an enlarged picture is the mean of the samples in it in the end. Until there are some, the filter is as
+// wide as two pixels.
+constexpr float kWidestRamp = 0.5f, kNarrowestRamp = 0.0625f;
+
+float rampOf(float gathered) { return std::max(kWidestRamp / std::sqrt(std::max(gathered, 1.0f)), kNarrowestRamp); }
+
 } // namespace
 
 void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) {
     const ViewSpace space = makeViewSpace(view);
-    const bool isFollowing = isFollowedBy(scene, view);
+    const bool isFollowing = isGatheredBy(scene, view);
     mSeen = {
         view, scene.serial, space.clipFromWorld, space.cameraWorld, space.forward, packet.mainView().uniforms.time
     };
@@ -34,22 +41,32 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": multiples of the inverses of the plastic
 // number and of its square. Any few that follow each other cover the pixel evenly; the first is in its middle.
 float2 LastFrame::jitterPixels(scene::SceneData const& scene, ViewInput const& view) const {
-    const double at = isFollowedBy(scene, view) ? mJitters : 0;
+    const double at = isGatheredBy(scene, view) ? mJitters : 0;
     const double2 place = double2(0.75487766624669276, 0.56984029099805327) * at + 0.5;
     return float2(glm::fract(place) - 0.5);
 }
 
-/// By a frame of the same scene and size.
+/// By a frame of the same scene and size of what it shows.
 bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const {
-    return mSeen && mSeen->scene == scene.serial && mSeen->view.size == view.size;
+    return mSeen && mSeen->scene == scene.serial && mSeen->view.shown() == view.shown();
+}
+
+/// By one whose gathered picture has the same size, too.
+bool LastFrame::isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const {
+    const auto gatheredSize = [](ViewInput const& of) {
+        return gathersLarger(of.quality, of.debugView) ? of.shown() : of.size;
+    };
+    return isFollowedBy(scene, view) && gatheredSize(mSeen->view) == gatheredSize(view);
 }
 
 /// Whether this frame shows what the last one did, as far as both see it.
 bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const {
     ViewInput const& last = mSeen->view;
+    Effects lastEffects = last.effects;
+    lastEffects.resolution = view.effects.resolution; // how many samples there are does not change what they show
     const bool isSame = last.contents == view.contents && last.camera.position() == view.camera.position() &&
                         last.camera.exposure == view.camera.exposure && last.quality == view.quality &&
-                        last.effects == view.effects;
+                        lastEffects == view.effects;
     if (!isSame || packet.motionView != kNowhere) return false;
     if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
     const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };
@@ -59,11 +76,15 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
 
 Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
     Gathering gathering{ .jitterPixels = jitterPixels(scene, view) };
-    if (!isFollowedBy(scene, view)) return gathering;
+    const bool isEnlarged = view.size != view.shown() && gathersLarger(view.quality, view.debugView);
+    if (isEnlarged) gathering.ramp = kWidestRamp;
+    if (!isGatheredBy(scene, view)) return gathering;
     gathering.isFixed = isFixed(view, packet);
     const bool isStill = gathering.isFixed && !packet.last.isElsewhere;
     const float most = isStill ? kMostGathered : gathering.isFixed ? kGatheredInTurn : kGatheredInMotion;
-    gathering.weight = 1 / (1 + std::min(mGathered, most));
+    const float gathered = std::min(mGathered, most);
+    gathering.weight = 1 / (1 + gathered);
+    if (isEnlarged && isStill) gathering.ramp = rampOf(gathered);
     return gathering;
 }
 

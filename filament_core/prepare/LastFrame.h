@@ -54,6 +54,7 @@ private:
 
     void keepPlaces(scene::SceneData const& scene);
     bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
+    bool isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
     std::optional<Seen> mSeen;

@@ -55,6 +55,8 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .quality = view.quality,
                         .effects = packet.effects,
                         .blurRadius = blurRadius,
+                        .size = packet.size,
+                        .shownSize = packet.shownSize,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
@@ -135,6 +137,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
     packet.environment = environmentOf(scene);
     packet.effects = main.effects;
+    packet.size = main.size;
+    packet.shownSize = main.shown();
     packet.last = last.seenFrom(scene, makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (readsMotion(packet.mainView().counts, main.quality, main.debugView)) addMotion(arena, scene, last, packet);
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);

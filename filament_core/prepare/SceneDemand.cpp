@@ -103,6 +103,20 @@ EffectDemand demandOfFxaa(DemandInput const& input) {
     return demand;
 }
 
+EffectDemand demandOfUpscaling(DemandInput const& input) {
+    const bool isOn = input.quality.upscale != Upscaling::Off || input.quality.antiAliasing == AntiAliasing::Taa;
+    if (!isOn) return { .reason = DemandReason::SwitchedOff };
+    if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
+    if (input.size == input.shownSize) return { .reason = DemandReason::IsNeutral };
+    return { true, DemandReason::EnlargesPicture, input.size.x, input.size.y };
+}
+
+EffectDemand demandOfSharpening(DemandInput const& input) {
+    Sharpening const& sharpening = input.effects.sharpening;
+    if (sharpening.enabled && sharpening.strength == 0) return { .reason = DemandReason::HasNoIntensity };
+    return demandOfPictureEffect(input, sharpening.enabled, DemandReason::ChangesPicture);
+}
+
 EffectDemand demandOfFocus(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
     const EffectDemand demand =
@@ -195,6 +209,12 @@ bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView deb
            gathersFrames(quality, debugView);
 }
 
+uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView) {
+    const bool isEnlarged = quality.upscale != Upscaling::Off || gathersFrames(quality, debugView);
+    if (!isEnlarged || debugView != DebugView::None) return size;
+    return min(max(uint2(float2(size) * scale + 0.5f), 1u), size);
+}
+
 SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;
@@ -228,6 +248,8 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Bloom, demandOfBloom(input));
     setFinish(input, demand);
     set(Effect::Fxaa, demandOfFxaa(input));
+    set(Effect::Upscaling, demandOfUpscaling(input));
+    set(Effect::Sharpening, demandOfSharpening(input));
     set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;

@@ -47,9 +47,11 @@ enum class Effect : uint8_t {
     Grading,
     Grain,
     Fxaa,
+    Upscaling, ///< by a filter, or by gathering frames
+    Sharpening,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 28;
+inline constexpr size_t kEffects = 30;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -76,6 +78,7 @@ enum class DemandReason : uint8_t {
     ChangesPicture,       ///< as a whole
     IsOutOfFocus,         ///< something visible is, by `count` pixels at most
     MeasuresPicture,
+    EnlargesPicture, ///< of `count` by `others` pixels
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -124,8 +127,9 @@ struct DemandInput {
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     bool cameraMoved = false;
     Quality quality{};
-    Effects effects{};    ///< within their ranges
-    float blurRadius = 0; ///< in pixels: the largest of what is visible, of the lens
+    Effects effects{};                     ///< within their ranges
+    float blurRadius = 0;                  ///< in pixels: the largest of what is visible, of the lens
+    uint2 size{ 1, 1 }, shownSize{ 1, 1 }; ///< pixels that are drawn, and those of the picture that is made of them
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
@@ -137,6 +141,14 @@ SceneDemand findDemand(DemandInput const& input);
 inline bool gathersFrames(Quality const& quality, DebugView debugView) {
     return quality.antiAliasing == AntiAliasing::Taa && debugView == DebugView::None;
 }
+
+/// Whether gathering makes the picture as large as it is shown.
+inline bool gathersLarger(Quality const& quality, DebugView debugView) {
+    return gathersFrames(quality, debugView) && quality.upscale == Upscaling::Off;
+}
+
+/// The pixels that a view draws of `size`.
+uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);
 
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
 bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView);

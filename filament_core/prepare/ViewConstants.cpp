@@ -70,7 +70,8 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     const double3x3 worldFromView(view.camera.worldFromView);
     space.forward = -float3(worldFromView[2]);
     space.viewFromWorld = float4x4(double4x4(glm::transpose(worldFromView)));
-    const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
+    const float2 shown(view.shown()); // rounding of the drawn size changes no proportions
+    const float aspect = shown.x / shown.y;
     space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
     if (view.jitterPixels != float2(0))
         space.clipFromView = withJitter(space.clipFromView, view.jitterPixels, view.size);

@@ -31,7 +31,8 @@ struct ViewInput {
     /// Takes the place of the camera's lens, as parallel light or a tile of an atlas needs it. The conventions of
     /// Camera::clipFromView(): row 0 of the image at y = -1, reversed depth.
     std::optional<float4x4> clipFromView{};
-    uint2 size{ 1, 1 };       ///< pixels, >= 1
+    uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
+    uint2 shownSize{ 0, 0 };  ///< of the picture that is made of them; 0: the same
     float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
@@ -39,6 +40,8 @@ struct ViewInput {
     Effects effects{};
     DebugView debugView = DebugView::None; ///< of the main view
     uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
+
+    uint2 shown() const { return shownSize.x > 0 ? shownSize : size; }
 };
 
 } // namespace filament::prepare

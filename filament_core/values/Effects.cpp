@@ -92,6 +92,20 @@ constexpr EffectField vectorField(std::string_view name, float least, float most
              most };
 }
 
+/// The same number for all components, or numbers with commas between them.
+template <auto Group, auto Member>
+constexpr EffectField scaleField(std::string_view name, float least, float most, std::string_view range) {
+    EffectField field = vectorField<Group, Member>(name, least, most, range);
+    field.set = [](EffectField const& of, Effects& effects, std::string_view value) {
+        using Vector = std::remove_cvref_t<decltype(effects.*Group.*Member)>;
+        const std::optional<float> all = numberOf(value, of.least, of.most);
+        const std::optional<Vector> vector = all ? Vector(*all) : vectorOf<Vector>(value, of.least, of.most);
+        if (vector) effects.*Group.*Member = *vector;
+        return vector.has_value();
+    };
+    return field;
+}
+
 constexpr auto kAo = &Effects::ambientOcclusion;
 constexpr auto kSsr = &Effects::reflections;
 constexpr auto kFog = &Effects::fog;
@@ -103,6 +117,8 @@ constexpr auto kGrading = &Effects::grading;
 constexpr auto kVignette = &Effects::vignette;
 constexpr auto kGrain = &Effects::grain;
 constexpr auto kAberration = &Effects::chromaticAberration;
+constexpr auto kResolution = &Effects::resolution;
+constexpr auto kSharpening = &Effects::sharpening;
 
 constexpr std::string_view kFactors = "R,G,B, each from 0 to 4", kShares = "R,G,B, each from -2 to 2",
                            kGammas = "R,G,B, each from 0.1 to 10", kStops = "stops from -16 to 16",
@@ -182,6 +198,9 @@ constexpr std::array kEffectFields{
     switchField<kAberration, &ChromaticAberration::enabled>("chromaticAberration"),
     numberField<kAberration, &ChromaticAberration::strength>("chromaticAberration.strength", 0.0f, 0.1f,
                                                              "a number from 0 to 0.1"),
+    scaleField<kResolution, &Resolution::scale>("resolution.scale", 0.5f, 1.0f, "a number from 0.5 to 1, or two: X,Y"),
+    switchField<kSharpening, &Sharpening::enabled>("sharpening"),
+    numberField<kSharpening, &Sharpening::strength>("sharpening.strength", 0.0f, 1.0f, kShare),
 };
 
 EffectField const* findEffect(std::string_view name) {

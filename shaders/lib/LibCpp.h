@@ -52,6 +52,7 @@ namespace {
 #include "shaders/lib/profiles.glsl"
 #include "shaders/lib/reflection.glsl"
 #include "shaders/lib/refraction.glsl"
+#include "shaders/lib/resolution.glsl"
 #include "shaders/lib/sampling.glsl"
 #include "shaders/lib/screen_occlusion.glsl"
 #include "shaders/lib/sheen.glsl"

@@ -595,7 +595,7 @@ std::unique_ptr<StreamEdit> makeFinish() {
 /// Each frame counts half as much in the picture that is gathered over frames.
 class GatheredWeightEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
-        constexpr size_t kBlock = 24 * sizeof(float); // a matrix, 1 / size, jitter, weight
+        constexpr size_t kBlock = 24 * sizeof(float); // a matrix, 1 / size, jitter, weight, ramp, 1 / size
         for (size_t at = 0; at + kBlock <= bytes.size(); at += sizeof(float4)) {
             const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
             const auto isReciprocal = [&](size_t i) {
@@ -604,7 +604,7 @@ class GatheredWeightEdit final : public PassBlocksEdit {
             };
             const bool isGathering = isReciprocal(16) && isReciprocal(17) && std::abs(number(18)) <= 0.5f &&
                                      std::abs(number(19)) <= 0.5f && number(20) > 0 && number(20) < 1 &&
-                                     number(21) == 0;
+                                     number(21) >= 0 && number(21) <= 0.5f && isReciprocal(22) && isReciprocal(23);
             if (isGathering) writeFloat(bytes, at + 20 * sizeof(float), 0.5f * number(20));
         }
     }
@@ -672,6 +672,10 @@ constexpr Mutation kMutations[] = {
     { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
     { "fxaaBrightness", "FXAA takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("fxaa", 0); } },
+    { "upscaleFilter", "another filter makes the picture larger",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("upscale", 0); } },
+    { "sharpenedLight", "sharpening takes the picture's values for light",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
     { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
     { "gradingOff", "no grading by formula", makeFinish<kGraded> },
     { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },

@@ -138,6 +138,19 @@ struct ChromaticAberration {
     friend bool operator==(ChromaticAberration const&, ChromaticAberration const&) = default;
 };
 
+/// How many pixels are drawn, before Quality::upscale or AntiAliasing::Taa makes as many of them as the view has.
+struct Resolution {
+    float2 scale{ 1 }; ///< share of View::size, each way, [0.5, 1]
+    friend bool operator==(Resolution const&, Resolution const&) = default;
+};
+
+/// Contrast between neighbours, raised as far as none of them becomes darker than black or brighter than white.
+struct Sharpening {
+    bool enabled = false;
+    float strength = 0.5f; ///< [0, 1]
+    friend bool operator==(Sharpening const&, Sharpening const&) = default;
+};
+
 struct Effects {
     AmbientOcclusion ambientOcclusion{};
     ScreenReflections reflections{};
@@ -150,6 +163,8 @@ struct Effects {
     Vignette vignette{};
     Grain grain{};
     ChromaticAberration chromaticAberration{};
+    Resolution resolution{};
+    Sharpening sharpening{};
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 

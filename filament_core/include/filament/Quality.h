@@ -173,6 +173,16 @@ enum class AntiAliasing : uint8_t {
     Taa,
 };
 
+/// How a picture of which Resolution::scale draws a share becomes as large as the view, after the tone mapper. With
+/// AntiAliasing::Taa and Off, gathering frames does it.
+enum class Upscaling : uint8_t {
+    Off,        ///< everything is drawn at the size of the view, unless frames are gathered
+    Bilinear,   ///< the mean of four pixels
+    CatmullRom, ///< Catmull and Rom's cubic filter: sixteen pixels
+    /// Twelve pixels, by a filter that lies along edges: as AMD's FidelityFX Super Resolution 1 does (Lottes 2021).
+    EdgeAdaptive,
+};
+
 /// How the tone mapper of View::colorGrading is evaluated, together with the transfer function of the display.
 enum class ToneMapping : uint8_t {
     Analytic, ///< its formula, for every pixel
@@ -228,6 +238,7 @@ struct Quality {
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     AntiAliasing antiAliasing = AntiAliasing::Off;
+    Upscaling upscale = Upscaling::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Shaders receive positions relative to the camera, subtracted in double precision. Off: absolute floats, from
@@ -249,6 +260,7 @@ const char* toString(TangentStorage value);
 const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
 const char* toString(AntiAliasing value);
+const char* toString(Upscaling value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
 const char* toString(AreaLightTerm value);
@@ -271,6 +283,7 @@ std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
+std::optional<Upscaling> upscalingFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);
 std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);

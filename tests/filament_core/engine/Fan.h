@@ -55,6 +55,8 @@ public:
         const View seen = view;
         view.size = seen.size * kSide;
         view.quality.antiAliasing = AntiAliasing::Off;
+        view.effects.resolution = {};
+        view.effects.sharpening = {};
         Renderer other(engine);
         const Image large = draw(other);
         view = seen;

@@ -364,6 +364,37 @@ TEST_F(PrepareFrameTest, GatheringMovesThePictureInsideOfItsPixels) {
     for (const int count : places) EXPECT_NEAR(count, 4, 2) << "evenly";
 }
 
+/// A gathered picture of more pixels than are drawn: another number of them changes neither what is seen nor what was
+/// gathered.
+TEST_F(PrepareFrameTest, GatheringOfALargerPictureSurvivesAnotherScale) {
+    add({ 0, 0, 0 }, material(shader::Blending::Opaque));
+    view.quality.antiAliasing = AntiAliasing::Taa;
+    view.shownSize = { 640, 480 };
+    LastFrame last;
+    const auto next = [&](uint2 size, Upscaling filter) {
+        view.size = size;
+        view.quality.upscale = filter;
+        view.effects.resolution.scale = float2(size) / float2(view.shownSize);
+        const FramePacket packet = prepareFrame(jobs, arena, scene, std::array{ view }, {}, last);
+        EXPECT_EQ(packet.size, size);
+        EXPECT_EQ(packet.shownSize, view.shownSize);
+        EXPECT_FALSE(packet.last.isElsewhere) << "the proportions are those of what is shown";
+        const float2 jitter(packet.mainView().uniforms.jitter);
+        EXPECT_EQ(jitter, 2.0f * packet.gathering.jitterPixels / float2(size));
+        last.keep(scene, view, packet);
+        return packet.gathering;
+    };
+    EXPECT_EQ(next({ 320, 240 }, Upscaling::Off).weight, 1);
+    EXPECT_EQ(next({ 320, 240 }, Upscaling::Off).weight, 1.0f / 2);
+    const Gathering third = next({ 430, 321 }, Upscaling::Off);
+    EXPECT_EQ(third.weight, 1.0f / 3);
+    EXPECT_TRUE(third.isFixed);
+    EXPECT_LT(third.ramp, 0.5f) << "narrower with each frame";
+    EXPECT_EQ(next({ 640, 480 }, Upscaling::Off).ramp, 0) << "as many pixels as are shown";
+    EXPECT_EQ(next({ 320, 240 }, Upscaling::Bilinear).weight, 1) << "another gathered picture";
+    EXPECT_EQ(next({ 430, 321 }, Upscaling::Bilinear).weight, 1) << "of another size";
+}
+
 TEST_F(PrepareFrameTest, AnEmptySceneIsAnEmptyPacket) {
     const ViewPacket packet = prepare();
     EXPECT_TRUE(packet.opaque.empty());

@@ -197,6 +197,51 @@ TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
     EXPECT_EQ(words(Effect::Grading, input), "a debug view is shown");
 }
 
+TEST(SceneDemand, NeedsUpscalingOnlyOfFewerPixels) {
+    DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
+    EXPECT_EQ(words(Effect::Upscaling, input), "switched off: upscale=off");
+    for (const bool isGathered : { false, true }) {
+        input.quality = {};
+        if (isGathered) input.quality.antiAliasing = AntiAliasing::Taa;
+        if (!isGathered) input.quality.upscale = Upscaling::Bilinear;
+        EXPECT_TRUE(findDemand(input).needs(Effect::Upscaling));
+        EXPECT_EQ(words(Effect::Upscaling, input), "200 x 150 pixels are drawn");
+        input.debugView = DebugView::Lights;
+        EXPECT_EQ(words(Effect::Upscaling, input), "a debug view is shown");
+        input.debugView = DebugView::None;
+        std::swap(input.size, input.shownSize);
+        input.shownSize = input.size;
+        EXPECT_EQ(words(Effect::Upscaling, input), "its values change nothing");
+        input.size = { 200, 150 };
+    }
+}
+
+TEST(SceneDemand, NeedsSharpeningOnlyOfSomething) {
+    DemandInput input;
+    EXPECT_EQ(words(Effect::Sharpening, input), "switched off: sharpening=off");
+    input.effects.sharpening.enabled = true;
+    EXPECT_EQ(words(Effect::Sharpening, input), "nothing is visible, not even a sky");
+    input.hasSky = true;
+    EXPECT_EQ(words(Effect::Sharpening, input), "changes the whole picture");
+    input.effects.sharpening.strength = 0;
+    EXPECT_EQ(words(Effect::Sharpening, input), "its intensity is 0");
+}
+
+TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
+    const uint2 size(101, 3);
+    Quality quality;
+    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), size);
+    quality.upscale = Upscaling::CatmullRom;
+    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), uint2(51, 2)) << "rounded";
+    EXPECT_EQ(drawnSize(size, float2(1, 0.5f), quality, DebugView::None), uint2(101, 2));
+    EXPECT_EQ(drawnSize(size, float2(1), quality, DebugView::None), size);
+    EXPECT_EQ(drawnSize({ 1, 1 }, float2(0.5f), quality, DebugView::None), uint2(1)) << "one pixel at least";
+    EXPECT_EQ(drawnSize({ 16384, 1 }, float2(0.99999f), quality, DebugView::None), uint2(16384, 1));
+    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::Fog), size);
+    quality = { .antiAliasing = AntiAliasing::Taa };
+    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), uint2(51, 2));
+}
+
 TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
     DemandInput input{ .counts = { .litDraws = 2 } };
     EXPECT_EQ(words(Effect::Refraction, input), "nothing in view refracts the picture");

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/ResolutionPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <algorithm>
+#include <array>
+
+namespace filament::passes {
+namespace {
+
+using framegraph::FrameGraph;
+
+constexpr std::string_view kInputs[] = { "picture" };
+constexpr FullScreenParameter kUpscalingValues[] = { { "texelsPerPixel", ParameterType::Float2 },
+                                                     { "grainStrength", ParameterType::Float },
+                                                     { "grainSize", ParameterType::Float } };
+constexpr FullScreenInterface kUpscaling{ .pass = "upscaling", .inputs = kInputs, .values = kUpscalingValues };
+constexpr FullScreenParameter kSharpeningValues[] = { { "strength", ParameterType::Float },
+                                                      { "grainStrength", ParameterType::Float },
+                                                      { "grainSize", ParameterType::Float } };
+constexpr FullScreenInterface kSharpening{ .pass = "sharpening", .inputs = kInputs, .values = kSharpeningValues };
+
+} // namespace
+
+void addUpscalingPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
+    const auto filter = static_cast<int32_t>(std::max(context.view->quality.upscale, Upscaling::Bilinear));
+    const std::array constants{ EffectConstant{ "filterKind", filter },
+                                EffectConstant{ "isSceneLinear", last.isSceneLinear },
+                                EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };
+    const std::array inputs{ FullScreenInput{ .name = "picture", .texture = step.picture } };
+    Grain const& grain = context.packet.effects.grain;
+    const float2 ratio = float2(sizeOf(graph, step.picture)) / float2(sizeOf(graph, step.target));
+    const std::array values{ FullScreenValue{ "texelsPerPixel", ratio },
+                             FullScreenValue{ "grainStrength", grain.strength },
+                             FullScreenValue{ "grainSize", grain.size } };
+    addFullScreenPass(graph, context,
+                      { .name = "upscaling",
+                        .material = context.resources.effects->get("upscale", constants, kUpscaling),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = step.target });
+}
+
+void addSharpeningPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
+    const std::array constants{ EffectConstant{ "isSceneLinear", last.isSceneLinear },
+                                EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };
+    const std::array inputs{ FullScreenInput{ .name = "picture", .texture = step.picture } };
+    Effects const& effects = context.packet.effects;
+    const std::array values{ FullScreenValue{ "strength", effects.sharpening.strength },
+                             FullScreenValue{ "grainStrength", effects.grain.strength },
+                             FullScreenValue{ "grainSize", effects.grain.size } };
+    addFullScreenPass(graph, context,
+                      { .name = "sharpening",
+                        .material = context.resources.effects->get("sharpen", constants, kSharpening),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = step.target });
+}
+
+} // namespace filament::passes
