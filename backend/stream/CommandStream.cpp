@@ -83,6 +83,7 @@ uint64_t CommandStream::replayedSubmissions() const { return mState->driver.repl
 uint64_t CommandStream::backPressureNanoseconds() const { return mState->driver.backPressureNanoseconds(); }
 LatencyStatistics CommandStream::latency() const { return mState->driver.latency(); }
 std::vector<FrameTiming> CommandStream::takeTimings() { return mState->mailbox.takeTimings(); }
+void CommandStream::takeTimings(std::vector<FrameTiming>& into) { mState->mailbox.takeTimings(into); }
 
 std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket) {
     std::optional<std::vector<std::byte>> bytes = mState->mailbox.takeReadback(ticket);

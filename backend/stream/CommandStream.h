@@ -113,6 +113,7 @@ public:
     /// Nanoseconds that acquire() has waited in total.
     uint64_t backPressureNanoseconds() const;
     std::vector<FrameTiming> takeTimings();
+    void takeTimings(std::vector<FrameTiming>& into); ///< replaces what it holds, and keeps its memory
     LatencyStatistics latency() const;
 
     // ---- answers

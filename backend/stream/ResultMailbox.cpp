@@ -135,6 +135,12 @@ std::vector<FrameTiming> ResultMailbox::takeTimings() {
     return timings;
 }
 
+void ResultMailbox::takeTimings(std::vector<FrameTiming>& into) {
+    const std::lock_guard lock(mMutex);
+    into.assign(mTimings.begin(), mTimings.end());
+    mTimings.clear();
+}
+
 bool ResultMailbox::deviceLost() const {
     const std::lock_guard lock(mMutex);
     return mDeviceLost;

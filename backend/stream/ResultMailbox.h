@@ -45,6 +45,7 @@ public:
     std::optional<uint64_t> takeTimer(Ticket ticket);
     std::vector<DriverError> takeErrors();
     std::vector<FrameTiming> takeTimings();
+    void takeTimings(std::vector<FrameTiming>& into); ///< replaces what it holds, and keeps its memory
     bool deviceLost() const;
 
 private:

@@ -26,7 +26,7 @@ void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const f
     collectTimers(); // the stream keeps answers only for a limited time
     if (!makeRoom(timers.size())) timers = {};
     Record& record = mRecords[frame % mRecords.size()];
-    record.frame = frame;
+    record.frame = mNewest = frame;
     record.stamps = stamps;
     record.replay = {};
     record.replayed = record.taken = false;
@@ -59,7 +59,8 @@ void FrameTimingLog::traceReplay(backend::FrameTiming const& replay) {
 }
 
 void FrameTimingLog::collectReplays() {
-    for (backend::FrameTiming const& replay : mEngine.stream->takeTimings()) {
+    mEngine.stream->takeTimings(mReplays);
+    for (backend::FrameTiming const& replay : mReplays) {
         if (mEngine.jobs.trace()) traceReplay(replay);
         Record& record = mRecords[replay.frame % mRecords.size()];
         if (!replay.isFrame || record.frame != replay.frame || record.taken) continue;
@@ -93,12 +94,22 @@ void FrameTimingLog::collectTimers() {
     }
 }
 
+double FrameTimingLog::deviceMilliseconds(Record const& record) {
+    double sum = 0;
+    for (Pass const& pass : record.passes) sum += pass.milliseconds;
+    return sum;
+}
+
+double FrameTimingLog::replayMilliseconds(Record const& record) {
+    return static_cast<double>(record.replay.replayEnd - record.replay.replayBegin) * 1e-6;
+}
+
 FrameTimings FrameTimingLog::publish(Record const& record) const {
     FrameTimings timings;
     timings.frame = record.frame;
     timings.prepareMilliseconds = milliseconds(record.stamps.begin, record.stamps.prepared);
     timings.recordMilliseconds = milliseconds(record.stamps.acquired, record.stamps.recorded);
-    timings.replayMilliseconds = static_cast<double>(record.replay.replayEnd - record.replay.replayBegin) * 1e-6;
+    timings.replayMilliseconds = replayMilliseconds(record);
     timings.workerBusyMilliseconds = static_cast<double>(record.stamps.workerBusyNanoseconds) * 1e-6;
     timings.packetHash = record.stamps.packetHash;
     timings.streamHash = record.replay.hash;
@@ -106,10 +117,8 @@ FrameTimings FrameTimingLog::publish(Record const& record) const {
     timings.submitSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.recorded));
     timings.replayBeginSeconds = mEngine.secondsSinceStart(record.replay.replayBegin);
     timings.replayEndSeconds = mEngine.secondsSinceStart(record.replay.replayEnd);
-    for (Pass const& pass : record.passes) {
-        timings.passes.push_back({ pass.name.data(), pass.milliseconds });
-        timings.gpuMilliseconds += pass.milliseconds;
-    }
+    for (Pass const& pass : record.passes) timings.passes.push_back({ pass.name.data(), pass.milliseconds });
+    timings.gpuMilliseconds = deviceMilliseconds(record);
     return timings;
 }
 

@@ -14,6 +14,7 @@
 
 #include <filament/Renderer.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <vector>
@@ -29,12 +30,31 @@ public:
         TimePoint begin, prepared, acquired, recorded; ///< between prepared and acquired: waiting for the driver
         uint64_t workerBusyNanoseconds = 0;            ///< while the frame was prepared and recorded
         uint64_t packetHash = 0;
+        float2 scale{ 1 }; ///< Resolution::scale that it was drawn with
     };
 
     /// After submit().
     void add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers);
     /// Frames whose replay has finished and whose timers have results.
     std::vector<FrameTimings> take();
+    /// Calls `visit(float2 scale, double milliseconds)` with the cost of each frame that has finished, once, oldest first:
+    /// that of its passes on the device, if there are timers, or else of its replay. A steady state allocates nothing.
+    template <class Visit>
+    void visitFinished(bool hasTimers, Visit&& visit) {
+        if (hasTimers)
+            collectTimers();
+        else
+            collectReplays();
+        const uint64_t newest = mNewest;
+        for (uint64_t frame = std::max(mVisited + 1, newest >= mRecords.size() ? newest - mRecords.size() + 1 : 1);
+             frame <= newest; ++frame) {
+            Record const& record = mRecords[frame % mRecords.size()];
+            if (record.frame != frame) continue;
+            if (hasTimers ? record.waiting > 0 : !record.replayed) break;
+            visit(record.stamps.scale, hasTimers ? deviceMilliseconds(record) : replayMilliseconds(record));
+            mVisited = frame;
+        }
+    }
     /// Of the last frame whose timers have all been read, also if take() has returned it; empty: there is none.
     std::vector<PassTiming> latestPasses() const;
 
@@ -60,10 +80,14 @@ private:
     bool makeRoom(size_t passes) noexcept;
     void collectTimers();
     FrameTimings publish(Record const& record) const;
+    static double deviceMilliseconds(Record const& record);
+    static double replayMilliseconds(Record const& record);
 
     Engine::Impl& mEngine;
     std::array<Record, 64> mRecords{};
-    size_t mPassRoom = 0; ///< of every record
+    size_t mPassRoom = 0;                       ///< of every record
+    uint64_t mNewest = 0, mVisited = 0;         ///< frames
+    std::vector<backend::FrameTiming> mReplays; ///< of the last collection
 };
 
 } // namespace filament::engine

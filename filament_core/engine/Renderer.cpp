@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Renderer.h>
+#include <filament/ResolutionController.h>
 
 #include "backend/stream/RecordingGuards.h"
 #include "base/OutOfMemory.h"
@@ -66,9 +67,21 @@ struct Renderer::Impl {
     /// Both only ever grow.
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
-    /// As the view asks for it.
+    /// As the view asks for it, at the share of its pixels that there is time for.
     prepare::ViewInput inputFor(Scene const& scene, View const& view) const {
-        return inputOf(view, clamped(view.effects), contentsOf(scene));
+        Effects effects = clamped(view.effects);
+        effects.resolution.scale = shares.scale(effects.resolution);
+        return inputOf(view, effects, contentsOf(scene));
+    }
+
+    /// What finished frames took decides how large the next one is.
+    void chooseShare(View const& view) {
+        if (!view.effects.resolution.dynamic) return shares.forget();
+        const Resolution resolution = clamped(view.effects).resolution;
+        timings.visitFinished(options.passTimers, [&](float2 scale, double milliseconds) {
+            shares.add(resolution, { scale, milliseconds });
+        });
+        stamps.scale = shares.scale(resolution);
     }
 
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
@@ -124,6 +137,7 @@ struct Renderer::Impl {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
         timers.clear();
         stamps = { .begin = clock() };
+        chooseShare(view);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext& context = planFrame(scene, view, output, PipelineSource(engine.pipelines));
         stamps.prepared = clock();
@@ -201,6 +215,7 @@ struct Renderer::Impl {
     engine::ImageTarget imageTarget;
     uint64_t frame = 0;
     prepare::LastFrame last; ///< that was drawn
+    ResolutionController shares;
     engine::FrameSummary summary;
 };
 

@@ -61,8 +61,9 @@ uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
                       grain.size, aberration.strength);
     seed = hashWords(seed, bloom.enabled, focus.enabled, exposure.enabled, vignette.enabled, grain.enabled,
-                     aberration.enabled, sharpening.enabled);
-    seed = hashValues(seed, resolution.scale, sharpening.strength);
+                     aberration.enabled, resolution.dynamic, resolution.uniform, sharpening.enabled);
+    seed = hashValues(seed, resolution.scale, resolution.targetMilliseconds, resolution.leastScale, resolution.headroom,
+                      resolution.history, sharpening.strength);
     return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));
 }
 

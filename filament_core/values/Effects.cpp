@@ -199,6 +199,13 @@ constexpr std::array kEffectFields{
     numberField<kAberration, &ChromaticAberration::strength>("chromaticAberration.strength", 0.0f, 0.1f,
                                                              "a number from 0 to 0.1"),
     scaleField<kResolution, &Resolution::scale>("resolution.scale", 0.5f, 1.0f, "a number from 0.5 to 1, or two: X,Y"),
+    switchField<kResolution, &Resolution::dynamic>("resolution.dynamic"),
+    numberField<kResolution, &Resolution::targetMilliseconds>("resolution.targetMilliseconds", 0.1f, 1e3f,
+                                                              "milliseconds from 0.1 to 1000"),
+    numberField<kResolution, &Resolution::leastScale>("resolution.leastScale", 0.5f, 1.0f, "a number from 0.5 to 1"),
+    numberField<kResolution, &Resolution::headroom>("resolution.headroom", 0.0f, 0.5f, "a number from 0 to 0.5"),
+    numberField<kResolution, &Resolution::history>("resolution.history", 1.0f, 32.0f, "frames from 1 to 32"),
+    switchField<kResolution, &Resolution::uniform>("resolution.uniform"),
     switchField<kSharpening, &Sharpening::enabled>("sharpening"),
     numberField<kSharpening, &Sharpening::strength>("sharpening.strength", 0.0f, 1.0f, kShare),
 };

@@ -138,9 +138,16 @@ struct ChromaticAberration {
     friend bool operator==(ChromaticAberration const&, ChromaticAberration const&) = default;
 };
 
-/// How many pixels are drawn, before Quality::upscale or AntiAliasing::Taa makes as many of them as the view has.
+/// How many pixels are drawn, before Quality::upscale or AntiAliasing::Taa makes as many of them as the view has. With
+/// `dynamic`, Renderer finds the largest share, up to `scale`, that its frames have time for: docs/resolution.md.
 struct Resolution {
-    float2 scale{ 1 }; ///< share of View::size, each way, [0.5, 1]
+    float2 scale{ 1 };             ///< share of View::size, each way, [0.5, 1]
+    bool dynamic = false;          ///< the share follows the time that frames take
+    float targetMilliseconds = 16; ///< that a frame may take, [0.1, 1000]
+    float leastScale = 0.5f;       ///< the smallest share, each way, [0.5, 1]
+    float headroom = 0.1f;         ///< share of the target that stays free when the picture grows, [0, 0.5]
+    float history = 8;             ///< frames that must agree before the share changes, [1, 32]
+    bool uniform = true;           ///< both ways alike; off: the width first, down to its least
     friend bool operator==(Resolution const&, Resolution const&) = default;
 };
 

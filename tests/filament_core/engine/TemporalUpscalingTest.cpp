@@ -155,5 +155,33 @@ TEST(TemporalUpscaling, OfNothingIsTheBackground) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------- dynamic
+
+/// A target that no frame can meet, and one that all do.
+TEST(DynamicResolution, ShrinksThePictureOnlyWhenFramesTakeTooLong) {
+    for (const Backend backend : test::kBothApis) {
+        for (const bool hasTimers : { true, false }) {
+            for (const bool isGathered : { true, false }) {
+                Fan fan(backend);
+                Renderer renderer(fan.engine, { .passTimers = hasTimers });
+                fan.view.size = { 400, 300 };
+                fan.view.quality.antiAliasing = isGathered ? AntiAliasing::Taa : AntiAliasing::Off;
+                fan.view.quality.upscale = isGathered ? Upscaling::Off : Upscaling::Bilinear;
+                Resolution& resolution = fan.view.effects.resolution;
+                resolution = { .dynamic = true, .targetMilliseconds = 1000, .history = 2 };
+                for (int frame = 0; frame < 8; ++frame) fan.draw(renderer);
+                EXPECT_NE(renderer.explain().find("its values change nothing"), std::string::npos);
+                resolution.targetMilliseconds = 0.1f;
+                for (int frame = 0; frame < 20; ++frame) fan.draw(renderer);
+                const std::string words = renderer.explain();
+                EXPECT_TRUE(!hasTimers || words.find("200 x 150 pixels are drawn") != std::string::npos) << words;
+                resolution.dynamic = false;
+                fan.draw(renderer);
+                EXPECT_NE(renderer.explain().find("its values change nothing"), std::string::npos);
+            }
+        }
+    }
+}
+
 } // namespace
 } // namespace filament

@@ -38,9 +38,13 @@ TEST(Effects, AScaleIsOneNumberForBothAxesOrOneForEach) {
 TEST(Effects, WhatLiesOutsideOfItsRangeIsClamped) {
     Effects effects;
     effects.resolution.scale = { 0, std::numeric_limits<float>::infinity() };
+    effects.resolution.leastScale = NAN;
+    effects.resolution.history = 1e30f;
     effects.sharpening.strength = -1;
     const Effects inRange = clamped(effects);
     EXPECT_EQ(inRange.resolution.scale, float2(0.5f, 1));
+    EXPECT_EQ(inRange.resolution.leastScale, 0.5f);
+    EXPECT_EQ(inRange.resolution.history, 32);
     EXPECT_EQ(inRange.sharpening.strength, 0);
 }
 
