@@ -9,6 +9,7 @@
 #include "filament_core/passes/ExposurePass.h"
 #include "filament_core/passes/FinishPass.h"
 #include "filament_core/passes/FocusPass.h"
+#include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/ShadowPass.h"
@@ -74,7 +75,7 @@ bool changesPicture(FrameContext const& context) {
     constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,        Effect::ChromaticAberration,
                                             Effect::Vignette,     Effect::Grading,      Effect::Fxaa,
                                             Effect::DepthOfField, Effect::AutoExposure, Effect::Upscaling,
-                                            Effect::Sharpening };
+                                            Effect::Sharpening,   Effect::MotionBlur };
     return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
 }
 
@@ -118,6 +119,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;
     addFocusPasses(graph, context, targets);
+    addMotionBlurPasses(graph, context, targets);
     if (isEnlarged) addTemporalPass(graph, context, targets);
     addExposurePasses(graph, context, targets);
     addBloomPasses(graph, context, targets);

@@ -54,6 +54,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: antiAliasing";
     case Effect::DepthOfField:
         return "switched off: depthOfField=off";
+    case Effect::MotionBlur:
+        return "switched off: motionBlur=off";
     case Effect::AutoExposure:
         return "switched off: autoExposure=off";
     case Effect::Bloom:
@@ -83,6 +85,7 @@ const char* describeNobody(Effect effect) {
         return "nothing in view reflects the picture";
     case Effect::Taa:
     case Effect::DepthOfField:
+    case Effect::MotionBlur:
     case Effect::AutoExposure:
     case Effect::Bloom:
     case Effect::ChromaticAberration:
@@ -136,6 +139,8 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} light{} for them", demand.count, demand.count == 1 ? " asks" : "s ask");
     case DemandReason::LiesInBetween:
         return "lies between the camera and what is visible";
+    case DemandReason::CameraMoves:
+        return "the camera moves";
     case DemandReason::MovesInView:
         return fmt::format("{} in view moved", demand.count);
     case DemandReason::SpreadsLight:
@@ -226,6 +231,7 @@ const char* nameOf(Effect effect) {
                                                                "fog",
                                                                "taa",
                                                                "depth of field",
+                                                               "motion blur",
                                                                "auto exposure",
                                                                "bloom",
                                                                "fringes",

@@ -35,7 +35,7 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
     mGathered = gathers ? 1 / packet.gathering.weight : 0;
     mScene = 0; // until all places are kept
-    if (readsMotion(packet.mainView().counts, view.quality, view.debugView)) keepPlaces(scene);
+    if (readsMotion(packet.mainView().counts, view.quality, view.effects, view.debugView)) keepPlaces(scene);
 }
 
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": multiples of the inverses of the plastic

@@ -140,7 +140,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.size = main.size;
     packet.shownSize = main.shown();
     packet.last = last.seenFrom(scene, makeViewSpace(main), main, packet.mainView().uniforms.time);
-    if (readsMotion(packet.mainView().counts, main.quality, main.debugView)) addMotion(arena, scene, last, packet);
+    if (readsMotion(packet.mainView().counts, main.quality, main.effects, main.debugView))
+        addMotion(arena, scene, last, packet);
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;

@@ -58,7 +58,8 @@ EffectDemand demandOfPicture(uint32_t draws, bool isOn, uint32_t copiedPixels = 
 }
 
 EffectDemand demandOfMotion(DemandInput const& input) {
-    if (!readsMotion(input.counts, input.quality, input.debugView)) return { .reason = DemandReason::NothingAsks };
+    if (!readsMotion(input.counts, input.quality, input.effects, input.debugView))
+        return { .reason = DemandReason::NothingAsks };
     if (input.moved == 0) return { .reason = DemandReason::NothingMoves };
     return { true, DemandReason::MovesInView, input.moved };
 }
@@ -126,6 +127,16 @@ EffectDemand demandOfFocus(DemandInput const& input) {
     return { true, demand.reason, static_cast<uint32_t>(std::ceil(input.blurRadius)) };
 }
 
+EffectDemand demandOfMotionBlur(DemandInput const& input) {
+    MotionBlur const& blur = input.effects.motionBlur;
+    const bool isNeutral = blur.shutterDegrees == 0 || blur.maxRadius == 0;
+    if (blur.enabled && isNeutral) return { .reason = DemandReason::HasNoIntensity };
+    const EffectDemand demand = demandOfPictureEffect(input, blur.enabled, DemandReason::MovesInView);
+    if (!demand.isNeeded) return demand;
+    if (input.moved == 0 && !input.cameraMoved) return { .reason = DemandReason::NothingMoves };
+    return { true, input.moved ? DemandReason::MovesInView : DemandReason::CameraMoves, input.moved };
+}
+
 /// Of an effect that changes the picture wherever it is, nothing visible included.
 EffectDemand demandOfFinish(DemandInput const& input, bool isOn, bool isNeutral, DemandReason neutral) {
     if (!isOn) return { .reason = DemandReason::SwitchedOff };
@@ -157,7 +168,7 @@ void setFinish(DemandInput const& input, SceneDemand& demand) {
 uint32_t readersOfDepth(DemandInput const& input, SceneDemand const& demand) {
     uint32_t readers = demand.needs(Effect::Taa) && input.cameraMoved ? 1 : 0;
     for (const Effect effect : { Effect::AmbientOcclusion, Effect::Reflections, Effect::Motion, Effect::ContactShadows,
-                                 Effect::DepthOfField })
+                                 Effect::DepthOfField, Effect::MotionBlur })
         readers += demand.needs(effect) ? 1 : 0;
     return readers;
 }
@@ -204,9 +215,9 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
 
 } // namespace
 
-bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView) {
-    return debugView == DebugView::Motion || (quality.ssr && counts.reflectiveDraws > 0) ||
-           gathersFrames(quality, debugView);
+bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView) {
+    return debugView == DebugView::Motion || (effects.motionBlur.enabled && debugView == DebugView::None) ||
+           (quality.ssr && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
 }
 
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView) {
@@ -243,6 +254,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Fog, demandOfFog(input));
     set(Effect::Taa, demandOfTaa(input));
     set(Effect::DepthOfField, demandOfFocus(input));
+    set(Effect::MotionBlur, demandOfMotionBlur(input));
     set(Effect::AutoExposure,
         demandOfPictureEffect(input, input.effects.autoExposure.enabled, DemandReason::MeasuresPicture));
     set(Effect::Bloom, demandOfBloom(input));

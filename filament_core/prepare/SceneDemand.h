@@ -40,6 +40,7 @@ enum class Effect : uint8_t {
     Fog,
     Taa, ///< temporal anti-aliasing
     DepthOfField,
+    MotionBlur,
     AutoExposure,
     Bloom,
     ChromaticAberration,
@@ -51,7 +52,7 @@ enum class Effect : uint8_t {
     Sharpening,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 30;
+inline constexpr size_t kEffects = 31;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -73,6 +74,7 @@ enum class DemandReason : uint8_t {
     LightsAskForIt,       ///< `count` lights
     LiesInBetween,        ///< between the camera and what is visible
     MovesInView,          ///< `count` opaque objects do
+    CameraMoves,          ///< and nothing else
     SpreadsLight,         ///< of what is visible
     SmoothsEdges,         ///< of what is visible
     ChangesPicture,       ///< as a whole
@@ -151,7 +153,7 @@ inline bool gathersLarger(Quality const& quality, DebugView debugView) {
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);
 
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
-bool readsMotion(ViewCounts const& counts, Quality const& quality, DebugView debugView);
+bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView);
 
 /// "light list". One name in explain(), reports and documents.
 const char* nameOf(Effect effect);

@@ -112,6 +112,7 @@ constexpr auto kFog = &Effects::fog;
 constexpr auto kContact = &Effects::contactShadows;
 constexpr auto kBloom = &Effects::bloom;
 constexpr auto kFocus = &Effects::depthOfField;
+constexpr auto kMotionBlur = &Effects::motionBlur;
 constexpr auto kExposure = &Effects::autoExposure;
 constexpr auto kGrading = &Effects::grading;
 constexpr auto kVignette = &Effects::vignette;
@@ -157,6 +158,10 @@ constexpr std::array kEffectFields{
     numberField<kFocus, &DepthOfField::blurScale>("depthOfField.blurScale", 0.0f, 100.0f, "a number from 0 to 100"),
     numberField<kFocus, &DepthOfField::maxRadius>("depthOfField.maxRadius", 0.0f, 0.1f, "a number from 0 to 0.1"),
     numberField<kFocus, &DepthOfField::blades>("depthOfField.blades", 0.0f, 16.0f, "a number from 0 to 16"),
+    switchField<kMotionBlur, &MotionBlur::enabled>("motionBlur"),
+    numberField<kMotionBlur, &MotionBlur::shutterDegrees>("motionBlur.shutterDegrees", 0.0f, 360.0f,
+                                                          "degrees from 0 to 360"),
+    numberField<kMotionBlur, &MotionBlur::maxRadius>("motionBlur.maxRadius", 0.0f, 0.1f, "a number from 0 to 0.1"),
     switchField<kExposure, &AutoExposure::enabled>("autoExposure"),
     numberField<kExposure, &AutoExposure::lowPercentile>("autoExposure.lowPercentile", 0.0f, 1.0f, kShare),
     numberField<kExposure, &AutoExposure::highPercentile>("autoExposure.highPercentile", 0.0f, 1.0f, kShare),

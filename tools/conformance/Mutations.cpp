@@ -687,6 +687,8 @@ constexpr Mutation kMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("tonemap", 1); } },
     { "focusTiles", "blur does not reach into the next tile",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("focus_tiles", 0); } },
+    { "wayTiles", "motion blur does not reach into the next tile",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("motion_blur_tiles", 0); } },
     { "gatheredWeight", "frames count half as much in the gathered picture", make<GatheredWeightEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },

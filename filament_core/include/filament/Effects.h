@@ -77,6 +77,15 @@ struct DepthOfField {
     friend bool operator==(DepthOfField const&, DepthOfField const&) = default;
 };
 
+/// The blur of what moves while the shutter is open: surfaces that are opaque or masked, and everything if the camera does.
+/// What blends has the blur of what lies behind it.
+struct MotionBlur {
+    bool enabled = false;
+    float shutterDegrees = 180; ///< the part of a frame during which the shutter is open, of 360, [0, 360]
+    float maxRadius = 0.03f;    ///< half of the longest way, as a share of the picture's height, [0, 0.1]
+    friend bool operator==(MotionBlur const&, MotionBlur const&) = default;
+};
+
 /// Exposure that follows the picture: the mean luminance of the pixels between two percentiles becomes middle grey. On top
 /// of the camera's exposure. How fast it follows is measured in View::timeSeconds; the first frame is exposed at once.
 struct AutoExposure {
@@ -165,6 +174,7 @@ struct Effects {
     ContactShadows contactShadows{};
     Bloom bloom{};
     DepthOfField depthOfField{};
+    MotionBlur motionBlur{};
     AutoExposure autoExposure{};
     Grading grading{};
     Vignette vignette{};

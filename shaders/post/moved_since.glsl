@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// From where this frame shows a surface to where the last one did. Includes need: the parameters `motion`
+// (FrameTargets::motion), `lastFromPixel`, `perSample` (1 / size) and `jitter` (pixels by which this frame is moved), and
+// the constants `hasMotion` and `isElsewhere` (the camera moved).
+
+// point: pixel and its depth. Returns shares of the picture's width and height; beyond it: nowhere.
+vec2 movedSince(vec3 point) {
+    if (materialConstants_hasMotion) {
+        vec4 motion = texelFetch(materialParams_motion, ivec2(point.xy), 0);
+        if (motion.a > 0.0) return motion.xy + materialParams.jitter * materialParams.perSample;
+    }
+    if (!materialConstants_isElsewhere) return vec2(0.0);
+    vec4 there = materialParams.lastFromPixel * vec4(point, 1.0);
+    if (!(there.w > 0.0)) return vec2(4.0);
+    return there.xy / there.w - (point.xy - materialParams.jitter) * materialParams.perSample;
+}
