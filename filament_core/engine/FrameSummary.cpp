@@ -113,7 +113,10 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
             fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", summary.statistics.frame,
                         counts.visible, counts.renderables, counts.triangles, summary.main.draws);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
-    if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
+    if (counts.nothingToDraw)
+        text += fmt::format("  {} not drawn: they have no indices or no layer\n", counts.nothingToDraw);
+    if (counts.inOtherLayers)
+        text += fmt::format("  {} not drawn: the view hides their layers\n", counts.inOtherLayers);
     text += explainFroxels(counts);
     for (size_t kind = 0; kind < summary.others.size(); ++kind) {
         FrameSummary::Totals const& others = summary.others[kind];

@@ -40,6 +40,7 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .quality = view.quality,
              .effects = effects,
              .debugView = view.debugView,
+             .visibleLayers = view.visibleLayers,
              .contents = contents };
 }
 

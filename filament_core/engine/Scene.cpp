@@ -152,7 +152,8 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .instanceIndex = desc.instanceIndex,
                                         .castsShadows = desc.castsShadows,
                                         .receivesShadows = desc.receivesShadows,
-                                        .lightChannels = desc.lightChannels };
+                                        .lightChannels = desc.lightChannels,
+                                        .layers = desc.layers };
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
@@ -278,6 +279,19 @@ void Scene::setLightChannels(Light light, LightChannels channels) {
 
 void Scene::setLightChannels(Node node, LightChannels channels) {
     scene::setLightChannels(mImpl->changed(), node, channels);
+}
+
+void Scene::setLayers(Renderable renderable, Layers select, Layers layers) {
+    scene::setLayers(mImpl->changed().renderables, renderable, select, layers);
+}
+
+void Scene::setLayers(Node node, Layers select, Layers layers) {
+    scene::setLayers(mImpl->changed(), node, select, layers);
+}
+
+Layers Scene::layers(Renderable renderable) const {
+    scene::Renderables const& renderables = mImpl->data.renderables;
+    return renderables.layers[renderables.index.at(renderable)];
 }
 
 void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject) {

@@ -15,12 +15,12 @@ using simd::kLanes;
 static_assert(kCullRange % kLanes == 0, "only the last range of a scene has boxes left over");
 
 struct Tally {
-    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0;
+    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0;
 };
 
 /// Bit or lane i: renderable first + i.
 struct Seen8 {
-    uint32_t visible = 0, nothingToDraw = 0;
+    uint32_t visible = 0, nothingToDraw = 0, inOtherLayers = 0;
     std::array<float, kLanes> depth;
 };
 
@@ -53,7 +53,8 @@ public:
         for (; i + kLanes <= end; i += kLanes) next = keep(see8(i), i, next, tally);
         for (; i < end; ++i) next = keep(see1(i), i, next, tally);
         tally.visible = static_cast<uint32_t>(next - slots);
-        tally.outOfView = static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw;
+        tally.outOfView =
+                static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw - tally.inOtherLayers;
         return tally;
     }
 
@@ -68,31 +69,43 @@ private:
         uint64_t flags;
         std::memcpy(&flags, &mRenderables.flags[i], sizeof flags);
         Seen8 seen;
-        seen.nothingToDraw = simd::bitOfEachByte(flags, kNoIndicesBit) | simd::bitOfEachByte(flags, kCollapsedBit);
+        seen.nothingToDraw = simd::bitOfEachByte(flags, kNeverDrawnBit) | simd::bitOfEachByte(flags, kCollapsedBit);
         if (mIsShadow)
             seen.nothingToDraw |=
                     simd::bitOfEachByte(flags, kCastsNoShadowsBit) | simd::bitOfEachByte(flags, kCannotCastBit);
-        seen.visible =
-                (mFrustum.intersects(boxes) | ~simd::bitOfEachByte(flags, kCulledBit)) & ~seen.nothingToDraw & 0xFFu;
+        if (mSpace.visibleLayers != kAllLayers) seen.inOtherLayers = hidden8(i) & ~seen.nothingToDraw;
+        seen.visible = (mFrustum.intersects(boxes) | ~simd::bitOfEachByte(flags, kCulledBit)) & ~seen.nothingToDraw &
+                       ~seen.inOtherLayers & 0xFFu;
         simd::store8(seen.depth, simd::dot(mSpace.forward, boxes.center));
         return seen;
+    }
+
+    uint32_t hidden8(size_t i) const {
+        constexpr uint64_t kOnes = 0x0101'0101'0101'0101, kLow7 = 0x7F7F'7F7F'7F7F'7F7F;
+        uint64_t layers;
+        std::memcpy(&layers, &mRenderables.layers[i], sizeof layers);
+        const uint64_t shared = layers & mSpace.visibleLayers * kOnes;
+        const uint64_t isShared = ((shared & kLow7) + kLow7) | shared; // bit 7 of each byte that is not zero
+        return ~simd::bitOfEachByte(isShared, 7) & 0xFFu;
     }
 
     Seen8 see1(size_t i) const {
         const uint8_t flags = mRenderables.flags[i];
         const float3 center(mRenderables.bounds.centerAt(i) - mSpace.cameraWorld);
-        const bool nothing = flags & (scene::kNoIndices | scene::kCollapsed | (mIsShadow ? kNoCaster : 0));
+        const bool nothing = flags & (scene::kNeverDrawn | scene::kCollapsed | (mIsShadow ? kNoCaster : 0));
         const bool inView =
                 !(flags & scene::kCulled) || intersects(mSpace.frustum, center, mRenderables.bounds.halfExtentAt(i));
         Seen8 seen;
         seen.nothingToDraw = nothing;
-        seen.visible = inView && !nothing;
+        seen.inOtherLayers = !nothing && (mRenderables.layers[i] & mSpace.visibleLayers) == 0;
+        seen.visible = inView && !nothing && !seen.inOtherLayers;
         seen.depth[0] = glm::dot(mSpace.forward, center);
         return seen;
     }
 
     SortItem* keep(Seen8 const& seen, size_t first, SortItem* next, Tally& tally) const {
         tally.nothingToDraw += static_cast<uint32_t>(std::popcount(seen.nothingToDraw));
+        tally.inOtherLayers += static_cast<uint32_t>(std::popcount(seen.inOtherLayers));
         for (uint32_t left = seen.visible; left != 0; left &= left - 1) {
             const auto lane = static_cast<uint32_t>(std::countr_zero(left));
             const uint32_t renderable = static_cast<uint32_t>(first) + lane;
@@ -106,7 +119,7 @@ private:
     }
 
     static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
-    static constexpr uint32_t kNoIndicesBit = std::countr_zero<uint32_t>(scene::kNoIndices);
+    static constexpr uint32_t kNeverDrawnBit = std::countr_zero<uint32_t>(scene::kNeverDrawn);
     static constexpr uint32_t kCollapsedBit = std::countr_zero<uint32_t>(scene::kCollapsed);
     static constexpr uint32_t kCastsNoShadowsBit = std::countr_zero<uint32_t>(scene::kCastsNoShadows);
 
@@ -141,12 +154,14 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
         all.visible += tallies[range].visible;
         all.outOfView += tallies[range].outOfView;
         all.nothingToDraw += tallies[range].nothingToDraw;
+        all.inOtherLayers += tallies[range].inOtherLayers;
     }
     firsts[ranges] = all.visible;
     counts.renderables = renderables.count();
     counts.visible = all.visible;
     counts.outOfView = all.outOfView;
     counts.nothingToDraw = all.nothingToDraw;
+    counts.inOtherLayers = all.inOtherLayers;
     return { slots, firsts, spans };
 }
 

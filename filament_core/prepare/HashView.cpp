@@ -18,12 +18,12 @@ uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
 
 uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
     return hashWords(seed, counts.renderables, counts.visible, counts.outOfView, counts.nothingToDraw,
-                     counts.blendedLeftOut, counts.lights, counts.areaLights, counts.areaLightsLeftOut,
-                     counts.profiledLights, counts.profiledLightsLeftOut, counts.profilesOverLimit,
-                     counts.lightsOutOfView, counts.lightsOfOtherChannels, counts.sunsOfOtherChannels,
-                     counts.lightsOverLimit, counts.froxels, counts.froxelEntries, counts.longestFroxel,
-                     counts.fullFroxels, counts.lightsLeftOut, counts.suns, counts.litDraws, counts.blendedDraws,
-                     counts.triangles);
+                     counts.inOtherLayers, counts.blendedLeftOut, counts.lights, counts.areaLights,
+                     counts.areaLightsLeftOut, counts.profiledLights, counts.profiledLightsLeftOut,
+                     counts.profilesOverLimit, counts.lightsOutOfView, counts.lightsOfOtherChannels,
+                     counts.sunsOfOtherChannels, counts.lightsOverLimit, counts.froxels, counts.froxelEntries,
+                     counts.longestFroxel, counts.fullFroxels, counts.lightsLeftOut, counts.suns, counts.litDraws,
+                     counts.blendedDraws, counts.triangles);
 }
 
 uint64_t hashChannels(ChannelLists const& channels, uint64_t seed) {

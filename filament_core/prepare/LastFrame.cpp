@@ -66,7 +66,7 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
     lastEffects.resolution = view.effects.resolution; // how many samples there are does not change what they show
     const bool isSame = last.contents == view.contents && last.camera.position() == view.camera.position() &&
                         last.camera.exposure == view.camera.exposure && last.quality == view.quality &&
-                        lastEffects == view.effects;
+                        lastEffects == view.effects && last.visibleLayers == view.visibleLayers;
     if (!isSame || packet.motionView != kNowhere) return false;
     if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
     const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };

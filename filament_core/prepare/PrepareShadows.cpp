@@ -121,7 +121,7 @@ private:
 
     void addCascades(LightRecord const& light, uint32_t index) {
         const double3x3 axes = worldFromLight(double3(light.directionWorld));
-        const LightSpaceBox extent = sceneInLightSpace(mJobs, mArena, mScene.renderables, axes);
+        const LightSpaceBox extent = sceneInLightSpace(mJobs, mArena, mScene.renderables, axes, mView.visibleLayers);
         if (extent.isEmpty()) return;
         const uint32_t cascades = std::clamp<uint32_t>(mView.quality.shadowCascades, 1, kMaxCascades);
         const auto slices = splitDepth({ mReceivers.nearest, mReceivers.farthest }, cascades);
@@ -140,7 +140,8 @@ private:
                          .clipFromView = fitted.clipFromView,
                          .timeSeconds = mView.timeSeconds,
                          .materialGlobals = mView.materialGlobals,
-                         .quality = mView.quality };
+                         .quality = mView.quality,
+                         .visibleLayers = mView.visibleLayers };
         input.quality.depthRange = DepthRange::Reversed;
         PreparedView prepared = prepareView(mJobs, mArena, mScene, input);
         if (prepared.packet.opaque.empty()) {
@@ -186,7 +187,7 @@ private:
         out.packet.keepsAtlas = placed.atlasSize == mHeld.size && moments == mHeld.moments;
         const auto isLamps = [](Candidate const& candidate) { return isPerspective(candidate.fitted); };
         if (moments != ShadowMoments::None && std::ranges::any_of(mCandidates.first(mCount), isLamps))
-            mWorld = sceneInLightSpace(mJobs, mArena, mScene.renderables, double3x3(1.0));
+            mWorld = sceneInLightSpace(mJobs, mArena, mScene.renderables, double3x3(1.0), mView.visibleLayers);
         mLights = mArena.copy(mMain.packet.lights);
         mUniforms = mArena.make<shader::ShadowUniforms>();
         const auto maps = mArena.arrayForOverwrite<ShadowMapPacket>(mCount);

@@ -51,12 +51,12 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
 }
 
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-                                double3x3 const& worldFromLight) {
-    constexpr int kNothing = scene::kNoIndices | scene::kCollapsed;
+                                double3x3 const& worldFromLight, Layers visibleLayers) {
+    constexpr int kNothing = scene::kNeverDrawn | scene::kCollapsed;
     return reduceRanges<LightSpaceBox>(
             jobs, arena, renderables.count(),
             [&](LightSpaceBox& part, size_t i) {
-                if ((renderables.flags[i] & kNothing) != 0) return;
+                if ((renderables.flags[i] & kNothing) != 0 || (renderables.layers[i] & visibleLayers) == 0) return;
                 part.add(inLightSpace(worldFromLight, renderables.bounds.centerAt(i),
                                       renderables.bounds.halfExtentAt(i)));
             },

@@ -24,8 +24,8 @@ struct ShadowReceivers {
 ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                               ViewPacket const& view, ViewSpace const& space, ShadowFilter filter);
 
-/// Of all renderables that can be drawn.
+/// Of all renderables in these layers that can be drawn.
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-                                double3x3 const& worldFromLight);
+                                double3x3 const& worldFromLight, Layers visibleLayers);
 
 } // namespace filament::prepare

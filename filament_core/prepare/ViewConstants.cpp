@@ -82,6 +82,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
         space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     }
     space.exposure = view.camera.exposure.factor();
+    space.visibleLayers = view.visibleLayers;
     return space;
 }
 

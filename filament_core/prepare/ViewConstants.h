@@ -18,6 +18,7 @@ struct ViewSpace {
     float4x4 viewFromWorld{ 1.0f };
     Frustum frustum{};
     float exposure = 1;
+    Layers visibleLayers = kAllLayers;
 };
 
 ViewSpace makeViewSpace(ViewInput const& view);

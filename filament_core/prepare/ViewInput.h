@@ -39,6 +39,7 @@ struct ViewInput {
     Quality quality{};
     Effects effects{};
     DebugView debugView = DebugView::None; ///< of the main view
+    Layers visibleLayers = kAllLayers;     ///< of renderables
     uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
 
     uint2 shown() const { return shownSize.x > 0 ? shownSize : size; }

@@ -29,6 +29,8 @@ int castingFlag(MaterialInstance const& instance) {
     return isInWorld && (!material.isBlended() || material.package.transparentShadow) ? 0 : kCannotCast;
 }
 
+bool isNeverDrawn(Geometry const& geometry, uint8_t layers) { return geometry.indexCount == 0 || layers == 0; }
+
 bool isPoint(Placement const& placement) {
     return placement.rows[0] == float3(0) && placement.rows[1] == float3(0) && placement.rows[2] == float3(0);
 }
@@ -56,10 +58,11 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
     const uint32_t drawable = renderables.drawables.acquire(
             { input.geometry, input.material, input.deformation, input.receivesShadows, input.lightChannels });
     const Renderable handle = renderables.index.add();
-    const int flags = (input.culled ? kCulled : 0) | (input.geometry.indexCount == 0 ? kNoIndices : 0) |
+    const int flags = (input.culled ? kCulled : 0) | (isNeverDrawn(input.geometry, input.layers) ? kNeverDrawn : 0) |
                       (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
     renderables.bounds.add();
     renderables.flags.push_back(static_cast<uint8_t>(flags));
+    renderables.layers.push_back(input.layers);
     renderables.drawable.push_back(drawable);
     FILAMENT_ASSERT(input.instanceIndex < 1u << 24, "an instance index is below 2^24, where floats are whole numbers");
     renderables.placement.push_back({ .side = static_cast<float>(input.instanceIndex + 1) });
@@ -74,6 +77,7 @@ void remove(Renderables& renderables, Renderable renderable) {
     renderables.drawables.release(renderables.drawable[gap]);
     renderables.bounds.remove(gap);
     closeGap(renderables.flags, gap);
+    closeGap(renderables.layers, gap);
     closeGap(renderables.drawable, gap);
     closeGap(renderables.placement, gap);
     closeGap(renderables.objectBounds, gap);
@@ -105,6 +109,15 @@ void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstan
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels) {
     changeDrawable(renderables, renderables.index.at(renderable),
                    [&](Drawable& changed) { changed.lightChannels = channels; });
+}
+
+void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, uint8_t layers) {
+    const uint32_t at = renderables.index.at(renderable);
+    uint8_t& own = renderables.layers[at];
+    own = static_cast<uint8_t>((own & ~select) | (layers & select));
+    Geometry const& geometry = renderables.drawables[renderables.drawable[at]].geometry;
+    const int others = renderables.flags[at] & ~kNeverDrawn;
+    renderables.flags[at] = static_cast<uint8_t>(others | (isNeverDrawn(geometry, own) ? kNeverDrawn : 0));
 }
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {

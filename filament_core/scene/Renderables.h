@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Renderables: everything that can be drawn, by column; each step of a frame reads only the columns it needs.
-///   culling      bounds (36 B) and flags (1 B) of every renderable, in order
+///   culling      bounds (36 B) and flags (1 B) of every renderable, in order; layers (1 B), unless a view has them all
 ///   sorting      drawable (4 B) of the visible ones
 ///   object data  placement (64 B, one cache line) of the visible ones, in draw order
 ///   The rest (objectBounds, name) is for edits and messages; frames do not read it.
@@ -44,10 +44,10 @@ struct alignas(64) Placement {
 static_assert(sizeof(Placement) == 64, "one cache line a renderable");
 
 enum RenderableFlag : uint8_t {
-    kCulled = 1,    ///< may be skipped when its box is out of view
-    kMirrored = 2,  ///< transform and bones together turn front faces into back faces
-    kNoIndices = 4, ///< its geometry is empty
-    kCollapsed = 8, ///< the transform collapses it to a point, so there is nothing to draw
+    kCulled = 1,     ///< may be skipped when its box is out of view
+    kMirrored = 2,   ///< transform and bones together turn front faces into back faces
+    kNeverDrawn = 4, ///< its geometry is empty, or it is in no layer
+    kCollapsed = 8,  ///< the transform collapses it to a point, so there is nothing to draw
     kBonesMirror = 16,
     kCastsNoShadows = 32, ///< the user says so
     kCannotCast = 64,     ///< its material blends, or places it in the view of a camera
@@ -57,6 +57,7 @@ struct Renderables {
     DenseIndex<RenderableObject> index;
     BoundsColumns bounds;
     std::vector<uint8_t> flags;     ///< RenderableFlag
+    std::vector<uint8_t> layers;    ///< <filament/Objects.h>
     std::vector<uint32_t> drawable; ///< into `drawables`
     std::vector<Placement> placement;
     std::vector<CenteredBox> objectBounds;
@@ -77,6 +78,7 @@ struct RenderableInput {
     uint32_t deformation = kNotDeformed;
     bool castsShadows = true, receivesShadows = true;
     uint8_t lightChannels = 1;
+    uint8_t layers = kDefaultLayers;
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
@@ -84,6 +86,8 @@ void remove(Renderables& renderables, Renderable renderable);
 /// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
+/// Those of `select` become what they are in `layers`.
+void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, uint8_t layers);
 
 /// The slot in Deformations of the renderable at position `at`, or kNotDeformed.
 inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {

@@ -20,6 +20,19 @@ Node nodeOf(SceneData const& scene, Attachments<Tag> const& attachments, Handle<
     return attachments.isAttached(thing) ? scene.transforms.nodeAt(attachments.nodeOf(thing)) : Node{};
 }
 
+/// Attached to the node or to one below it.
+template <class Change>
+void forEachRenderable(SceneData& scene, Node node, Change&& change) {
+    std::vector<Node> open{ node };
+    while (!open.empty()) {
+        const Node next = open.back();
+        open.pop_back();
+        scene.atNodes.renderables.forEach(scene.transforms.slotOf(next), change);
+        for (Node child = scene.transforms.firstChild(next); child; child = scene.transforms.nextSibling(child))
+            open.push_back(child);
+    }
+}
+
 } // namespace
 
 void attach(SceneData& scene, Renderable renderable, Node node) {
@@ -48,16 +61,13 @@ Node nodeOf(SceneData const& scene, Light light) {
 }
 
 void setLightChannels(SceneData& scene, Node node, uint8_t channels) {
-    std::vector<Node> open{ node };
-    while (!open.empty()) {
-        const Node next = open.back();
-        open.pop_back();
-        scene.atNodes.renderables.forEach(scene.transforms.slotOf(next), [&](Renderable renderable) {
-            setLightChannels(scene.renderables, renderable, channels);
-        });
-        for (Node child = scene.transforms.firstChild(next); child; child = scene.transforms.nextSibling(child))
-            open.push_back(child);
-    }
+    forEachRenderable(scene, node,
+                      [&](Renderable renderable) { setLightChannels(scene.renderables, renderable, channels); });
+}
+
+void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers) {
+    forEachRenderable(scene, node,
+                      [&](Renderable renderable) { setLayers(scene.renderables, renderable, select, layers); });
 }
 
 void removeNode(SceneData& scene, Node node) {

@@ -29,6 +29,7 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     LightChannels channels = kDefaultLightChannels;
     readLightChannels(reader, channels);
     spec.copyChannels.push_back(channels);
+    readBits(reader, "layers", spec.copyLayers.emplace_back(kDefaultLayers));
     reader.read("values", spec.copyValues.emplace_back());
     reader.read("moves", spec.copyMoves.emplace_back(0.0));
 }
@@ -115,6 +116,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
             "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog or motion",
             debugViewFromName);
     reader.read("clear", view.clearColor);
+    readBits(reader, "layers", view.visibleLayers);
     reader.read("linear", spec.linear);
     reader.read("frames", spec.frames, 1, 64);
     reader.read("secondsPerFrame", spec.secondsPerFrame, 0, 1e6);
@@ -198,6 +200,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     if (spec.copies.empty()) {
         spec.copies.push_back(double4x4(1.0));
         spec.copyChannels.push_back(kDefaultLightChannels);
+        spec.copyLayers.push_back(kDefaultLayers);
         spec.copyValues.emplace_back();
         spec.copyMoves.emplace_back(0.0);
     }

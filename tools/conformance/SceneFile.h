@@ -54,6 +54,7 @@ struct SceneSpec {
     std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
+    std::vector<Layers> copyLayers;          ///< the same
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
     std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place
     double3 cameraMoves{ 0.0 };              ///< the same

@@ -111,15 +111,17 @@ void readArea(JsonReader& reader, AreaLight& light) {
 
 } // namespace
 
-void readLightChannels(JsonReader& reader, LightChannels& channels) {
-    Json const* list = reader.raw("channels");
+void readBits(JsonReader& reader, const char* name, uint8_t& bits) {
+    Json const* list = reader.raw(name);
     if (!list) return;
-    const auto isChannel = [](Json const& j) { return j.is_number_unsigned() && j.get<uint64_t>() < 8; };
-    if (!list->is_array() || !std::all_of(list->begin(), list->end(), isChannel))
-        return reader.complain("channels", "expected a list of numbers from 0 to 7");
-    channels = 0;
-    for (Json const& channel : *list) channels = static_cast<LightChannels>(channels | 1u << channel.get<uint32_t>());
+    const auto isBit = [](Json const& j) { return j.is_number_unsigned() && j.get<uint64_t>() < 8; };
+    if (!list->is_array() || !std::all_of(list->begin(), list->end(), isBit))
+        return reader.complain(name, "expected a list of numbers from 0 to 7");
+    bits = 0;
+    for (Json const& bit : *list) bits = static_cast<uint8_t>(bits | 1u << bit.get<uint32_t>());
 }
+
+void readLightChannels(JsonReader& reader, LightChannels& channels) { readBits(reader, "channels", channels); }
 
 SunLight readSun(JsonReader& reader) {
     SunLight sun;

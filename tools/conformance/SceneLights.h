@@ -20,6 +20,8 @@ RectLight readRect(JsonReader& reader);
 DiscLight readDisc(JsonReader& reader);
 TubeLight readTube(JsonReader& reader);
 
+/// A list of numbers from 0 to 7: the bits that are set.
+void readBits(JsonReader& reader, const char* name, uint8_t& bits);
 /// "channels": a list of numbers from 0 to 7, of a light or a copy.
 void readLightChannels(JsonReader& reader, LightChannels& channels);
 

@@ -46,6 +46,11 @@ using Light = Handle<struct LightObject>;           ///< of one Scene
 using Skin = Handle<struct SkinObject>;             ///< of one Scene
 using Node = Handle<struct NodeObject>;             ///< of one Scene
 
+/// Bit n: layer n. A view shows the renderables of its layers (View::visibleLayers): a renderable in view is drawn, and
+/// casts shadows, if it is in one of them. Lights have no layers, but LightChannels.
+using Layers = uint8_t;
+inline constexpr Layers kDefaultLayers = 1, kAllLayers = 0xFF;
+
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
 
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If

@@ -53,6 +53,7 @@ struct RenderableDesc {
     bool castsShadows = true;              ///< if its material is opaque or masked
     bool receivesShadows = true;
     LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
+    Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
     std::string name{};
 };
 
@@ -86,6 +87,12 @@ public:
     void setLightChannels(Light light, LightChannels channels);
     /// For all renderables attached to the node or below it: a copy of a model, for example.
     void setLightChannels(Node node, LightChannels channels);
+    /// Gives the layers named by `select` the values that they have in `layers`; the others stay. So a part of a program
+    /// can have a layer of its own, and need not know of the rest: setLayers(lamp, kHud, 0) hides the lamp there.
+    void setLayers(Renderable renderable, Layers select, Layers layers);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setLayers(Node node, Layers select, Layers layers);
+    Layers layers(Renderable renderable) const;
     /// For a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 

@@ -46,6 +46,7 @@ struct View {
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
+    Layers visibleLayers = kAllLayers; ///< renderables of other layers are not there: they cast no shadows, either
 };
 
 } // namespace filament

@@ -27,7 +27,7 @@ struct CullTest : testing::Test, BoxScene {
         return cullRenderables(jobs, arena, renderables(), space, ViewKind::Color, counts);
     }
 
-    /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN.
+    /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN; in layers.
     void addMixture(uint32_t count) {
         const auto* look = material();
         Random random(count + 1);
@@ -39,13 +39,16 @@ struct CullTest : testing::Test, BoxScene {
             if (random.next() % 8 == 0) input.geometry.indexCount = 0;
             if (random.next() % 16 == 0) input.boundsMax.y = kNaN;
             if (random.next() % 16 == 0) input.boundsMax.x = kInfinity;
+            if (random.next() % 2 == 0)
+                input.layers = static_cast<uint8_t>(random.next() % 3 ? 1u << random.next() % 8 : 0u);
             addRenderable(scene, input);
         }
     }
 
     bool isVisible(uint32_t i) const {
         const uint8_t flags = renderables().flags[i];
-        if (flags & (scene::kNoIndices | scene::kCollapsed)) return false;
+        if (flags & (scene::kNeverDrawn | scene::kCollapsed)) return false;
+        if ((renderables().layers[i] & space.visibleLayers) == 0) return false;
         return !(flags & scene::kCulled) ||
                intersects(space.frustum, float3(renderables().bounds.centerAt(i) - space.cameraWorld),
                           renderables().bounds.halfExtentAt(i));
@@ -63,16 +66,19 @@ struct CullTest : testing::Test, BoxScene {
                 EXPECT_EQ(item.draw, drawOf(renderables().drawable[item.renderable], mirrored));
             }
         }
-        uint32_t nothing = 0;
+        uint32_t nothing = 0, elsewhere = 0;
         for (uint32_t i = 0; i < renderables().count(); ++i) {
             if (isVisible(i)) expected.push_back(i);
-            nothing += (renderables().flags[i] & (scene::kNoIndices | scene::kCollapsed)) != 0;
+            const bool isNothing = renderables().flags[i] & (scene::kNeverDrawn | scene::kCollapsed);
+            nothing += isNothing;
+            elsewhere += !isNothing && (renderables().layers[i] & space.visibleLayers) == 0;
         }
         EXPECT_EQ(seen, expected);
         EXPECT_EQ(counts.renderables, renderables().count());
         EXPECT_EQ(counts.visible, expected.size());
         EXPECT_EQ(counts.nothingToDraw, nothing);
-        EXPECT_EQ(counts.outOfView, renderables().count() - counts.visible - nothing);
+        EXPECT_EQ(counts.inOtherLayers, elsewhere);
+        EXPECT_EQ(counts.outOfView, renderables().count() - counts.visible - nothing - elsewhere);
     }
 };
 
@@ -83,6 +89,34 @@ INSTANTIATE_TEST_SUITE_P(Renderables, CullCountTest,
 TEST_P(CullCountTest, SeesExactlyWhatTheScalarTestSeesForAnyNumberOfWorkers) {
     addMixture(GetParam());
     for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
+}
+
+TEST_P(CullCountTest, SeesExactlyTheLayersOfTheView) {
+    addMixture(GetParam());
+    for (const Layers visible : { 0x01, 0x02, 0x84, 0x7F, 0x00, 0xFE }) {
+        space.visibleLayers = visible;
+        for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
+    }
+    EXPECT_TRUE(GetParam() < 1000 || counts.inOtherLayers > 0);
+}
+
+TEST_F(CullTest, WhatIsInNoLayerIsNeverDrawnUntilItIsInOneAgain) {
+    const Renderable one = add(double3(0), material()), other = add(double3(1, 0, 0), material());
+    setLayers(scene.renderables, one, kAllLayers, 0);
+    EXPECT_EQ(cull().count(), 1u);
+    EXPECT_EQ(counts.nothingToDraw, 1u);
+    setLayers(scene.renderables, one, 0b110, 0b011); // only layer 1 is in both
+    setLayers(scene.renderables, other, 0b110, 0b011);
+    EXPECT_EQ(scene.renderables.layers[0], 0b010);
+    EXPECT_EQ(scene.renderables.layers[1], 0b011);
+    EXPECT_EQ(cull().count(), 2u);
+    space.visibleLayers = 0b001;
+    EXPECT_EQ(cull().count(), 1u);
+    remove(scene.renderables, one); // the other moves into the gap, with its layers
+    EXPECT_EQ(cull().count(), 1u);
+    space.visibleLayers = 0b100;
+    EXPECT_EQ(cull().count(), 0u);
+    EXPECT_EQ(counts.inOtherLayers, 1u);
 }
 
 TEST_F(CullTest, NothingInViewLeavesNothing) {
