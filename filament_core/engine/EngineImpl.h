@@ -42,6 +42,7 @@ struct TextureState {
     backend::TextureHandle handle;     ///< none: rejected, see createTexture()
     backend::DeviceTextureDesc desc{}; ///< debugName is empty: see `name`
     std::string name;
+    bool hasContents = false; ///< somebody uploaded or drew something
 };
 
 struct VertexBufferState {

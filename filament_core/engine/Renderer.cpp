@@ -18,6 +18,7 @@
 #include "framegraph/Explain.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -45,8 +46,25 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
 }
 
 FrameOutput outputOf(engine::TextureState const& target) {
-    return { target.handle, target.desc.width, target.desc.height, target.desc.format };
+    return { target.handle, target.desc.width, target.desc.height, target.desc.format, target.hasContents };
 }
+
+/// `target`: pixels.
+void checkPlace(View const& view, uint2 target) {
+    if (!view.viewport) {
+        FILAMENT_ASSERT(view.size == target,
+                        "a view without a viewport has the size of its swap chain or render target");
+        return;
+    }
+    const uint2 offset = view.viewport->offset;
+    FILAMENT_ASSERT(offset.x <= target.x && view.size.x <= target.x - offset.x && offset.y <= target.y &&
+                            view.size.y <= target.y - offset.y,
+                    "a viewport lies in its target: offset + View::size is at most the target's size");
+    const float4 clear = view.viewport->clearColor;
+    FILAMENT_ASSERT(std::isfinite(clear.x + clear.y + clear.z + clear.w), "a viewport's clearColor is finite");
+}
+
+bool joinsLastImage(View const& view) { return view.viewport && view.viewport->contents == TargetContents::Keep; }
 
 } // namespace
 
@@ -153,11 +171,12 @@ struct Renderer::Impl {
 
     /// On an error the frame was left out, because memory or a target was missing. Whatever was created on the way
     /// serves the next frame.
-    Result<void> render(Scene const& scene, View const& view, engine::TextureState const& target) {
+    Result<void> render(Scene const& scene, View const& view, engine::TextureState& target) {
         if (!target.handle) return engine::noImage(target.desc.width, target.desc.height);
         try {
             engine.compilations.collect(engine.stream->replayedSubmissions());
             drawFrame(scene, view, outputOf(target));
+            target.hasContents = true;
             return {};
         } catch (std::bad_alloc const&) {
             plan = {};
@@ -167,9 +186,11 @@ struct Renderer::Impl {
         }
     }
 
-    /// The next image becomes the current one once it has been drawn.
+    /// The next image becomes the current one once it has been drawn. A view that keeps its contents joins the current
+    /// one.
     Result<void> renderInto(engine::SwapChainState& chain, Scene const& scene, View const& view) {
-        const uint32_t next = (chain.current + 1) % static_cast<uint32_t>(chain.images.size());
+        const uint32_t step = joinsLastImage(view) ? 0 : 1;
+        const uint32_t next = (chain.current + step) % static_cast<uint32_t>(chain.images.size());
         Result<void> drawn = render(scene, view, engine.textures.get(chain.images[next]));
         if (drawn) chain.current = next;
         return drawn;
@@ -226,14 +247,13 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain) {
     engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
-    FILAMENT_ASSERT(state.size == view.size, "a view has the size of its swap chain");
+    checkPlace(view, state.size);
     (void)mImpl->renderInto(state, scene, view); // takeErrors() says why a frame may be missing
 }
 
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
-    engine::TextureState const& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
-    FILAMENT_ASSERT(color.desc.width == view.size.x && color.desc.height == view.size.y,
-                    "a view has the size of its render target");
+    engine::TextureState& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
+    checkPlace(view, { color.desc.width, color.desc.height });
     (void)mImpl->render(scene, view, color);
 }
 
@@ -261,7 +281,9 @@ Result<Image> Renderer::waitPixels(PixelTicket ticket) { return mImpl->pixels.wa
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
     return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {
         engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTarget.of(view.size));
-        if (Result<void> drawn = mImpl->renderInto(target, scene, view); !drawn) return drawn.error();
+        View whole = view;
+        whole.viewport.reset();
+        if (Result<void> drawn = mImpl->renderInto(target, scene, whole); !drawn) return drawn.error();
         return waitPixels(mImpl->pixels.ask(mImpl->engine.textures.get(target.images[target.current])));
     });
 }

@@ -128,6 +128,7 @@ Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
     if (!desc.pixels.empty()) uploadPixels(pending, handle, desc);
     all.complete();
     state.handle = handle.keep();
+    state.hasContents = !desc.pixels.empty();
     return draft.keep();
 }
 

@@ -2,6 +2,7 @@
 #include "filament_core/passes/FinishPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/PlacePass.h"
 #include "filament_core/passes/ResolutionPass.h"
 #include "filament_core/values/ToneShader.h"
 
@@ -18,6 +19,7 @@ using prepare::Effect;
 
 constexpr std::string_view kLightInputs[] = { "color" };
 constexpr FullScreenInterface kLight{ .pass = "light", .inputs = kLightInputs };
+constexpr FullScreenInterface kAlpha{ .pass = "alpha", .inputs = kLightInputs };
 constexpr std::string_view kToneInputs[] = { "color", "table" };
 constexpr FullScreenInterface kTone{ .pass = "tone map", .inputs = kToneInputs };
 constexpr std::string_view kFinishInputs[] = { "color", "around", "spread", "table", "exposure" };
@@ -229,17 +231,54 @@ void addPicture(FrameGraph& graph, FrameContext const& context, Finish const& fi
         addToneMapPass(graph, context, finish, targets.color, target);
 }
 
+/// Colours divided by their alpha, or multiplied by it.
+void addAlphaPass(FrameGraph& graph, FrameContext const& context, bool multiplies, TextureId color, TextureId target) {
+    const std::array constants{ EffectConstant{ "multiplies", multiplies } };
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = color } };
+    addFullScreenPass(graph, context,
+                      { .name = "alpha",
+                        .material = context.resources.effects->get("alpha", constants, kAlpha),
+                        .inputs = inputs,
+                        .target = target });
+}
+
+/// addPicture() for light that is multiplied by alpha: tone mappers and gradings are of colours, not of shares of them.
+void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, Finish const& finish,
+                           FrameTargets const& targets, TextureId target) {
+    const uint2 size = sizeOf(graph, targets.color);
+    FrameTargets straight = targets;
+    straight.color = graph.createTexture(
+            { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "straight light" });
+    addAlphaPass(graph, context, false, targets.color, straight.color);
+    const TextureId picture = graph.createTexture({ .width = size.x,
+                                                    .height = size.y,
+                                                    .format = graph.texture(target).desc.format,
+                                                    .name = "straight picture" });
+    addPicture(graph, context, finish, straight, picture);
+    addAlphaPass(graph, context, true, picture, target);
+}
+
+/// Draws `target` from targets.color.
+void addPictureOfView(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
+                      TextureId target) {
+    const bool isLight = finish.isSceneLinear && !finish.hasLens();
+    if (isTranslucent(*context.view) && !isLight)
+        addTranslucentPicture(graph, context, finish, targets, target);
+    else
+        addPicture(graph, context, finish, targets, target);
+}
+
 } // namespace
 
 void addFinishPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isSceneLinear) {
     if (targets.color == targets.output) return;
     const uint2 size = sizeOf(graph, targets.color), shown = sizeOf(graph, targets.output);
     const Finish finish = finishOf(context, isSceneLinear, size != shown);
-    if (!finish.goesOn()) return addPicture(graph, context, finish, targets, targets.output);
+    if (!finish.goesOn()) return addPictureOfView(graph, context, finish, targets, targets.output);
     TextureId picture = targets.color;
     if (finish.hasLens() || !finish.isSceneLinear) {
         picture = createUnfinished(graph, finish, size, finish.smoothsEdges ? "with edges" : "with few pixels");
-        addPicture(graph, context, finish, targets, picture);
+        addPictureOfView(graph, context, finish, targets, picture);
     }
     if (finish.smoothsEdges) {
         const TextureId smooth =

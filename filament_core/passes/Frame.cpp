@@ -12,6 +12,7 @@
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PicturePass.h"
+#include "filament_core/passes/PlacePass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/TemporalPass.h"
 
@@ -82,10 +83,7 @@ bool changesPicture(FrameContext const& context) {
 FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     const uint2 size = context.settings.size;
     FrameTargets targets;
-    targets.output = graph.importTexture(
-            output.texture,
-            { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
-            framegraph::InitialContents::Undefined);
+    beginPlace(graph, context, output, targets);
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !changesPicture(context);
     targets.color =
             isFinished ? targets.output
@@ -127,6 +125,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
         addDebugViewPass(graph, context, targets);
     else
         addFinishPasses(graph, context, targets, output.isSceneLinear());
+    addPlacePass(graph, context, output, targets);
     keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;
 }

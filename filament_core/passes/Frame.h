@@ -18,6 +18,7 @@ struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
+    bool hasContents = false; ///< somebody drew to it before
 
     /// Takes light as it is, without a tone mapper.
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }

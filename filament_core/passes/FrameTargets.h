@@ -9,7 +9,8 @@
 namespace filament::passes {
 
 struct FrameTargets {
-    framegraph::TextureId output;       ///< what the user asked for
+    framegraph::TextureId target;       ///< what the user asked for
+    framegraph::TextureId output;       ///< the finished picture: `target` itself, unless the view has a place in it
     framegraph::TextureId shadowDepths; ///< the atlas of shadow maps; none: nothing in view is shadowed
     framegraph::TextureId shadows;      ///< what filters read of it: the same, or its moments
     framegraph::TextureId color;        ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself

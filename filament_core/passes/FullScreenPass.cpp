@@ -87,7 +87,8 @@ framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
     framegraph::ColorTarget target{ .overwrites = pass.tiles.empty() &&
                                                   pass.material.package.blending == shader::Blending::Opaque,
                                     .level = pass.level };
-    if (pass.clears) target.clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f };
+    float4 const& color = pass.clearColor;
+    if (pass.clears) target.clear = std::array{ color.x, color.y, color.z, color.w };
     return target;
 }
 

@@ -52,7 +52,8 @@ struct FullScreenPass {
     framegraph::TextureId target{};
     uint8_t level = 0;                       ///< of the target
     std::span<const FullScreenTile> tiles{}; ///< only these are drawn, with their own values; none: all of the target
-    bool clears = false; ///< what lies outside of the tiles becomes 0; otherwise it keeps its contents
+    bool clears = false; ///< what lies outside of the tiles becomes `clearColor`; otherwise it keeps its contents
+    float4 clearColor{ 0 };
 };
 
 framegraph::PassId addFullScreenPass(framegraph::FrameGraph& graph, FrameContext const& context,

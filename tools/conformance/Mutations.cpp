@@ -676,6 +676,8 @@ constexpr Mutation kMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("upscale", 0); } },
     { "sharpenedLight", "sharpening takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
+    { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },
     { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
     { "gradingOff", "no grading by formula", makeFinish<kGraded> },
     { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },

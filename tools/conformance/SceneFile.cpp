@@ -98,11 +98,37 @@ void readLook(JsonReader& reader, SceneSpec& spec) {
     spec.view.colorGrading.look = std::move(*look);
 }
 
+std::optional<TargetContents> contentsFromName(std::string_view name) {
+    if (name == "keep") return TargetContents::Keep;
+    if (name == "clear") return TargetContents::Clear;
+    return std::nullopt;
+}
+
+std::optional<ViewBlending> blendingFromName(std::string_view name) {
+    if (name == "opaque") return ViewBlending::Opaque;
+    if (name == "translucent") return ViewBlending::Translucent;
+    return std::nullopt;
+}
+
+void readViewport(JsonReader& reader, filament::Viewport& viewport) {
+    reader.read("offset", viewport.offset);
+    reader.choice("contents", viewport.contents, "keep or clear", contentsFromName);
+    reader.choice("blending", viewport.blending, "opaque or translucent", blendingFromName);
+    reader.read("clear", viewport.clearColor);
+}
+
+void readSize(JsonReader& reader, const char* name, uint2& size) {
+    reader.read(name, size);
+    if (size.x < 1 || size.y < 1 || size.x > 4096 || size.y > 4096)
+        reader.complain(name, "expected 1 to 4096 pixels a side");
+}
+
 void readView(JsonReader& reader, SceneSpec& spec) {
     View& view = spec.view;
-    reader.read("size", view.size);
-    if (view.size.x < 1 || view.size.y < 1 || view.size.x > 4096 || view.size.y > 4096)
-        reader.complain("size", "expected 1 to 4096 pixels a side");
+    readSize(reader, "size", view.size);
+    if (reader.has("target")) readSize(reader, "target", spec.target);
+    if (reader.has("viewport"))
+        reader.object("viewport", [&](JsonReader& r) { readViewport(r, view.viewport.emplace()); });
     uint32_t samples = 1;
     reader.read("samples", samples, 1, 4);
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
@@ -142,6 +168,26 @@ void readEffects(JsonReader& reader, Effects& effects) {
         if (const Result<void> done = setEffect(effects, option.name, word); !done)
             reader.complain(key, done.error().message);
     }
+}
+
+/// Its view is the main one but for what it names.
+void readOverlay(JsonReader& reader, SceneSpec& spec) {
+    OverlaySpec& overlay = spec.overlays.emplace_back(OverlaySpec{ .view = spec.view, .lens = spec.lens });
+    readSize(reader, "size", overlay.view.size);
+    reader.object("viewport", [&](JsonReader& r) { readViewport(r, overlay.view.viewport.emplace()); });
+    reader.object("camera", [&](JsonReader& r) {
+        r.read("eye", overlay.eye);
+        r.read("at", overlay.at);
+        r.read("fovDegrees", overlay.lens.verticalFovDegrees, 0.01, 179);
+    });
+    reader.read("clear", overlay.view.clearColor);
+    readBits(reader, "layers", overlay.view.visibleLayers);
+    reader.object("quality", [&](JsonReader& r) { readQuality(r, overlay.view.quality); });
+    reader.object("effects", [&](JsonReader& r) { readEffects(r, overlay.view.effects); });
+    const uint2 end = overlay.view.viewport ? overlay.view.viewport->offset + overlay.view.size : overlay.view.size;
+    const uint2 target = spec.target.x > 0 ? spec.target : spec.view.size;
+    if (!overlay.view.viewport || end.x > target.x || end.y > target.y)
+        reader.complain("viewport", "expected one whose offset and size lie in the picture");
 }
 
 std::optional<ComparatorKind> comparatorFromName(std::string_view name) {
@@ -213,6 +259,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
     reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
     reader.object("effects", [&](JsonReader& r) { readEffects(r, spec.view.effects); });
+    reader.objects("overlays", [&](JsonReader& r) { readOverlay(r, spec); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });
     reader.read("kills", spec.kills);
     if (const Result<void> done = reader.finish(); !done) return done.error();

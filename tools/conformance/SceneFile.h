@@ -39,6 +39,13 @@ using NamedWords = std::vector<std::pair<std::string, std::string>>;
 
 using LightSpec = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
+/// A view over the picture: of the same scene, in a part of it.
+struct OverlaySpec {
+    View view{}; ///< without its camera
+    double3 eye{ 0, 0, 1 }, at{ 0 };
+    Lens lens{ .verticalFovDegrees = 40 };
+};
+
 struct SceneSpec {
     std::string name;                        ///< "spheres" or "spheres/msaa"
     std::string modelPath;                   ///< a path, or "asset:PATH" below the asset folder
@@ -64,9 +71,11 @@ struct SceneSpec {
     double3 at{ 0.0 };
     Lens lens{ .verticalFovDegrees = 40 };
     Exposure exposure{};
-    View view{};         ///< without its camera
-    bool linear = false; ///< scene-linear half floats: no tone mapping
-    uint32_t frames = 1; ///< frames drawn, including the one that is compared
+    View view{};                       ///< without its camera
+    uint2 target{ 0 };                 ///< pixels of the target that the view is a part of; 0: its size
+    std::vector<OverlaySpec> overlays; ///< over the last frame, in this order
+    bool linear = false;               ///< scene-linear half floats: no tone mapping
+    uint32_t frames = 1;               ///< frames drawn, including the one that is compared
     Comparator comparator{};
     std::vector<std::string> kills; ///< mutations that this case must detect
 };

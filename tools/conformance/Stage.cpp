@@ -125,7 +125,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
     mSpec = spec;
     setBack(0); // the camera frames what is posed
     mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());
-    mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = spec.view.size,
+    mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = spec.target.x > 0 ? spec.target : spec.view.size,
                                                         .imageCount = 1,
                                                         .format = spec.linear ? Format::RGBA16F : Format::RGBA8,
                                                         .name = "conformance" }));
@@ -147,6 +147,17 @@ void Stage::setBack(uint32_t frames) {
     mView.timeSeconds = mSpec.view.timeSeconds + seconds;
 }
 
+/// Each with a renderer of its own: it is another camera's.
+void Stage::drawOverlays() {
+    for (OverlaySpec const& overlay : mSpec.overlays) {
+        Renderer renderer(mEngine);
+        View view = overlay.view;
+        view.camera =
+                Camera::lookAt(overlay.eye + mSpec.origin, overlay.at + mSpec.origin, overlay.lens, mSpec.exposure);
+        renderer.render(*mScene, view, mTarget);
+    }
+}
+
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
     for (uint32_t i = mSpec.frames - 1; i > 0; --i) {
         setBack(i);
@@ -158,6 +169,7 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
         mCapture->arm(*request);
     }
     mRenderer->render(*mScene, mView, mTarget);
+    drawOverlays();
     Result<Image> image = mRenderer->waitPixels(mRenderer->readPixels(mTarget));
     if (!image) return image.error();
     Shot shot{ .image = std::move(*image) };

@@ -56,6 +56,7 @@ private:
     Result<void> loadSky(SceneSpec const& spec);
     /// Where everything is `frames` before the last one.
     void setBack(uint32_t frames);
+    void drawOverlays();
 
     const StageOptions mOptions;
     Engine mEngine;

@@ -79,7 +79,8 @@ public:
     Renderer(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Renders into the next image of a swap chain, or into a render target; either has view.size. Returns at once.
+    /// Renders into the next image of a swap chain, or into a render target; either has view.size, or contains
+    /// view.viewport. A view that keeps what is there is drawn into the swap chain's last image. Returns at once.
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
@@ -96,7 +97,7 @@ public:
     std::optional<Image> takePixels(PixelTicket ticket);
     Result<Image> waitPixels(PixelTicket ticket);
 
-    /// Renders one frame into its own image and waits for the pixels: display-referred RGBA8.
+    /// Renders one frame into its own image and waits for the pixels: display-referred RGBA8. A viewport is ignored.
     Result<Image> renderToImage(Scene const& scene, View const& view);
 
     FrameStatistics statistics() const;

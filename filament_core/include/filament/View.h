@@ -34,6 +34,26 @@ enum class DebugView : uint8_t {
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
 
+/// What becomes of the pixels that a target has already.
+enum class TargetContents : uint8_t {
+    Keep,  ///< they stay where the view draws nothing. In a swap chain the view joins the image that was rendered last
+    Clear, ///< all of the target becomes Viewport::clearColor before the view is drawn
+};
+
+/// How a view is drawn over what its target has.
+enum class ViewBlending : uint8_t {
+    Opaque,      ///< in its place
+    Translucent, ///< shown through it by the view's alpha, which is that of `clearColor` where nothing is drawn
+};
+
+/// The part of a target that a view is drawn to: View::size pixels from `offset`. docs/views.md, "Several views".
+struct Viewport {
+    uint2 offset{ 0 }; ///< of the first pixel, from the left and from the top; all of the view lies in its target
+    TargetContents contents = TargetContents::Keep; ///< of what nothing was drawn to yet: Clear
+    ViewBlending blending = ViewBlending::Opaque;
+    float4 clearColor{ 0, 0, 0, 1 }; ///< as the target stores it; multiplied by its alpha
+};
+
 struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
@@ -46,7 +66,8 @@ struct View {
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
-    Layers visibleLayers = kAllLayers; ///< renderables of other layers are not there: they cast no shadows, either
+    Layers visibleLayers = kAllLayers;  ///< renderables of other layers are not there: they cast no shadows, either
+    std::optional<Viewport> viewport{}; ///< none: the view is all of its target
 };
 
 } // namespace filament

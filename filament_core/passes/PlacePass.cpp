@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/PlacePass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <array>
+
+namespace filament::passes {
+namespace {
+
+using framegraph::FrameGraph;
+using framegraph::InitialContents;
+
+constexpr std::string_view kPlaceInputs[] = { "picture" };
+constexpr FullScreenParameter kPlaceValues[] = { { "offset", ParameterType::Int2 } };
+constexpr FullScreenInterface kPlace{ .pass = "place", .inputs = kPlaceInputs, .values = kPlaceValues };
+
+/// What becomes of the target first.
+struct Clearing {
+    bool clears = false;
+    float4 color{ 0 };
+};
+
+void place(FrameGraph& graph, FrameContext const& context, std::string_view material, framegraph::TextureId picture,
+           framegraph::TextureId target, Clearing const& clearing) {
+    const uint2 offset = context.view->viewport->offset, size = context.view->size;
+    const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
+    const std::array values{ FullScreenValue{ "offset", int2(offset) } };
+    const std::array tiles{ FullScreenTile{
+            .rect = { static_cast<int32_t>(offset.x), static_cast<int32_t>(offset.y), size.x, size.y },
+            .values = values } };
+    addFullScreenPass(graph, context,
+                      { .name = "place",
+                        .material = context.resources.effects->get(material, {}, kPlace),
+                        .inputs = inputs,
+                        .target = target,
+                        .tiles = tiles,
+                        .clears = clearing.clears,
+                        .clearColor = clearing.color });
+}
+
+bool fillsTarget(View const& view, FrameOutput const& output) {
+    return !view.viewport || (view.size == uint2(output.width, output.height) && !isTranslucent(view));
+}
+
+bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
+    return viewport.contents == TargetContents::Clear || !output.hasContents;
+}
+
+} // namespace
+
+bool isTranslucent(View const& view) { return view.viewport && view.viewport->blending == ViewBlending::Translucent; }
+
+void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput const& output, FrameTargets& targets) {
+    View const& view = *context.view;
+    const bool fills = fillsTarget(view, output);
+    const bool isKept = !fills && !isCleared(*view.viewport, output);
+    targets.target = graph.importTexture(
+            output.texture,
+            { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
+            isKept ? InitialContents::Keep : InitialContents::Undefined);
+    targets.output =
+            fills ? targets.target
+                  : graph.createTexture(
+                            { .width = view.size.x, .height = view.size.y, .format = output.format, .name = "view" });
+}
+
+void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                  FrameTargets const& targets) {
+    if (targets.output == targets.target) return;
+    View const& view = *context.view;
+    place(graph, context, isTranslucent(view) ? "place_over" : "place", targets.output, targets.target,
+          { isCleared(*view.viewport, output), view.viewport->clearColor });
+}
+
+} // namespace filament::passes

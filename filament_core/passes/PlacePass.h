@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The last pass of a view that is a part of its target, or is drawn over what is there: puts the finished picture into
+/// its place.
+///   Why     all passes before it know only the view's own size, so that every effect is the same inside of a viewport as
+///           in a target of that size, to the bit.
+///   Skips   views that fill their target: they draw to it themselves.
+#pragma once
+
+#include "filament_core/passes/Frame.h"
+
+namespace filament::passes {
+
+/// Imports what the user asked for, and makes the picture of the view if it has a place of its own.
+void beginPlace(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                FrameTargets& targets);
+void addPlacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                  FrameTargets const& targets);
+
+/// Whether the picture needs its alpha.
+bool isTranslucent(View const& view);
+
+} // namespace filament::passes
