@@ -252,7 +252,7 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
         { { "--sun", "nan", "0", "-1", "0" }, "--sun", "nan", "lux" },
         { { "--skybox", "maybe" }, "--skybox", "maybe", "on or off" },
         { { "--dither", "2" }, "--dither", "2", "on or off" },
-        { { "--tone-mapper", "agx" }, "--tone-mapper", "agx", "aces" },
+        { { "--tone-mapper", "reinhard" }, "--tone-mapper", "reinhard", "aces" },
         { { "--format", "jpg" }, "--format", "jpg", "png or exr" },
         { { "--tolerance", "256" }, "--tolerance", "256", "255" },
         { { "--out", "" }, "--out", "''", "folder" },
