@@ -34,7 +34,7 @@ constexpr FullScreenParameter kFinishValues[] = {
     { "slope", ParameterType::Float3 },          { "offset", ParameterType::Float3 },
     { "power", ParameterType::Float3 },          { "contrastSaturationVibrance", ParameterType::Float3 },
     { "shadowGamma", ParameterType::Float3 },    { "midPoint", ParameterType::Float3 },
-    { "highlightScale", ParameterType::Float3 }, { "nightAdaptation", ParameterType::Float },
+    { "highlightScale", ParameterType::Float3 }, { "night", ParameterType::Float2 },
     { "toneCurve", ParameterType::Float4 },      { "whiteShare", ParameterType::Float },
 };
 constexpr FullScreenInterface kFinish{ .pass = "finish", .inputs = kFinishInputs, .values = kFinishValues };
@@ -116,7 +116,7 @@ float3 row(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix
 auto valuesOf(FrameContext const& context) {
     Effects const& effects = context.packet.effects;
     Grading const& grading = effects.grading;
-    const double3x3 mix = gradingMatrix(grading);
+    const double3x3 mix = matrixAfterNight(grading);
     const ColorGrading tone = clamped(context.view->colorGrading);
     const uint2 size = context.packet.shownSize;
     return std::array{
@@ -141,7 +141,7 @@ auto valuesOf(FrameContext const& context) {
         FullScreenValue{ "shadowGamma", grading.shadowGamma },
         FullScreenValue{ "midPoint", grading.midPoint },
         FullScreenValue{ "highlightScale", grading.highlightScale },
-        FullScreenValue{ "nightAdaptation", grading.nightAdaptation },
+        FullScreenValue{ "night", float2(grading.nightAdaptation, exposureBeforeNight(grading)) },
         FullScreenValue{ "toneCurve", shaderToneCurve(tone.toneCurve) },
         FullScreenValue{ "whiteShare", whiteShareOf(tone) },
     };

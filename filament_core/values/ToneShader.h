@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A ColorGrading as shaders/lib/tone.glsl reads it. Its values within their ranges: clamped().
+/// A ColorGrading as shaders/lib/tone.glsl reads it, and how exposure comes before vision at night. Values within their
+/// ranges: clamped().
 #pragma once
 
 #include <filament/ColorGrading.h>
+#include <filament/Effects.h>
 #include <filament/Math.h>
 
 #include <algorithm>
@@ -32,6 +34,18 @@ inline float4 shaderToneCurve(ToneCurve const& curve) {
     // b = white grey (1 - out) / (white out - grey); where that is no curve, nearly a power
     const double b = white * grey * (1 - out) / std::max(white * out - grey, 1e-3 * grey * (1 - out));
     return { c, 1 + b / white, b, static_cast<double>(curve.maximum) };
+}
+
+/// The factor of light before nightVision(): rods see what is exposed. Without them exposure is part of the matrix.
+inline float exposureBeforeNight(Grading const& grading) {
+    return grading.nightAdaptation > 0 ? std::exp2(grading.exposure) : 1;
+}
+
+/// gradingMatrix() of what comes after exposureBeforeNight().
+inline double3x3 matrixAfterNight(Grading const& grading) {
+    Grading rest = grading;
+    if (grading.nightAdaptation > 0) rest.exposure = 0;
+    return gradingMatrix(rest);
 }
 
 } // namespace filament

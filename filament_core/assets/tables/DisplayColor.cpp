@@ -53,11 +53,12 @@ float3 finiteOf(float3 light) { return glm::clamp(light, float3(0), float3(1e4f)
 } // namespace
 
 DisplayColor::DisplayColor(ColorGrading const& colorGrading, Grading const* grading)
-        : mColorGrading(clamped(colorGrading)), mGrading(grading ? *grading : Grading{}), mMix(gradingMatrix(mGrading)),
-          mIsGraded(grading != nullptr) {}
+        : mColorGrading(clamped(colorGrading)), mGrading(grading ? *grading : Grading{}),
+          mMix(matrixAfterNight(mGrading)), mIsGraded(grading != nullptr) {}
 
 float3 DisplayColor::operator()(float3 light) const {
-    return mapped(mIsGraded ? lib::graded(light, asInShaders(mGrading, mMix)) : light);
+    if (!mIsGraded) return mapped(light);
+    return mapped(lib::graded(light * exposureBeforeNight(mGrading), asInShaders(mGrading, mMix)));
 }
 
 float3 DisplayColor::mapped(float3 light) const {

@@ -177,7 +177,7 @@ TEST(NightVision, ShadersShowWhatTheCpuComputes) {
     for (const float amount : { 0.3f, 1.0f }) {
         View view;
         view.colorGrading.toneMapper = ToneMapper::Filmic;
-        view.effects.grading = { .enabled = true, .nightAdaptation = amount };
+        view.effects.grading = { .enabled = true, .nightAdaptation = amount, .exposure = -1 };
         const Colors drawn = shown(view);
         expectNear(drawn, computed(view), kRounded + 0.1f, "night");
         EXPECT_GT(drawn[1][2], drawn[1][0]) << "dark greys are blue";

@@ -126,6 +126,14 @@ TEST(CubeFile, ABakedLookShowsWhatTheViewShows) {
     EXPECT_NEAR(asElsewhere(bakeLook({}, grading, 65), float3(0.18f)).x, DisplayColor({})(float3(0.18f)).x, 0.002f);
 }
 
+TEST(DisplayColor, RodsSeeWhatIsExposed) {
+    const Grading dark{ .enabled = true, .nightAdaptation = 1, .exposure = -6 };
+    const Grading night{ .enabled = true, .nightAdaptation = 1 };
+    const ColorGrading linear{ .toneMapper = ToneMapper::Linear };
+    const float3 light(0.4f, 0.5f, 0.3f);
+    EXPECT_LT(glm::distance(DisplayColor(linear, &dark)(light), DisplayColor(linear, &night)(light / 64.0f)), 1e-5f);
+}
+
 TEST(DisplayColor, ALookComesAfterTheToneMapperAndBeforeTheSpace) {
     auto inverse = std::make_shared<Look>(Look{ .isCube = false, .size = 2, .entries = { float3(1), float3(0) } });
     const float3 light(0.3f, 0.1f, 1);
