@@ -84,7 +84,8 @@ struct LightProfileState {
 };
 
 struct RenderTargetState {
-    Texture color;
+    Texture color, depth; ///< depth: none, unless somebody asks
+    bool generateMips = false;
     std::string name;
 };
 

@@ -17,6 +17,8 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -45,8 +47,35 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .contents = contents };
 }
 
-FrameOutput outputOf(engine::TextureState const& target) {
-    return { target.handle, target.desc.width, target.desc.height, target.desc.format, target.hasContents };
+/// What a frame is drawn to. `depth`: null: nobody asks.
+struct Target {
+    engine::TextureState& color;
+    engine::TextureState* depth = nullptr;
+    bool generatesMips = false;
+    bool isSampled = false; ///< perhaps by materials
+};
+
+FrameOutput outputOf(Target const& target) {
+    engine::TextureState const& color = target.color;
+    FrameOutput output{ color.handle, color.desc.width, color.desc.height, color.desc.format, color.hasContents };
+    if (target.depth) output.depth = target.depth->handle, output.hasDepths = target.depth->hasContents;
+    return output;
+}
+
+/// The material that samples what the frame draws to; null: none does.
+scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, Target const& target) {
+    const auto samples = [&](prepare::DrawCall const& draw) {
+        return std::ranges::any_of(draw.material->textures, [&](scene::TextureBinding const& bound) {
+            return bound.texture == target.color.handle || (target.depth && bound.texture == target.depth->handle);
+        });
+    };
+    for (prepare::ViewPacket const& view : packet.views) {
+        for (const std::span<const prepare::DrawCall> draws : { view.opaque, view.blended }) {
+            const auto found = std::ranges::find_if(draws, samples);
+            if (found != draws.end()) return found->material;
+        }
+    }
+    return nullptr;
 }
 
 /// `target`: pixels.
@@ -113,6 +142,7 @@ struct Renderer::Impl {
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
+        context.settings.keepsDepth = static_cast<bool>(output.depth);
         shadows.use(packet.shadows);
         context.resources.shadowAtlas = shadows.depths();
         context.resources.shadowMoments = shadows.moments();
@@ -133,7 +163,7 @@ struct Renderer::Impl {
     }
 
     /// Submits the commands when it returns.
-    void recordFrame(FrameContext& context) {
+    void recordFrame(FrameContext& context, Target const& target) {
         FrameCommands commands(*engine.stream); // waits when two frames ahead
         stamps.acquired = clock();
         commands->record(CmdBeginFrame{ ++frame });
@@ -148,35 +178,52 @@ struct Renderer::Impl {
         context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
+        if (target.generatesMips) commands->record(CmdGenerateMips{ target.color.handle });
         shadows.keep(context.packet.shadows);
     }
 
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
-    void drawFrame(Scene const& scene, View const& view, FrameOutput const& output) {
+    Result<void> drawFrame(Scene const& scene, View const& view, Target const& target) {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
         timers.clear();
         stamps = { .begin = clock() };
         chooseShare(view);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
-        FrameContext& context = planFrame(scene, view, output, PipelineSource(engine.pipelines));
+        FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines));
+        if (target.isSampled)
+            if (scene::MaterialInstance const* material = samplerOf(context.packet, target))
+                return samplesTarget(*material, target);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
-        recordFrame(context);
+        recordFrame(context, target);
         stamps.recorded = clock();
         keepLast(scene, view, context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
+        return {};
+    }
+
+    Error samplesTarget(scene::MaterialInstance const& material, Target const& target) {
+        plan = {};
+        Error error = fail(ErrorCode::InvalidArgument,
+                           "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another "
+                           "render target, or hide what has the material by View::visibleLayers",
+                           material.name.empty() ? material.material->name : material.name, target.color.name);
+        engine.report(error.message);
+        return error;
     }
 
     /// On an error the frame was left out, because memory or a target was missing. Whatever was created on the way
     /// serves the next frame.
-    Result<void> render(Scene const& scene, View const& view, engine::TextureState& target) {
-        if (!target.handle) return engine::noImage(target.desc.width, target.desc.height);
+    Result<void> render(Scene const& scene, View const& view, Target const& target) {
+        backend::DeviceTextureDesc const& desc = target.color.desc;
+        if (!target.color.handle) return engine::noImage(desc.width, desc.height);
         try {
             engine.compilations.collect(engine.stream->replayedSubmissions());
-            drawFrame(scene, view, outputOf(target));
-            target.hasContents = true;
+            if (Result<void> drawn = drawFrame(scene, view, target); !drawn) return drawn;
+            target.color.hasContents = true;
+            if (target.depth) target.depth->hasContents = true;
             return {};
         } catch (std::bad_alloc const&) {
             plan = {};
@@ -186,12 +233,20 @@ struct Renderer::Impl {
         }
     }
 
+    Target targetOf(RenderTarget target) {
+        engine::RenderTargetState const& state = engine.renderTargets.get(target);
+        return { .color = engine.textures.get(state.color),
+                 .depth = state.depth ? &engine.textures.get(state.depth) : nullptr,
+                 .generatesMips = state.generateMips,
+                 .isSampled = true };
+    }
+
     /// The next image becomes the current one once it has been drawn. A view that keeps its contents joins the current
     /// one.
     Result<void> renderInto(engine::SwapChainState& chain, Scene const& scene, View const& view) {
         const uint32_t step = joinsLastImage(view) ? 0 : 1;
         const uint32_t next = (chain.current + step) % static_cast<uint32_t>(chain.images.size());
-        Result<void> drawn = render(scene, view, engine.textures.get(chain.images[next]));
+        Result<void> drawn = render(scene, view, { engine.textures.get(chain.images[next]) });
         if (drawn) chain.current = next;
         return drawn;
     }
@@ -199,7 +254,7 @@ struct Renderer::Impl {
     // ------------------------------------------------------------------------------------------ expected frames
 
     /// The passes of such a frame become slots of the pipeline cache; their own pipelines become wishes.
-    void expect(Scene const& scene, View const& view, engine::TextureState const& target) {
+    void expect(Scene const& scene, View const& view, Target const& target) {
         try {
             const jobs::AdoptedThread seat(engine.jobs);
             std::vector<passes::FullScreenWish> wishes;
@@ -252,18 +307,18 @@ void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain)
 }
 
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
-    engine::TextureState& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
-    checkPlace(view, { color.desc.width, color.desc.height });
-    (void)mImpl->render(scene, view, color);
+    const Target drawn = mImpl->targetOf(target);
+    checkPlace(view, { drawn.color.desc.width, drawn.color.desc.height });
+    (void)mImpl->render(scene, view, drawn);
 }
 
 void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
-    mImpl->expect(scene, view, mImpl->engine.textures.get(state.images[state.current]));
+    mImpl->expect(scene, view, { mImpl->engine.textures.get(state.images[state.current]) });
 }
 
 void Renderer::expect(Scene const& scene, View const& view, RenderTarget target) {
-    mImpl->expect(scene, view, mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
+    mImpl->expect(scene, view, mImpl->targetOf(target));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {

@@ -240,12 +240,34 @@ Skybox Engine::create(SkyboxDesc const& desc) {
     });
 }
 
+namespace {
+
+bool isPicture(DeviceTextureDesc const& desc) {
+    return desc.type == TextureType::Texture2D && has(desc.usage, TextureUsage::ColorAttachment);
+}
+
+void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const& textures,
+                 RenderTargetDesc const& desc) {
+    FILAMENT_ASSERT(desc.color, "a render target has a colour");
+    DeviceTextureDesc const& color = textures.get(desc.color).desc;
+    FILAMENT_ASSERT(isPicture(color) && (color.format == Format::RGBA8 || color.format == Format::RGBA16F),
+                    "the colour of a render target is a renderable 2D texture of RGBA8 or RGBA16F");
+    FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
+                    "the colour of a render target that generates mips has several levels");
+    if (!desc.depth) return;
+    DeviceTextureDesc const& depth = textures.get(desc.depth).desc;
+    FILAMENT_ASSERT(isPicture(depth) && depth.format == Format::R32F && depth.width == color.width &&
+                            depth.height == color.height,
+                    "the depth of a render target is a renderable 2D texture of R32F, as large as its colour");
+}
+
+} // namespace
+
 RenderTarget Engine::create(RenderTargetDesc const& desc) {
-    FILAMENT_ASSERT(has(mImpl->textures.get(desc.color).desc.usage, TextureUsage::ColorAttachment),
-                    "the colour of a render target is a renderable texture");
+    checkTarget(mImpl->textures, desc);
     return mImpl->orNone("render target", desc.name, [&] {
         engine::Draft draft(mImpl->renderTargets);
-        draft.state() = { desc.color, desc.name };
+        draft.state() = { desc.color, desc.depth, desc.generateMips, desc.name };
         return draft.keep();
     });
 }
@@ -253,6 +275,9 @@ RenderTarget Engine::create(RenderTargetDesc const& desc) {
 SwapChain Engine::create(SwapChainDesc const& desc) {
     return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
 }
+
+Texture Engine::colorOf(RenderTarget target) const { return mImpl->renderTargets.get(target).color; }
+Texture Engine::depthOf(RenderTarget target) const { return mImpl->renderTargets.get(target).depth; }
 
 void Engine::destroy(Texture texture) { mImpl->destroy(texture); }
 

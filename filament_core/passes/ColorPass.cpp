@@ -153,7 +153,7 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
     made.samples = samples == 1
                            ? made.color
                            : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
-    if (context.packet.demand.needs(prepare::Effect::Refraction))
+    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.settings.keepsDepth)
         made.depthOfPicture =
                 samples == 1 ? made.depth : createLike(graph, made.color, Format::D32F, 1, "depth of the picture");
     return made;
@@ -167,7 +167,8 @@ void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachm
     pass.writeColor(0, to.samples, color);
     framegraph::DepthTarget depth;
     if (part.isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-    if (!part.isLast && settings.samples > 1) depth.resolve = to.depthOfPicture;
+    const bool isRead = part.isLast ? settings.keepsDepth : true;
+    if (isRead && settings.samples > 1) depth.resolve = to.depthOfPicture;
     pass.writeDepth(to.depth, depth);
 }
 
@@ -209,6 +210,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
     targets.depth = to.depth;
+    targets.solidDepth = to.depthOfPicture;
     prepare::ViewPacket const& view = context.packet.mainView();
     blocks.part = partOf(view, 0);
     addPart(graph, context, to, "color", blocks);

@@ -126,6 +126,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     else
         addFinishPasses(graph, context, targets, output.isSceneLinear());
     addPlacePass(graph, context, output, targets);
+    addTargetDepth(graph, context, output, targets);
     keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;
 }

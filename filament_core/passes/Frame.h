@@ -18,7 +18,9 @@ struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
-    bool hasContents = false; ///< somebody drew to it before
+    bool hasContents = false;       ///< somebody drew to it before
+    backend::TextureHandle depth{}; ///< RenderTargetDesc::depth, of the same size; none: nobody asks
+    bool hasDepths = false;         ///< somebody drew to that
 
     /// Takes light as it is, without a tone mapper.
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }

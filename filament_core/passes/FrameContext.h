@@ -23,6 +23,7 @@ struct PassSettings {
     DepthRange depthRange = DepthRange::Reversed;
     ShadingPrecision precision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the materials' textures
+    bool keepsDepth = false;                                 ///< somebody reads FrameTargets::solidDepth
 };
 
 /// Of a picture of the graph.

@@ -16,6 +16,7 @@ struct FrameTargets {
     framegraph::TextureId color;        ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
     framegraph::TextureId depth; ///< of the main view; none before the depth prepass, or else the colour pass. That
                                  ///< of the prepass has one sample a pixel, that of the colour pass as many as the view
+    framegraph::TextureId solidDepth;   ///< of all that the colour pass drew, one sample a pixel; none: nobody asks
     framegraph::TextureId distances;    ///< of what is opaque along the view, in metres, R32F; none: unread
     framegraph::TextureId occlusion;    ///< as kBindingOcclusion says; none: not needed
     framegraph::TextureId prepassDepth; ///< that of the prepass, also when `depth` is another one; none: not drawn

@@ -8,12 +8,17 @@
 namespace filament::passes {
 namespace {
 
+using backend::Format;
 using framegraph::FrameGraph;
 using framegraph::InitialContents;
 
 constexpr std::string_view kPlaceInputs[] = { "picture" };
 constexpr FullScreenParameter kPlaceValues[] = { { "offset", ParameterType::Int2 } };
 constexpr FullScreenInterface kPlace{ .pass = "place", .inputs = kPlaceInputs, .values = kPlaceValues };
+
+constexpr std::string_view kDepthInputs[] = { "depth" };
+constexpr FullScreenInterface kTargetDepth{ .pass = "target depth", .inputs = kDepthInputs };
+constexpr float kNothingMeters = 1e30f; // kFarDistance of shaders/lib/distance.glsl
 
 /// What becomes of the target first.
 struct Clearing {
@@ -71,6 +76,29 @@ void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput co
     View const& view = *context.view;
     place(graph, context, isTranslucent(view) ? "place_over" : "place", targets.output, targets.target,
           { isCleared(*view.viewport, output), view.viewport->clearColor });
+}
+
+void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                    FrameTargets const& targets) {
+    if (!output.depth) return;
+    View const& view = *context.view;
+    const bool fills = !view.viewport || view.size == uint2(output.width, output.height);
+    const bool isCleared = !fills && (view.viewport->contents == TargetContents::Clear || !output.hasDepths);
+    const framegraph::TextureId whole = graph.importTexture(
+            output.depth, { .width = output.width, .height = output.height, .format = Format::R32F, .name = "depths" },
+            fills || isCleared ? InitialContents::Undefined : InitialContents::Keep);
+    const framegraph::TextureId drawn = fills ? whole
+                                              : graph.createTexture({ .width = view.size.x,
+                                                                      .height = view.size.y,
+                                                                      .format = Format::R32F,
+                                                                      .name = "view depths" });
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.solidDepth } };
+    addFullScreenPass(graph, context,
+                      { .name = "target depth",
+                        .material = context.resources.effects->get("scene_distance", {}, kTargetDepth),
+                        .inputs = inputs,
+                        .target = drawn });
+    if (!fills) place(graph, context, "place", drawn, whole, { isCleared, float4(kNothingMeters, 0, 0, 0) });
 }
 
 } // namespace filament::passes

@@ -16,6 +16,10 @@ void beginPlace(framegraph::FrameGraph& graph, FrameContext const& context, Fram
 void addPlacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                   FrameTargets const& targets);
 
+/// What a render target wants to know of depths: FrameTargets::solidDepth as distances, in their place.
+void addTargetDepth(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                    FrameTargets const& targets);
+
 /// Whether the picture needs its alpha.
 bool isTranslucent(View const& view);
 

@@ -142,6 +142,10 @@ public:
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
+    /// The textures of a render target, for parameters of materials. They are the app's own; depthOf() may be none.
+    Texture colorOf(RenderTarget target) const;
+    Texture depthOf(RenderTarget target) const;
+
     /// What the material declares, and the values it was loaded with. Valid until the material is destroyed.
     MaterialDescription const& describe(Material material) const;
     LightProfileDescription describe(LightProfile profile) const;

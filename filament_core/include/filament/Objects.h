@@ -209,8 +209,14 @@ struct LightProfileDescription {
     Lumen flux{};   ///< of all directions together
 };
 
+/// What a view is drawn to. Materials may sample its textures in every render() but those that draw to it.
+/// docs/views.md, "Render targets".
 struct RenderTargetDesc {
-    Texture color{}; ///< renderable RGBA8, or RGBA16F (then scene-linear, without tone mapping)
+    Texture color{}; ///< renderable 2D RGBA8, or RGBA16F (then scene-linear, without tone mapping)
+    /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where nothing
+    /// is. What blends leaves none. None: nobody asks.
+    Texture depth{};
+    bool generateMips = false; ///< after every view: levels 1.. of `color`, which has several
     std::string name{};
 };
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of one view on the surfaces of another, in the same frame: colours, depths and mips of render targets, on both
+// APIs. Row 0 is at the top.
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tests/filament_core/prepare/BoxScene.h"
+
+#include <gmock/gmock.h>
+
+namespace filament {
+namespace {
+
+using prepare::Random;
+
+constexpr uint32_t kFilmSide = 32;
+
+constexpr const char* kScreen = R"(material { name : screen, shadingModel : unlit, requires : [ uv0 ], flipUV : false,
+    parameters : [ { type : sampler2d, name : picture, precision : high }, { type : float, name : level } ] }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor.rgb = textureLod(materialParams_picture, getUV0(), materialParams.level).rgb;
+} })";
+constexpr const char* kFlat = R"(material { name : flat, shadingModel : unlit, culling : none,
+    parameters : [ { type : float4, name : color } ] }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = materialParams.color; } })";
+
+struct TargetStage {
+    Engine engine;
+    test::SquareMesh square{ engine };
+    Owned<Material> screenMaterial = test::loadMaterial(engine, kScreen),
+                    flatMaterial = test::loadMaterial(engine, kFlat);
+    Owned<MaterialInstance> screen = engine.own(engine.createInstance(screenMaterial, "television"));
+    std::vector<Owned<MaterialInstance>> flats;
+    std::vector<Owned<Texture>> textures;
+    Scene scene{ engine }, room{ engine }; ///< what is filmed, and where it is shown
+    Renderer camera{ engine }, renderer{ engine };
+    View filmed{ .camera = Camera::lookAt({ 0.3, -0.2, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }),
+                 .size = uint2(kFilmSide) };
+    /// The square of the room is all of its picture, a texel a pixel.
+    View shown{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 90 }),
+                .size = uint2(kFilmSide) };
+
+    explicit TargetStage(Backend backend)
+            : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))) {
+        Random random(4);
+        for (int i = 0; i < 9; ++i) {
+            flats.push_back(engine.own(engine.createInstance(flatMaterial)));
+            const auto some = [&] { return static_cast<float>(random.within(0, 1)); };
+            EXPECT_TRUE(engine.set(flats.back(), "color", float4(some(), some(), some(), 1)));
+            square.add(scene, flats.back(), { random.within(-1, 1), random.within(-1, 1), random.within(-1, 1) }, 0.3);
+        }
+        square.add(room, screen);
+        EXPECT_TRUE(engine.set(screen, "level", 0.0f));
+        filmed.clearColor = { 0.25f, 0.5f, 0.125f, 1 };
+    }
+    ~TargetStage() { test::expectNoErrors(engine); }
+
+    Texture texture(Format format, uint32_t levels = 1, uint32_t side = kFilmSide) {
+        textures.push_back(engine.own(engine.create(TextureDesc{ .format = format,
+                                                                 .width = side,
+                                                                 .height = side,
+                                                                 .levels = levels,
+                                                                 .renderable = true,
+                                                                 .name = "film" })));
+        return textures.back();
+    }
+    Owned<RenderTarget> target(RenderTargetDesc const& desc) { return engine.own(engine.create(desc)); }
+    void show(Texture film) { EXPECT_TRUE(engine.set(screen, "picture", film, Sampler{})); }
+    Image room16() { return test::renderLinear(engine, room, shown); }
+};
+
+struct RenderTargetsTest : testing::TestWithParam<Backend>, TargetStage {
+    RenderTargetsTest() : TargetStage(GetParam()) {}
+};
+INSTANTIATE_TEST_SUITE_P(BothApis, RenderTargetsTest, testing::ValuesIn(test::kBothApis),
+                         [](auto const& test) { return std::string(toString(test.param)); });
+
+TEST_P(RenderTargetsTest, ASquareShowsWhatAnotherViewHasDrawnTopRowUppermost) {
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA16F) });
+    show(engine.colorOf(film));
+    EXPECT_FALSE(engine.depthOf(film));
+    for (int frame = 0; frame < 3; ++frame) {
+        filmed.camera = Camera::lookAt({ 0.3 * frame, -0.2, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
+        camera.render(scene, filmed, film);
+        const Image seen = room16(), drawn = test::renderLinear(engine, scene, filmed);
+        EXPECT_EQ(test::differingPixels(seen, drawn), 0u) << frame;
+        EXPECT_NE(test::halfPixel(drawn, 16, 8), test::halfPixel(drawn, 16, 24)) << "above is not below";
+    }
+}
+
+TEST_P(RenderTargetsTest, EightBitColoursAreThoseOfAPicture) {
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8) });
+    show(engine.colorOf(film));
+    camera.render(scene, filmed, film);
+    const Image seen = room16();
+    const auto drawn = camera.waitPixels(camera.readPixels(film));
+    ASSERT_TRUE(drawn);
+    for (uint32_t y = 0; y < kFilmSide; ++y) {
+        for (uint32_t x = 0; x < kFilmSide; ++x) {
+            const float4 a = test::halfPixel(seen, x, y), b = test::bytePixel(*drawn, x, y);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 5e-4f);
+        }
+    }
+}
+
+TEST_P(RenderTargetsTest, DepthsAreMetresAlongTheView) {
+    Scene walls(engine);
+    square.add(walls, flats[0], { -1.5, 0, -2 }, 1.5); // the left half of the picture
+    filmed.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8), .depth = texture(Format::R32F) });
+    EXPECT_TRUE(engine.depthOf(film));
+    const auto depthsOf = [&](View const& view, std::vector<float>& depths) {
+        camera.render(walls, view, film);
+        // Its texels, by a material: metres, limited to what half floats hold.
+        show(engine.depthOf(film));
+        const Image seen = room16();
+        for (uint32_t y = 0; y < kFilmSide; ++y)
+            for (uint32_t x = 0; x < kFilmSide; ++x) depths.push_back(test::halfPixel(seen, x, y).x);
+    };
+    for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } }) {
+        for (const DepthRange range : { DepthRange::Reversed, DepthRange::Ordinary }) {
+            View view = filmed;
+            view.samples = samples;
+            view.quality.depthRange = range;
+            std::vector<float> depths;
+            depthsOf(view, depths);
+            EXPECT_NEAR(depths[16 * kFilmSide + 8], 5, 4e-3f) << int{ samples };
+            EXPECT_GT(depths[16 * kFilmSide + 24], 60'000) << "nothing is there";
+        }
+    }
+    View part = filmed;
+    part.size = uint2(16);
+    part.viewport = filament::Viewport{ .offset = { 10, 4 } };
+    std::vector<float> depths;
+    depthsOf(part, depths);
+    EXPECT_NEAR(depths[12 * kFilmSide + 12], 5, 4e-3f) << "the left half of the part";
+    EXPECT_GT(depths[12 * kFilmSide + 24], 60'000) << "its right half";
+    EXPECT_NEAR(depths[16 * kFilmSide + 4], 5, 4e-3f) << "what was there";
+}
+
+TEST_P(RenderTargetsTest, MipsFollowEveryView) {
+    const Owned<RenderTarget> film =
+            target({ .color = texture(Format::RGBA8, 6), .generateMips = true, .name = "mips" });
+    EXPECT_TRUE(engine.set(screen, "picture", engine.colorOf(film),
+                           Sampler{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest }));
+    for (int frame = 0; frame < 2; ++frame) {
+        filmed.clearColor.x = 0.7f * static_cast<float>(frame);
+        camera.render(scene, filmed, film);
+        const auto level0 = camera.waitPixels(camera.readPixels(film));
+        ASSERT_TRUE(level0);
+        EXPECT_TRUE(engine.set(screen, "level", 1.0f));
+        const Image level1 = room16();
+        for (uint32_t y = 0; y < kFilmSide; y += 2) {
+            for (uint32_t x = 0; x < kFilmSide; x += 2) {
+                float4 mean(0);
+                for (uint32_t i = 0; i < 4; ++i) mean += test::bytePixel(*level0, x + i % 2, y + i / 2) * 0.25f;
+                const float4 seen = test::halfPixel(level1, x, y);
+                for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], mean[c], 1.05f / 255) << x << " " << y;
+            }
+        }
+    }
+}
+
+TEST_P(RenderTargetsTest, AFrameThatSamplesItsOwnTargetIsLeftOutAndSaysWhy) {
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8) });
+    show(engine.colorOf(film));
+    shown.clearColor = { 0, 0, 1, 1 };
+    camera.render(scene, filmed, film);
+    const auto before = camera.waitPixels(camera.readPixels(film));
+    camera.render(room, shown, film);
+    const std::vector<std::string> errors = engine.takeErrors();
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_THAT(errors[0], testing::HasSubstr("material 'television' samples 'film', which the frame draws to"));
+    EXPECT_EQ(camera.waitPixels(camera.readPixels(film))->pixels, before->pixels);
+    room16(); // elsewhere it may
+    EXPECT_TRUE(engine.takeErrors().empty());
+    shown.visibleLayers = 2; // the screen is hidden
+    camera.render(room, shown, film);
+    EXPECT_NE(camera.waitPixels(camera.readPixels(film))->pixels, before->pixels);
+}
+
+TEST(RenderTargets, BothApisShowTheSameBits) {
+    std::vector<std::byte> first;
+    for (const Backend backend : test::kBothApis) {
+        TargetStage stage(backend);
+        const Owned<RenderTarget> film =
+                stage.target({ .color = stage.texture(Format::RGBA8, 6), .generateMips = true });
+        EXPECT_TRUE(stage.engine.set(stage.screen, "picture", stage.engine.colorOf(film),
+                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear }));
+        EXPECT_TRUE(stage.engine.set(stage.screen, "level", 1.5f));
+        stage.camera.render(stage.scene, stage.filmed, film);
+        const Image seen = stage.room16();
+        if (first.empty()) first = seen.pixels;
+        EXPECT_EQ(seen.pixels, first);
+    }
+}
+
+TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe"); // an engine has threads
+    TargetStage stage(Backend::Null);
+    Engine& engine = stage.engine;
+    const Texture color = stage.texture(Format::RGBA8), depth = stage.texture(Format::R32F),
+                  small = stage.texture(Format::R32F, 1, kFilmSide / 2);
+    const Owned<Texture> plain = engine.own(engine.create(TextureDesc{ .width = kFilmSide, .height = kFilmSide }));
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{}), "a render target has a colour");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }), "renderable 2D texture of RGBA8 or RGBA16F");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }), "renderable 2D texture of RGBA8 or RGBA16F");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = color }), "texture of R32F");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as its colour");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .generateMips = true }), "has several levels");
+    engine.destroy(engine.create(RenderTargetDesc{ .color = color, .depth = depth }));
+}
+
+} // namespace
+} // namespace filament
