@@ -8,6 +8,7 @@
 #include "filament_core/engine/FrameSummary.h"
 #include "filament_core/engine/FrameTimingLog.h"
 #include "filament_core/engine/ImageTarget.h"
+#include "filament_core/engine/Picker.h"
 #include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
@@ -272,6 +273,19 @@ struct Renderer::Impl {
         plan = {};
     }
 
+    engine::Picker& pickerOfRenderer() {
+        if (!picker) picker.emplace(engine);
+        return *picker;
+    }
+
+    PickTicket pick(Scene const& scene, View const& view, uint2 pixel) {
+        FILAMENT_ASSERT(pixel.x < view.size.x && pixel.y < view.size.y, "a picked pixel lies in the view");
+        return engine.orNone("picking", {}, [&] {
+            return pickerOfRenderer().ask(scene.impl().upToDate(), view, inputOf(view, contentsOf(scene)), resources,
+                                          pixel);
+        });
+    }
+
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
     Engine::Impl& engine;
@@ -290,6 +304,7 @@ struct Renderer::Impl {
     engine::FrameTimingLog timings;
     engine::PixelReads pixels;
     engine::ImageTarget imageTarget;
+    std::optional<engine::Picker> picker; ///< once somebody picked
     uint64_t frame = 0;
     prepare::LastFrame last; ///< that was drawn
     ResolutionController shares;
@@ -332,6 +347,10 @@ PixelTicket Renderer::readPixels(RenderTarget target) {
 
 std::optional<Image> Renderer::takePixels(PixelTicket ticket) { return mImpl->pixels.take(ticket); }
 Result<Image> Renderer::waitPixels(PixelTicket ticket) { return mImpl->pixels.wait(ticket); }
+
+PickTicket Renderer::pick(Scene const& scene, View const& view, uint2 pixel) { return mImpl->pick(scene, view, pixel); }
+std::optional<PickHit> Renderer::takePick(PickTicket ticket) { return mImpl->pickerOfRenderer().take(ticket); }
+Result<PickHit> Renderer::waitPick(PickTicket ticket) { return mImpl->pickerOfRenderer().wait(ticket); }
 
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
     return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {

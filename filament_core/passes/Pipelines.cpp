@@ -113,6 +113,12 @@ PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raste
     return desc;
 }
 
+PipelineDesc leavingPick(PipelineDesc desc, scene::InstanceRaster const& raster) {
+    desc.raster.alphaToCoverage = false;
+    desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+    return desc;
+}
+
 // Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no
 // depth while the test is off, so "no test" is a test that always passes.
 DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange range) {
@@ -316,6 +322,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     }
     if (slot.isShadowMap) return leavingShadow(desc, raster);
     if (slot.motionOnly) return leavingMotion(desc, slot.depthRange);
+    if (slot.isPick) return leavingPick(desc, raster);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.depthOnly) return desc;

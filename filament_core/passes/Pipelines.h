@@ -36,6 +36,7 @@ struct PassSlot {
     bool depthOnly = false;    ///< surfaces are drawn by their variants with kVariantDepth
     bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
+    bool isPick = false;       ///< of depthOnly: whatever their material says, they test and leave depth
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 

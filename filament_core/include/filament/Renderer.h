@@ -26,6 +26,22 @@ struct PixelTicket {
     explicit operator bool() const { return value != 0; }
 };
 
+/// Refers to a pick that is on its way.
+struct PickTicket {
+    uint64_t value = 0;
+    explicit operator bool() const { return value != 0; }
+};
+
+/// What a pixel of a view shows: the nearest surface at its centre.
+struct PickHit {
+    Renderable renderable{};   ///< none: nothing is drawn there, and the other fields mean nothing
+    Node node{};               ///< that carries the renderable; none: it has a transform of its own
+    uint32_t primitive = 0;    ///< which of the node's renderables it is, in the order in which they were added
+    double distanceMeters = 0; ///< along the view
+    double3 positionWorld{ 0 };
+    explicit operator bool() const { return static_cast<bool>(renderable); }
+};
+
 struct PassTiming {
     std::string name;
     double gpuMilliseconds = 0;
@@ -96,6 +112,16 @@ public:
     PixelTicket readPixels(RenderTarget target);
     std::optional<Image> takePixels(PixelTicket ticket);
     Result<Image> waitPixels(PixelTicket ticket);
+
+    /// Asks what a pixel of the view shows, as the scene is now: bones, morph targets, holes of masked materials and layers
+    /// count. What blends is hit wherever its geometry is, however transparent. Draws that one pixel of everything that
+    /// may cover it, in a submission of its own; frames cost nothing for it. `pixel`: from the left and from the top of
+    /// the view, below View::size. A ticket of 0 means out of memory. Up to 4096 renderables along the pixel are tried,
+    /// the nearest first. docs/views.md, "Picking".
+    PickTicket pick(Scene const& scene, View const& view, uint2 pixel);
+    /// None: not answered yet. A hit without a renderable also when the device was lost.
+    std::optional<PickHit> takePick(PickTicket ticket);
+    Result<PickHit> waitPick(PickTicket ticket);
 
     /// Renders one frame into its own image and waits for the pixels: display-referred RGBA8. A viewport is ignored.
     Result<Image> renderToImage(Scene const& scene, View const& view);

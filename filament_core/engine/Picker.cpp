@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/Picker.h"
+
+#include "backend/stream/RecordingGuards.h"
+#include "base/OutOfMemory.h"
+#include "filament_core/passes/Frame.h"
+#include "filament_core/passes/PickPass.h"
+#include "filament_core/scene/SceneNodes.h"
+
+#include <cstring>
+#include <utility>
+
+namespace filament::engine {
+
+using namespace backend;
+
+namespace {
+
+static_assert(passes::kPickSide * passes::kPickSide == prepare::kMostCandidates);
+
+// Of what lies in one plane, depths in two texels may differ by rounding.
+constexpr float kEqual = 1.0f / (1 << 20);
+
+/// The nearest; of equal ones that which is drawn last, as in a picture.
+PickHit nearestHit(std::vector<PickHit> const& candidates, std::span<const std::byte> texels, Camera const& camera,
+                   uint2 size, uint2 pixel) {
+    PickHit nearest;
+    float nearestDepth = 0;
+    for (size_t i = 0; i < candidates.size() && (i + 1) * sizeof(float) <= texels.size(); ++i) {
+        float depth = 0;
+        std::memcpy(&depth, texels.data() + i * sizeof(float), sizeof depth);
+        if (!(depth > 0) || depth < nearestDepth * (1 - kEqual)) continue;
+        nearestDepth = depth;
+        nearest = candidates[i];
+    }
+    if (!nearest) return {};
+    const prepare::PickedPoint point = prepare::pickedPoint(camera, size, pixel, nearestDepth);
+    nearest.distanceMeters = point.distanceMeters;
+    nearest.positionWorld = point.positionWorld;
+    return nearest;
+}
+
+} // namespace
+
+Picker::Picker(Engine::Impl& engine)
+        : mEngine(engine), mGraph(mArena), mTransients(*engine.stream), mData(*engine.stream), mBlocks(*engine.stream) {
+}
+
+Picker::~Picker() {
+    mData.destroy(mEngine.pending);
+    mBlocks.destroy(mEngine.pending);
+    mTransients.destroyAll(mEngine.pending);
+    if (mDepths) mEngine.stream->destroy(mEngine.pending, mDepths);
+}
+
+void Picker::makeDepths() {
+    if (mDepths) return;
+    NewHandle texture(*mEngine.stream, mEngine.stream->allocateTexture());
+    mEngine.pending.record(CmdCreateTexture{ texture,
+                                             { .format = Format::D32F,
+                                               .usage = TextureUsage::DepthAttachment | TextureUsage::TransferSource,
+                                               .width = passes::kPickSide,
+                                               .height = passes::kPickSide,
+                                               .debugName = "picks" } });
+    mDepths = texture.keep();
+}
+
+Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view, uint2 pixel,
+                                 std::span<const uint32_t> renderables) const {
+    Pending pending{ .camera = view.camera, .size = view.size, .pixel = pixel };
+    pending.candidates.reserve(renderables.size());
+    for (const uint32_t at : renderables) {
+        const Renderable renderable = scene.renderables.index.handleAt(at);
+        pending.candidates.push_back({ .renderable = renderable,
+                                       .node = scene::nodeOf(scene, renderable),
+                                       .primitive = prepare::primitiveOf(scene, renderable) });
+    }
+    return pending;
+}
+
+PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
+                       FrameResourceCache& resources, uint2 pixel) {
+    return mEngine.orNone("picking", {}, [&]() -> PickTicket {
+        const jobs::AdoptedThread seat(mEngine.jobs);
+        mArena.reset();
+        mGraph.reset();
+        const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel);
+        const Ticket ticket = mEngine.stream->nextTicket();
+        mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
+        if (pick.renderables.empty()) return { ticket.value }; // nobody needs to be asked
+        try {
+            record(view, pick, resources, pixel, ticket);
+        } catch (std::bad_alloc const&) {
+            mPending.erase(ticket.value);
+            throw;
+        }
+        return { ticket.value };
+    });
+}
+
+void Picker::record(View const& view, prepare::PreparedPick const& pick, FrameResourceCache& resources, uint2 pixel,
+                    Ticket ticket) {
+    makeDepths();
+    passes::FrameResources found = resources.find(view, pick.packet, passes::PipelineSource(mEngine.pipelines), false);
+    found.motion = mEngine.motionInstance();
+    passes::FrameContext& context = *passes::makeFrameContext(mArena, pick.packet, found, view);
+    mBlocks.begin();
+    context.blocks = &mBlocks;
+    constexpr uint32_t kSide = passes::kPickSide;
+    const framegraph::TextureId depths =
+            mGraph.importTexture(mDepths, { .width = kSide, .height = kSide, .format = Format::D32F, .name = "picks" },
+                                 framegraph::InitialContents::Undefined);
+    passes::addPickPass(mGraph, context, depths, view.size, pixel);
+    const framegraph::CompiledGraph plan = framegraph::compile(mGraph, mTransients);
+    FrameCommands commands(*mEngine.stream); // submits when it ends
+    mEngine.useTextureFilter(context.settings.textureFilter);
+    mEngine.drainPending(*commands);
+    mData.upload(mEngine.jobs, *commands, context.packet);
+    mBlocks.upload(*commands);
+    context.views = mData.views();
+    context.deformations = mData.deformations();
+    framegraph::record(*commands, plan);
+    const auto rows = static_cast<uint32_t>((pick.renderables.size() + kSide - 1) / kSide);
+    commands->record(CmdReadTexture{ mDepths, 0, 0, { 0, 0, kSide, rows }, ticket });
+}
+
+Picker::Pendings::iterator Picker::find(PickTicket ticket) {
+    const auto entry = mPending.find(ticket.value);
+    FILAMENT_ASSERT(entry != mPending.end(), "a pick is taken once, from the renderer that gave its ticket");
+    return entry;
+}
+
+std::optional<PickHit> Picker::take(PickTicket ticket) {
+    if (!ticket) return PickHit{}; // memory ran out when it was asked
+    const auto entry = find(ticket);
+    Pending const& pending = entry->second;
+    PickHit hit;
+    if (!pending.candidates.empty()) {
+        const auto texels = mEngine.stream->takeReadback({ ticket.value });
+        if (!texels && !mEngine.stream->isDeviceLost()) return std::nullopt;
+        if (texels) hit = nearestHit(pending.candidates, *texels, pending.camera, pending.size, pending.pixel);
+    }
+    mPending.erase(entry);
+    return hit;
+}
+
+Result<PickHit> Picker::wait(PickTicket ticket) {
+    if (!ticket) return outOfMemory("pick: not asked");
+    const auto entry = find(ticket);
+    const Pending pending = std::move(entry->second);
+    mPending.erase(entry);
+    return orOutOfMemory("pick", {}, [&]() -> Result<PickHit> {
+        if (pending.candidates.empty()) return PickHit{};
+        const auto texels = mEngine.stream->waitReadback({ ticket.value });
+        if (!texels) return texels.error();
+        return nearestHit(pending.candidates, *texels, pending.camera, pending.size, pending.pixel);
+    });
+}
+
+} // namespace filament::engine

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/PickPass.h"
+
+#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/PassGroup.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using prepare::DrawCall;
+
+struct ChosenPick {
+    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
+    std::span<const DrawCall> draws;
+    std::span<const PipelineHandle> pipelines;
+};
+
+PassSlot pickSlot(PassContext& pass) {
+    return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthOnly = true, .isPick = true };
+}
+
+/// With the material that draws each.
+std::span<const DrawCall> pickDraws(FrameContext const& context) {
+    const std::span<DrawCall> draws = context.arena->copy(context.packet.mainView().opaque);
+    for (DrawCall& draw : draws) {
+        if (draw.material->material->isBlended()) draw.material = context.resources.motion;
+    }
+    return draws;
+}
+
+ChosenPick choosePick(PassContext& pass, FrameContext const& context, PassBlock target) {
+    PipelineSource const& pipelines = context.resources.pipelines;
+    const std::span<const DrawCall> draws = pickDraws(context);
+    return { surfaceGroups(pass, context, target), draws,
+             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(pickSlot(pass)), draws, 0) };
+}
+
+void recordPick(PassContext& pass, FrameContext const& context, ChosenPick const& chosen, uint2 size, uint2 pixel) {
+    const FrameView view = viewOf(context, 0);
+    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
+                             context.settings.textureFilter };
+    for (size_t i = 0; i < chosen.draws.size(); ++i) {
+        const auto x = static_cast<int32_t>(i % kPickSide), y = static_cast<int32_t>(i / kPickSide);
+        pass.commands().record(CmdSetViewport{ { static_cast<float>(x) - static_cast<float>(pixel.x),
+                                                 static_cast<float>(y) - static_cast<float>(pixel.y),
+                                                 static_cast<float>(size.x), static_cast<float>(size.y) } });
+        pass.commands().record(CmdSetScissor{ { x, y, 1, 1 } });
+        recordDraws(pass.commands(), draws, chosen.draws.subspan(i, 1), chosen.pipelines.subspan(i, 1));
+    }
+}
+
+} // namespace
+
+void addPickPass(FrameGraph& graph, FrameContext const& context, framegraph::TextureId depths, uint2 size,
+                 uint2 pixel) {
+    const PassBlock target = declareTarget(context, { .width = size.x, .height = size.y });
+    graph.addPass(
+            "pick", [&](PassBuilder& pass) { pass.writeDepth(depths, { .clear = 0.0f }); },
+            [of = &context, target](PassContext& pass) { return choosePick(pass, *of, target); },
+            [of = &context, size, pixel](PassContext& pass, ChosenPick const& chosen) {
+                recordPick(pass, *of, chosen, size, pixel);
+            });
+}
+
+} // namespace filament::passes

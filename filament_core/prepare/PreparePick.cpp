@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PreparePick.h"
+
+#include "filament_core/prepare/DeformationData.h"
+#include "filament_core/prepare/ViewConstants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace filament::prepare {
+namespace {
+
+/// In clip space, from the left and from the top.
+double2 centerOf(uint2 pixel, uint2 size) { return 2.0 * (double2(pixel) + 0.5) / double2(size) - 1.0; }
+
+/// The view of a pixel and those around it, as a projection: everything that the pixel shows is in its frustum.
+ViewInput aroundPixel(ViewInput view, uint2 pixel) {
+    const float4x4 whole = makeViewSpace(view).clipFromView;
+    const double2 center = centerOf(pixel, view.size), scale = double2(view.size) / 2.0;
+    float4x4 clip = whole;
+    for (int column = 0; column < 4; ++column) {
+        const double2 moved = double2(whole[column].x, whole[column].y) - center * static_cast<double>(whole[column].w);
+        clip[column].x = static_cast<float>(moved.x * scale.x), clip[column].y = static_cast<float>(moved.y * scale.y);
+    }
+    view.clipFromView = clip;
+    return view;
+}
+
+struct PickCandidate {
+    DrawCall draw;
+    uint32_t renderable = 0;
+};
+
+/// What blends is drawn by another material; a background is no surface.
+bool isPickable(DrawCall const& draw) {
+    scene::Material const& material = *draw.material->material;
+    return draw.pass != DrawPass::Second &&
+           (material.isBlended() || material.package.findVariant(shader::kVariantDepth) != nullptr);
+}
+
+size_t candidatesIn(std::span<const DrawCall> draws) {
+    size_t count = 0;
+    for (DrawCall const& draw : draws) count += isPickable(draw) ? draw.instanceCount : 0;
+    return count;
+}
+
+std::span<PickCandidate> candidatesOf(Arena& arena, ViewPacket const& view) {
+    const auto candidates = arena.array<PickCandidate>(candidatesIn(view.opaque) + candidatesIn(view.blended));
+    size_t count = 0;
+    for (const std::span<const DrawCall> draws : { view.opaque, view.blended }) {
+        for (DrawCall const& draw : draws) {
+            if (!isPickable(draw)) continue;
+            for (uint32_t i = 0; i < draw.instanceCount; ++i) {
+                PickCandidate& candidate = candidates[count++];
+                candidate = { draw, view.objects.order[draw.firstObject + i].renderable };
+                candidate.draw.firstObject += i;
+                candidate.draw.instanceCount = 1;
+                candidate.draw.pass = DrawPass::Only;
+            }
+        }
+    }
+    return candidates;
+}
+
+/// Those whose boxes begin nearest, in their order.
+std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, scene::Renderables const& renderables,
+                                   ViewSpace const& space) {
+    if (all.size() <= kMostCandidates) return all;
+    const auto begins = arena.arrayForOverwrite<float>(all.size());
+    for (size_t i = 0; i < all.size(); ++i) {
+        const uint32_t at = all[i].renderable;
+        const float3 center(renderables.bounds.centerAt(at) - space.cameraWorld);
+        const float begin = glm::dot(space.forward, center) -
+                            glm::dot(glm::abs(space.forward), renderables.bounds.halfExtentAt(at));
+        begins[i] = std::isfinite(begin) ? begin : 0.0f;
+    }
+    const auto order = arena.arrayForOverwrite<uint32_t>(all.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::nth_element(order, order.begin() + kMostCandidates,
+                             [&](uint32_t a, uint32_t b) { return std::pair(begins[a], a) < std::pair(begins[b], b); });
+    std::ranges::sort(order.first(kMostCandidates));
+    for (size_t i = 0; i < kMostCandidates; ++i) all[i] = all[order[i]];
+    return all.first(kMostCandidates);
+}
+
+} // namespace
+
+PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                         uint2 pixel) {
+    ViewInput reversed = view;
+    reversed.quality.depthRange = DepthRange::Reversed;
+    PreparedView prepared = prepareView(jobs, arena, scene, aroundPixel(reversed, pixel));
+    const ViewSpace space = makeViewSpace(reversed);
+    const std::span<const PickCandidate> candidates =
+            nearestOf(arena, candidatesOf(arena, prepared.packet), scene.renderables, space);
+    const auto packets = arena.array<ViewPacket>(1);
+    ViewPacket& packet = packets[0];
+    packet.kind = ViewKind::Depth; // nothing is lit
+    writeFrameUniforms(packet.uniforms, space, reversed, scene);
+    packet.objects = prepared.packet.objects;
+    const auto draws = arena.array<DrawCall>(candidates.size());
+    const auto renderables = arena.array<uint32_t>(candidates.size());
+    for (size_t i = 0; i < candidates.size(); ++i) {
+        draws[i] = candidates[i].draw;
+        renderables[i] = candidates[i].renderable;
+    }
+    packet.opaque = draws;
+    PreparedPick pick{ .renderables = renderables };
+    pick.packet.views = packets;
+    pick.packet.deformations = placeDeformations(arena, scene, std::span(&prepared.visible, 1));
+    return pick;
+}
+
+PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float depth) {
+    const double distance = static_cast<double>(camera.lens.nearMeters) / static_cast<double>(depth);
+    const double up = std::tan(glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2);
+    const double2 center = centerOf(pixel, size);
+    const double3 view(center.x * up * size.x / size.y, -center.y * up, -1);
+    return { distance, double3(camera.worldFromView * double4(view * distance, 1)) };
+}
+
+uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable) {
+    scene::Attachments<RenderableObject> const& attached = scene.atNodes.renderables;
+    if (!attached.isAttached(renderable)) return 0;
+    uint32_t later = 0, count = 0; // the newest is the first of the list
+    attached.forEach(attached.nodeOf(renderable), [&](Renderable other) {
+        if (other == renderable) later = count;
+        ++count;
+    });
+    return count - 1 - later;
+}
+
+} // namespace filament::prepare
