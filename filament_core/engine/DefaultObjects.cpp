@@ -136,6 +136,8 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     for (engine::ToneTable const& table : engine.defaults.toneTables) engine.destroy(table.texture);
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
+    for (MaterialInstance& instance : engine.drawingDebug)
+        if (instance) engine.destroy(std::exchange(instance, {}));
     for (auto const& [key, material] : engine.engineMaterials) {
         engine.pipelines.forget(engine.pending, engine.materials.get(material));
         engine.removeMaterial(material);

@@ -173,6 +173,8 @@ struct Engine::Impl {
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
     /// Of the material `motion`, made once: draws what the scene's own materials need not.
     scene::MaterialInstance const* motionInstance();
+    /// Of the material `debug_draw`, made once: what surfaces hide, or do not.
+    scene::MaterialInstance const* debugDrawInstance(bool isTested);
     /// The same as engineMaterial() for a pass that draws pictures; asserts that they fit.
     scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
                                               passes::FullScreenInterface const& given);
@@ -223,6 +225,7 @@ struct Engine::Impl {
 
     engine::Defaults defaults;
     MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
+    std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
     uint64_t instanceChanges = 0;                    ///< by the app: parameters, textures, raster states

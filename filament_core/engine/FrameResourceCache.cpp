@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/FrameResourceCache.h"
 
+#include "filament_core/passes/DebugDrawPass.h"
+
+#include <filament/DebugDraw.h>
+
 namespace filament::engine {
 namespace {
 
@@ -40,6 +44,11 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();
     if (packet.demand.needs(prepare::Effect::Motion)) resources.motion = mEngine.motionInstance();
+    if (view.debugDraw && !view.debugDraw->empty()) {
+        resources.debugTested = mEngine.debugDrawInstance(true);
+        resources.debugThrough = mEngine.debugDrawInstance(false);
+        resources.debugLayout = mEngine.layouts.intern(passes::debugDrawLayout());
+    }
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     if (packet.demand.needs(prepare::Effect::DebugView))

@@ -12,12 +12,14 @@
 #include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
+#include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
+#include <filament/DebugDraw.h>
 
 #include <algorithm>
 #include <array>
@@ -101,12 +103,13 @@ bool joinsLastImage(View const& view) { return view.viewport && view.viewport->c
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
             : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), blocks(*owner.stream),
-              shadows(owner), graph(arena), transients(*owner.stream), ranges(owner.jobs), timings(owner),
-              pixels(owner), imageTarget(owner) {}
+              debugBuffers(*owner.stream), shadows(owner), graph(arena), transients(*owner.stream), ranges(owner.jobs),
+              timings(owner), pixels(owner), imageTarget(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
         blocks.destroy(engine.pending);
+        debugBuffers.destroy(engine.pending);
         shadows.destroy();
         transients.destroyAll(engine.pending);
     }
@@ -143,7 +146,7 @@ struct Renderer::Impl {
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
-        context.settings.keepsDepth = static_cast<bool>(output.depth);
+        addDebugQuads(context, view, output);
         shadows.use(packet.shadows);
         context.resources.shadowAtlas = shadows.depths();
         context.resources.shadowMoments = shadows.moments();
@@ -152,6 +155,12 @@ struct Renderer::Impl {
         passes::describeFrame(graph, context, output);
         plan = compile(graph, transients);
         return context;
+    }
+
+    void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
+        if (view.debugDraw && !view.debugDraw->empty())
+            context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, inputOf(view, 0));
+        context.settings.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
     }
 
     /// Without memory for it, the next frame is as a first one.
@@ -174,6 +183,7 @@ struct Renderer::Impl {
         engine.recordCompilations(*commands);
         data.upload(engine.jobs, *commands, context.packet);
         blocks.upload(*commands);
+        context.debugDraw.buffers = debugBuffers.upload(*commands, arena, context.debugDraw.quads);
         context.views = data.views();
         context.deformations = data.deformations();
         context.lastDeformations = data.lastDeformations();
@@ -294,6 +304,7 @@ struct Renderer::Impl {
     Arena arena;
     passes::FrameData data;
     passes::PassBlocks blocks;
+    passes::DebugBuffers debugBuffers;
     engine::ShadowTexture shadows;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;

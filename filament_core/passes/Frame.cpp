@@ -4,6 +4,7 @@
 #include "filament_core/passes/AmbientOcclusionPass.h"
 #include "filament_core/passes/BloomPass.h"
 #include "filament_core/passes/ColorPass.h"
+#include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
@@ -125,6 +126,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
         addDebugViewPass(graph, context, targets);
     else
         addFinishPasses(graph, context, targets, output.isSceneLinear());
+    addDebugDrawPass(graph, context, targets);
     addPlacePass(graph, context, output, targets);
     addTargetDepth(graph, context, output, targets);
     keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass

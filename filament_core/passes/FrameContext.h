@@ -8,6 +8,7 @@
 
 #include "filament_core/passes/FrameResources.h"
 #include "filament_core/passes/PassBlocks.h"
+#include "filament_core/prepare/DebugQuads.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
@@ -32,6 +33,16 @@ inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId t
     return { desc.width, desc.height };
 }
 
+struct DebugDrawBuffers {
+    backend::BufferHandle vertices, indices;
+};
+
+/// View::debugDraw.
+struct FrameDebugDraw {
+    prepare::DebugQuads quads;
+    DebugDrawBuffers buffers{}; ///< where they are on the device
+};
+
 /// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
 inline PassSlot slotOf(PassSettings const& settings, backend::PassLayout const& layout, uint8_t subpass) {
     return { layout, subpass, settings.shading, settings.depthRange, settings.precision };
@@ -47,6 +58,8 @@ struct FrameContext {
     View const* view = nullptr; ///< the app's; until the graph is recorded
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
+
+    FrameDebugDraw debugDraw{};
 
     // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views;                        ///< by view of the packet

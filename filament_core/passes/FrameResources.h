@@ -34,10 +34,13 @@ struct FrameResources {
     scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
     scene::Material const* debugView = nullptr; ///< full-screen material; null: the picture is shown
-    backend::TextureHandle shadowAtlas{};       ///< of ShadowPacket::atlasSize texels a side; none without shadow maps
-    backend::TextureHandle shadowMoments{};     ///< of the same size; none if the filter reads depths
-    backend::TextureHandle toneTable{};         ///< of the view's mapper (ToneTable.h); none: it is computed
-    bool hasHalfFloats = false;                 ///< shaders may compute in 16 bits
+    scene::MaterialInstance const* debugTested = nullptr;  ///< draw rectangles of DebugDraw that surfaces hide
+    scene::MaterialInstance const* debugThrough = nullptr; ///< and those that they do not
+    uint32_t debugLayout = 0;                              ///< of these rectangles, into GeometryLayouts
+    backend::TextureHandle shadowAtlas{};   ///< of ShadowPacket::atlasSize texels a side; none without shadow maps
+    backend::TextureHandle shadowMoments{}; ///< of the same size; none if the filter reads depths
+    backend::TextureHandle toneTable{};     ///< of the view's mapper (ToneTable.h); none: it is computed
+    bool hasHalfFloats = false;             ///< shaders may compute in 16 bits
 };
 
 } // namespace filament::passes

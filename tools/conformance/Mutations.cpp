@@ -610,6 +610,14 @@ class GatheredWeightEdit final : public PassBlocksEdit {
     }
 };
 
+class DebugThroughEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.debugName == "debug_draw") command.desc.depthStencil.depthCompare = CompareOp::Always;
+    }
+};
+
 class CullFaceEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -678,6 +686,7 @@ constexpr Mutation kMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
     { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },
+    { "debugThrough", "surfaces do not hide debug drawing", make<DebugThroughEdit> },
     { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
     { "gradingOff", "no grading by formula", makeFinish<kGraded> },
     { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },

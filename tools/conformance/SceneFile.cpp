@@ -2,6 +2,7 @@
 #include "tools/conformance/SceneFile.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/conformance/SceneDebug.h"
 #include "tools/conformance/SceneLights.h"
 
 #include <filament/Look.h>
@@ -259,6 +260,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
     reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
     reader.object("effects", [&](JsonReader& r) { readEffects(r, spec.view.effects); });
+    reader.object("debug", [&](JsonReader& r) { readDebugDraw(r, spec.debugDraw); });
     reader.objects("overlays", [&](JsonReader& r) { readOverlay(r, spec); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });
     reader.read("kills", spec.kills);

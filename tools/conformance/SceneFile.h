@@ -10,6 +10,7 @@
 #include "tools/conformance/JsonReader.h"
 
 #include <filament/Camera.h>
+#include <filament/DebugDraw.h>
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
 #include <filament/Light.h>
@@ -74,6 +75,7 @@ struct SceneSpec {
     View view{};                       ///< without its camera
     uint2 target{ 0 };                 ///< pixels of the target that the view is a part of; 0: its size
     std::vector<OverlaySpec> overlays; ///< over the last frame, in this order
+    DebugDraw debugDraw;               ///< over all frames
     bool linear = false;               ///< scene-linear half floats: no tone mapping
     uint32_t frames = 1;               ///< frames drawn, including the one that is compared
     Comparator comparator{};

@@ -125,6 +125,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
     mSpec = spec;
     setBack(0); // the camera frames what is posed
     mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());
+    mView.debugDraw = &mSpec.debugDraw;
     mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = spec.target.x > 0 ? spec.target : spec.view.size,
                                                         .imageCount = 1,
                                                         .format = spec.linear ? Format::RGBA16F : Format::RGBA8,

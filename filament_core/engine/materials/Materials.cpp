@@ -63,6 +63,15 @@ scene::MaterialInstance const* Engine::Impl::motionInstance() {
     return &instances.get(drawingMotion);
 }
 
+scene::MaterialInstance const* Engine::Impl::debugDrawInstance(bool isTested) {
+    MaterialInstance& known = drawingDebug[isTested];
+    if (!known) {
+        known = createInstance(engineMaterial("debug_draw", {}), "debug draw");
+        instances.get(known).raster.depthCulling = isTested;
+    }
+    return &instances.get(known);
+}
+
 scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package,
                                                         std::vector<MaterialConstant> constants,
                                                         passes::FullScreenInterface const& given) {

@@ -14,6 +14,8 @@
 
 namespace filament {
 
+class DebugDraw;
+
 /// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and
 /// docs/lights.md ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
@@ -68,6 +70,8 @@ struct View {
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
     Layers visibleLayers = kAllLayers;  ///< renderables of other layers are not there: they cast no shadows, either
     std::optional<Viewport> viewport{}; ///< none: the view is all of its target
+    /// Drawn over the finished picture; <filament/DebugDraw.h>. Until render() returns.
+    DebugDraw const* debugDraw = nullptr;
 };
 
 } // namespace filament

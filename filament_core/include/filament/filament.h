@@ -8,6 +8,7 @@
 #include <filament/Camera.h>
 #include <filament/Color.h>
 #include <filament/ColorGrading.h>
+#include <filament/DebugDraw.h>
 #include <filament/Effects.h>
 #include <filament/Engine.h>
 #include <filament/Environment.h>
