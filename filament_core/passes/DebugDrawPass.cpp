@@ -86,11 +86,14 @@ scene::GeometryLayout debugDrawLayout() {
 void addDebugDrawPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     if (context.debugDraw.quads.count() == 0) return;
     const PassBlock target = declareTarget(context, graph.texture(targets.output).desc);
+    // An enlarged picture has no depth of its own size: nothing is hidden then.
+    const bool isTested =
+            context.debugDraw.quads.tested > 0 && sizeOf(graph, targets.solidDepth) == sizeOf(graph, targets.output);
     graph.addPass(
             "debug draw",
             [&](PassBuilder& pass) {
                 pass.writeColor(0, targets.output);
-                if (context.debugDraw.quads.tested > 0) pass.testDepth(targets.solidDepth);
+                if (isTested) pass.testDepth(targets.solidDepth);
             },
             [of = &context, target](PassContext& pass) { return chooseDebugDraw(pass, *of, target); },
             [of = &context](PassContext& pass, ChosenDebugDraw const& chosen) { recordDebugDraw(pass, *of, chosen); });

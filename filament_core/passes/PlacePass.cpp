@@ -92,10 +92,12 @@ void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput 
                                                                       .height = view.size.y,
                                                                       .format = Format::R32F,
                                                                       .name = "view depths" });
+    const bool isScaled = sizeOf(graph, targets.solidDepth) != view.size;
+    const std::array constants{ EffectConstant{ "isScaled", isScaled } };
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.solidDepth } };
     addFullScreenPass(graph, context,
                       { .name = "target depth",
-                        .material = context.resources.effects->get("scene_distance", {}, kTargetDepth),
+                        .material = context.resources.effects->get("scene_distance", constants, kTargetDepth),
                         .inputs = inputs,
                         .target = drawn });
     if (!fills) place(graph, context, "place", drawn, whole, { isCleared, float4(kNothingMeters, 0, 0, 0) });
