@@ -38,6 +38,14 @@ bool TransientPool::isFree(PooledMemory const& memory, UseInterval use) const {
     return memory.lastGraph != mGraph || std::ranges::none_of(memory.uses, overlaps);
 }
 
+uint32_t TransientPool::idleBeside(PooledMemory const& memory, UseInterval use) const {
+    uint32_t least = UINT32_MAX;
+    if (memory.lastGraph != mGraph) return least;
+    for (const UseInterval other : memory.uses)
+        least = std::min(least, other.last < use.first ? use.first - other.last : other.first - use.last);
+    return least;
+}
+
 uint32_t TransientPool::newMemory(uint64_t bytes, bool isShareable) {
     auto found = std::ranges::find(mMemories, 0u, &PooledMemory::textures);
     if (found == mMemories.end()) found = mMemories.emplace(mMemories.end());
@@ -51,10 +59,14 @@ uint32_t TransientPool::memoryFor(backend::DeviceTextureDesc const& desc, UseInt
     const bool isShareable = mStream.info().features.sharedMemory && !has(desc.usage, backend::TextureUsage::Transient);
     const uint64_t bytes = backend::textureBytes(desc);
     auto best = mMemories.end();
+    const auto isBetter = [&](PooledMemory const& one, PooledMemory const& other) {
+        const uint32_t idle = idleBeside(one, use), idleOther = idleBeside(other, use);
+        return idle != idleOther ? idle < idleOther : one.bytes < other.bytes;
+    };
     for (auto memory = mMemories.begin(); memory != mMemories.end() && isShareable; ++memory) {
         const bool isUsable =
                 memory->textures > 0 && memory->isShareable && memory->bytes >= bytes && isFree(*memory, use);
-        if (isUsable && (best == mMemories.end() || memory->bytes < best->bytes)) best = memory;
+        if (isUsable && (best == mMemories.end() || isBetter(*memory, *best))) best = memory;
     }
     return best != mMemories.end() ? static_cast<uint32_t>(best - mMemories.begin()) : newMemory(bytes, isShareable);
 }

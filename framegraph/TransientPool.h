@@ -120,7 +120,10 @@ private:
     };
 
     bool isFree(PooledMemory const& memory, UseInterval use) const;
-    /// The smallest that is free and large enough; a new one, if there is none.
+    /// How many groups before or after `use` nothing has it.
+    uint32_t idleBeside(PooledMemory const& memory, UseInterval use) const;
+    /// Of those that are free and large enough, the one that is idle for the fewest groups beside `use`; a new one, if there
+    /// is none.
     uint32_t memoryFor(backend::DeviceTextureDesc const& desc, UseInterval use);
     uint32_t newMemory(uint64_t bytes, bool isShareable);
     /// A texture that the driver knows; none, if there is none yet.

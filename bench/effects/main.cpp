@@ -238,6 +238,14 @@ void addFinish(std::vector<Pair>& all, const char* file) {
             withEffects([](View& view) { view.camera.exposure = { .aperture = 2.8f, .shutterSeconds = 1.0f / 4000 }; });
     all.push_back({ "depth of field", file, open, focused(1.6f, 4) });
     all.push_back({ "depth of field, all in focus", file, open, focused(1.6f, 0.01f), true });
+    const auto moving =
+            withEffects([](View& view) { view.effects.motionBlur = { .enabled = true, .shutterDegrees = 360 }; });
+    all.push_back({ .name = "motion blur, and the model turns",
+                    .file = file,
+                    .plain = withEffects([](View&) {}),
+                    .effect = moving,
+                    .isTurning = true });
+    all.push_back({ "motion blur, nothing moves", file, withEffects([](View&) {}), moving, true });
 }
 
 /// What a finished picture takes, beside a plain one.

@@ -50,6 +50,13 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .contents = contents };
 }
 
+/// As if all of the view's pixels were drawn.
+prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
+    Effects effects = clamped(view.effects);
+    effects.resolution.scale = float2(1);
+    return inputOf(view, effects, contents);
+}
+
 /// What a frame is drawn to. `depth`: null: nobody asks.
 struct Target {
     engine::TextureState& color;
@@ -159,7 +166,7 @@ struct Renderer::Impl {
 
     void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
         if (view.debugDraw && !view.debugDraw->empty())
-            context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, inputOf(view, 0));
+            context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, wholeInputOf(view, 0));
         context.settings.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
     }
 
@@ -291,8 +298,8 @@ struct Renderer::Impl {
     PickTicket pick(Scene const& scene, View const& view, uint2 pixel) {
         FILAMENT_ASSERT(pixel.x < view.size.x && pixel.y < view.size.y, "a picked pixel lies in the view");
         return engine.orNone("picking", {}, [&] {
-            return pickerOfRenderer().ask(scene.impl().upToDate(), view, inputOf(view, contentsOf(scene)), resources,
-                                          pixel);
+            return pickerOfRenderer().ask(scene.impl().upToDate(), view, wholeInputOf(view, contentsOf(scene)),
+                                          resources, pixel);
         });
     }
 

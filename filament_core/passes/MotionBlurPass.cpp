@@ -22,10 +22,10 @@ constexpr FullScreenParameter kWayValues[] = {
     { "scale", ParameterType::Float2 },           { "most", ParameterType::Float }
 };
 constexpr FullScreenInterface kWay{ .pass = "ways", .inputs = kWayInputs, .values = kWayValues };
-constexpr std::string_view kTileInputs[] = { "source" };
-constexpr FullScreenInterface kTiles{ .pass = "way tiles", .inputs = kTileInputs };
-constexpr std::string_view kBlurInputs[] = { "color", "ways", "tiles" };
-constexpr FullScreenInterface kBlur{ .pass = "motion blur", .inputs = kBlurInputs };
+constexpr std::string_view kWayTileInputs[] = { "source" };
+constexpr FullScreenInterface kWayTiles{ .pass = "way tiles", .inputs = kWayTileInputs };
+constexpr std::string_view kMotionBlurInputs[] = { "color", "ways", "tiles" };
+constexpr FullScreenInterface kMotionBlur{ .pass = "motion blur", .inputs = kMotionBlurInputs };
 
 class MotionBlurPasses {
 public:
@@ -85,7 +85,7 @@ private:
         const std::array constants{ EffectConstant{ "isDilation", isDilation }, EffectConstant{ "tile", mTile } };
         addFullScreenPass(mGraph, mContext,
                           { .name = "way tiles",
-                            .material = material("motion_blur_tiles", constants, kTiles),
+                            .material = material("motion_blur_tiles", constants, kWayTiles),
                             .inputs = inputs,
                             .target = target });
     }
@@ -96,7 +96,7 @@ private:
         const std::array constants{ EffectConstant{ "tile", mTile } };
         addFullScreenPass(mGraph, mContext,
                           { .name = "motion blur",
-                            .material = material("motion_blur", constants, kBlur),
+                            .material = material("motion_blur", constants, kMotionBlur),
                             .inputs = inputs,
                             .target = target });
     }

@@ -11,15 +11,19 @@ namespace {
 
 using framegraph::FrameGraph;
 
-constexpr std::string_view kInputs[] = { "picture" };
+constexpr std::string_view kResolutionInputs[] = { "picture" };
 constexpr FullScreenParameter kUpscalingValues[] = { { "texelsPerPixel", ParameterType::Float2 },
                                                      { "grainStrength", ParameterType::Float },
                                                      { "grainSize", ParameterType::Float } };
-constexpr FullScreenInterface kUpscaling{ .pass = "upscaling", .inputs = kInputs, .values = kUpscalingValues };
+constexpr FullScreenInterface kUpscaling{ .pass = "upscaling",
+                                          .inputs = kResolutionInputs,
+                                          .values = kUpscalingValues };
 constexpr FullScreenParameter kSharpeningValues[] = { { "strength", ParameterType::Float },
                                                       { "grainStrength", ParameterType::Float },
                                                       { "grainSize", ParameterType::Float } };
-constexpr FullScreenInterface kSharpening{ .pass = "sharpening", .inputs = kInputs, .values = kSharpeningValues };
+constexpr FullScreenInterface kSharpening{ .pass = "sharpening",
+                                           .inputs = kResolutionInputs,
+                                           .values = kSharpeningValues };
 
 } // namespace
 

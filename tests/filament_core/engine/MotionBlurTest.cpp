@@ -17,13 +17,13 @@ namespace {
 
 using test::halfPixel;
 
-constexpr uint2 kPictureSize(192, 96);
-constexpr double kDistance = 2;
-constexpr double kFovDegrees = 40;
-constexpr double kHalfSide = 0.3;
+constexpr uint2 kMotionBlurSize(192, 96);
+constexpr double kSquareMeters = 2;
+constexpr double kLensDegrees = 40;
+constexpr double kHalfSquare = 0.3;
 constexpr float kWallLight = 1, kLampLight = 4;
 
-double pixelsPerMeter() { return kPictureSize.y / (2 * kDistance * std::tan(glm::radians(kFovDegrees / 2))); }
+double pixelsPerMeter() { return kMotionBlurSize.y / (2 * kSquareMeters * std::tan(glm::radians(kLensDegrees / 2))); }
 
 /// A square that shines, before a wall that stays.
 class Passing {
@@ -37,18 +37,18 @@ public:
                                                       "material.baseColor = vec4(vec3(materialParams.light), 1.0);"));
         mLamp = instance(kLampLight);
         mWall = instance(kWallLight);
-        mSquare.add(scene, mWall, double3(0, 0, -kDistance - 3), 40);
-        square = mSquare.add(scene, mLamp, double3(0, 0, -kDistance), kHalfSide);
-        view.camera = Camera::lookAt({ 0, 0, 0 }, { 0, 0, -1 }, { .verticalFovDegrees = kFovDegrees });
-        view.size = kPictureSize;
+        mSquare.add(scene, mWall, double3(0, 0, -kSquareMeters - 3), 40);
+        square = mSquare.add(scene, mLamp, double3(0, 0, -kSquareMeters), kHalfSquare);
+        view.camera = Camera::lookAt({ 0, 0, 0 }, { 0, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
+        view.size = kMotionBlurSize;
         view.effects.motionBlur = { .enabled = true, .shutterDegrees = 360, .maxRadius = 0.1f };
     }
     ~Passing() { test::expectNoErrors(engine); }
 
     /// With the middle of the square so many pixels to the right of that of the picture.
     Image draw(double pixels) {
-        double4x4 world(kHalfSide);
-        world[3] = double4(pixels / pixelsPerMeter(), 0, -kDistance, 1);
+        double4x4 world(kHalfSquare);
+        world[3] = double4(pixels / pixelsPerMeter(), 0, -kSquareMeters, 1);
         scene.setTransform(square, world);
         const Owned<SwapChain> target = engine.own(engine.create(
                 SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
@@ -67,7 +67,7 @@ public:
 private:
     Owned<MaterialInstance> instance(float light) {
         Owned<MaterialInstance> made = engine.own(engine.createInstance(mMaterial));
-        EXPECT_TRUE(engine.setParameter(made, "light", light));
+        EXPECT_TRUE(engine.set(made, "light", light));
         return made;
     }
 
@@ -94,7 +94,7 @@ Image blurred(
 
 /// The share of the exposure during which the square covers a place, pixels right of the middle, of the middle row.
 double coverage(double place, double way) {
-    const double edge = kHalfSide * pixelsPerMeter();
+    const double edge = kHalfSquare * pixelsPerMeter();
     if (way == 0) return std::abs(place) < edge ? 1 : 0;
     const double first = std::max(-edge, place - way / 2), last = std::min(edge, place + way / 2);
     return std::max(last - first, 0.0) / way;
@@ -129,7 +129,7 @@ TEST(MotionBlur, FollowsTheCamera) {
     // Everything moves by 12 pixels at the distance of the square, and by less behind it, where all is alike.
     const double meters = 12 / pixelsPerMeter();
     const auto lookFrom = [](Passing& at, double x) {
-        at.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kFovDegrees });
+        at.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
     };
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
@@ -150,7 +150,7 @@ TEST(MotionBlur, LeavesAnEvenPictureAlone) {
         Passing passing(backend);
         brighten(passing);
         for (const double x : { 0.0, 0.3 }) {
-            passing.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kFovDegrees });
+            passing.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
             const Owned<SwapChain> target = passing.engine.own(passing.engine.create(SwapChainDesc{
                     .size = passing.view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
             passing.renderer.render(passing.scene, passing.view, target);
