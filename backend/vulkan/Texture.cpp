@@ -128,15 +128,13 @@ VkResult Texture::createImage(DeviceTextureDesc const& desc, Texture const* host
 }
 
 VkResult Texture::allocate(VkMemoryRequirements const& needs, bool isTransient) {
+    auto memory = std::make_shared<ImageMemory>(mDevice, needs);
     const auto allocation = mDevice.memory().allocate(needs, ResourceKind::Optimal,
                                                       isTransient ? MemoryPurpose::Transient : MemoryPurpose::Device);
     if (!allocation) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    try {
-        mMemory = std::shared_ptr<ImageMemory>(new ImageMemory{ mDevice, needs, *allocation, this });
-    } catch (...) {
-        mDevice.memory().free(*allocation);
-        throw;
-    }
+    memory->allocation = *allocation;
+    memory->user = this;
+    mMemory = std::move(memory);
     return VK_SUCCESS;
 }
 

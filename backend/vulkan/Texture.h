@@ -21,12 +21,15 @@ class Texture;
 
 /// Memory of one image, or of several that share it.
 struct ImageMemory {
+    ImageMemory(Device& of, VkMemoryRequirements const& ofImage) : device(of), needs(ofImage) {}
+    ~ImageMemory() {
+        if (allocation.bytes > 0) device.memory().free(allocation);
+    }
+
     Device& device;
     VkMemoryRequirements needs; ///< of the image that it was allocated for
-    Allocation allocation;
+    Allocation allocation{};
     Texture* user = nullptr; ///< the only one with contents; null: it is gone
-
-    ~ImageMemory() { device.memory().free(allocation); }
 };
 
 class Texture final : public DeviceObject {
