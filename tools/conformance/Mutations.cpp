@@ -561,24 +561,25 @@ class SwitchEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
     /// `constant`: its place among those of the .mat file.
-    SwitchEdit(std::string_view material, size_t constant) : mMaterial(material), mConstant(constant) {}
+    SwitchEdit(std::string_view material, uint32_t constant) : mMaterial(material), mConstant(constant) {}
     void inspect(CommandView) override { mChanged.clear(); }
     void edit(CmdCreateProgram& command) override {
         const std::string_view name = command.desc.debugName; // with the values of the constants: "fxaa/0/0/0"
-        if (name.substr(0, name.find('/')) != mMaterial || mConstant >= command.desc.constants.size()) return;
+        if (name.substr(0, name.find('/')) != mMaterial) return;
         auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
-        constants[mConstant].bits ^= 1;
+        const auto found = std::ranges::find(constants, mConstant, &ConstantValue::id); // given in any order
+        if (found != constants.end()) found->bits ^= 1;
         command.desc.constants = constants;
     }
 
 private:
     std::string_view mMaterial;
-    size_t mConstant;
+    uint32_t mConstant;
     std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
 /// Those of finish.mat.
-enum FinishConstant : size_t {
+enum FinishConstant : uint32_t {
     kAutoExposure = 4,
     kGraded = 5,
     kAberration = 7,
@@ -587,7 +588,7 @@ enum FinishConstant : size_t {
     kOutputSpace = 10,
     kAdaptsToNight = 11
 };
-template <size_t Constant>
+template <uint32_t Constant>
 std::unique_ptr<StreamEdit> makeFinish() {
     return std::make_unique<SwitchEdit>("finish", Constant);
 }
