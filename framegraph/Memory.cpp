@@ -38,10 +38,10 @@ AttachmentMemory attachmentMemory(CompiledGraph const& plan) {
         Texture const& declared = plan.graph->textures()[i];
         if (declared.isImported || !texture.lifetime.isUsed()) continue;
         const uint64_t bytes = bytesOf(declared.desc), largest = largestBefore(plan, i);
-        memory.bytes += bytes > largest ? bytes - largest : 0;
-        memory.saved += std::min(bytes, largest);
-        if (has(texture.usage, backend::TextureUsage::Transient))
-            memory.inTile += bytes > largest ? bytes - largest : 0;
+        const uint64_t shared = std::min(bytes, largest);
+        memory.bytes += bytes - shared;
+        memory.saved += shared;
+        if (has(texture.usage, backend::TextureUsage::Transient)) memory.inTile += bytes - shared;
     }
     return memory;
 }

@@ -80,22 +80,20 @@ Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view
 
 PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
                        FrameResourceCache& resources, uint2 pixel) {
-    return mEngine.orNone("picking", {}, [&]() -> PickTicket {
-        const jobs::AdoptedThread seat(mEngine.jobs);
-        mArena.reset();
-        mGraph.reset();
-        const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel);
-        const Ticket ticket = mEngine.stream->nextTicket();
-        mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
-        if (pick.renderables.empty()) return { ticket.value }; // nobody needs to be asked
-        try {
-            record(view, pick, resources, pixel, ticket);
-        } catch (std::bad_alloc const&) {
-            mPending.erase(ticket.value);
-            throw;
-        }
-        return { ticket.value };
-    });
+    const jobs::AdoptedThread seat(mEngine.jobs);
+    mArena.reset();
+    mGraph.reset();
+    const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel);
+    const Ticket ticket = mEngine.stream->nextTicket();
+    mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
+    if (pick.renderables.empty()) return { ticket.value }; // nobody needs to be asked
+    try {
+        record(view, pick, resources, pixel, ticket);
+    } catch (std::bad_alloc const&) {
+        mPending.erase(ticket.value);
+        throw;
+    }
+    return { ticket.value };
 }
 
 void Picker::record(View const& view, prepare::PreparedPick const& pick, FrameResourceCache& resources, uint2 pixel,

@@ -3,8 +3,8 @@
 ///   Thread  the app thread.
 ///   Memory  made at the first pick: a depth texture of 64 x 64 texels, uniforms of what a pixel may show, and an entry
 ///           for each ticket until it is taken.
-///   Fails   ask(): a ticket of 0 if memory runs out. On a lost device take() answers with no hit, and wait() with an
-///           error. An unknown ticket is a bug of the caller.
+///   Fails   ask(): std::bad_alloc, which leaves no trace of the pick. On a lost device take() answers with no hit, and
+///           wait() with an error. An unknown ticket is a bug of the caller.
 #pragma once
 
 #include "filament_core/engine/EngineImpl.h"

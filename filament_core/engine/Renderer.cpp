@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Renderer.h>
-#include <filament/ResolutionController.h>
 
 #include "backend/stream/RecordingGuards.h"
 #include "base/OutOfMemory.h"
@@ -20,6 +19,7 @@
 #include "framegraph/Explain.h"
 
 #include <filament/DebugDraw.h>
+#include <filament/ResolutionController.h>
 
 #include <algorithm>
 #include <array>
@@ -208,9 +208,8 @@ struct Renderer::Impl {
         chooseShare(view);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines));
-        if (target.isSampled)
-            if (scene::MaterialInstance const* material = samplerOf(context.packet, target))
-                return samplesTarget(*material, target);
+        scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
+        if (material) return samplesTarget(*material, target);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);

@@ -167,7 +167,7 @@ void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachm
     pass.writeColor(0, to.samples, color);
     framegraph::DepthTarget depth;
     if (part.isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-    const bool isRead = part.isLast ? settings.keepsDepth : true;
+    const bool isRead = !part.isLast || settings.keepsDepth;
     if (isRead && settings.samples > 1) depth.resolve = to.depthOfPicture;
     pass.writeDepth(to.depth, depth);
 }

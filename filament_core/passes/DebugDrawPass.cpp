@@ -2,8 +2,7 @@
 #include "filament_core/passes/DebugDrawPass.h"
 
 #include "backend/stream/RecordingGuards.h"
-#include "filament_core/passes/DrawRecorder.h"
-#include "filament_core/passes/PassGroup.h"
+#include "filament_core/passes/ChosenDraws.h"
 
 #include <filament/Objects.h>
 
@@ -22,12 +21,6 @@ using prepare::DebugVertex;
 using prepare::DrawCall;
 
 constexpr uint32_t kIndicesOfQuad = 6;
-
-struct ChosenDebugDraw {
-    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
-    std::span<const DrawCall> draws;
-    std::span<const PipelineHandle> pipelines;
-};
 
 /// What surfaces hide, and what they do not.
 std::span<const DrawCall> debugDraws(FrameContext const& context) {
@@ -51,17 +44,11 @@ std::span<const DrawCall> debugDraws(FrameContext const& context) {
     return draws.first(count);
 }
 
-ChosenDebugDraw chooseDebugDraw(PassContext& pass, FrameContext const& context, PassBlock target) {
-    PipelineSource const& pipelines = context.resources.pipelines;
-    const PassSlot slot{ .layout = pass.passLayout(),
-                         .subpass = pass.subpass(),
-                         .depthRange = context.settings.depthRange };
-    const std::span<const DrawCall> draws = debugDraws(context);
-    return { surfaceGroups(pass, context, target), draws,
-             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(slot), draws, 0) };
+PassSlot debugSlot(PassContext& pass, DepthRange range) {
+    return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthRange = range };
 }
 
-void recordDebugDraw(PassContext& pass, FrameContext const& context, ChosenDebugDraw const& chosen) {
+void recordDebugDraw(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{
         view.group, chosen.passGroups, context.resources.instanceIds, {}, context.settings.textureFilter
@@ -95,16 +82,22 @@ void addDebugDrawPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 pass.writeColor(0, targets.output);
                 if (isTested) pass.testDepth(targets.solidDepth);
             },
-            [of = &context, target](PassContext& pass) { return chooseDebugDraw(pass, *of, target); },
-            [of = &context](PassContext& pass, ChosenDebugDraw const& chosen) { recordDebugDraw(pass, *of, chosen); });
+            [of = &context, target](PassContext& pass) {
+                return chooseDraws(pass, *of, debugSlot(pass, of->settings.depthRange), target, debugDraws(*of));
+            },
+            [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDebugDraw(pass, *of, chosen); });
+}
+
+void DebugBuffers::destroy(CommandBuffer& commands, Set& set) {
+    set.quads = 0;
+    for (BufferHandle* buffer : { &set.vertices, &set.indices })
+        if (*buffer) mStream.destroy(commands, std::exchange(*buffer, {}));
 }
 
 void DebugBuffers::reserve(CommandBuffer& commands, Arena& arena, Set& set, uint32_t quads) {
     if (quads <= set.quads) return;
     const uint32_t grown = std::max({ quads, 2 * set.quads, 64u });
-    set.quads = 0;
-    for (BufferHandle* buffer : { &set.vertices, &set.indices })
-        if (*buffer) mStream.destroy(commands, std::exchange(*buffer, {}));
+    destroy(commands, set);
     const auto indices = arena.arrayForOverwrite<uint32_t>(size_t{ grown } * kIndicesOfQuad);
     for (uint32_t quad = 0; quad < grown; ++quad) {
         constexpr std::array<uint32_t, kIndicesOfQuad> kCorners{ 0, 1, 2, 0, 2, 3 };
@@ -131,11 +124,7 @@ DebugDrawBuffers DebugBuffers::upload(CommandBuffer& commands, Arena& arena, pre
 }
 
 void DebugBuffers::destroy(CommandBuffer& commands) {
-    for (Set& set : mSets) {
-        for (BufferHandle* buffer : { &set.vertices, &set.indices })
-            if (*buffer) mStream.destroy(commands, std::exchange(*buffer, {}));
-        set = {};
-    }
+    for (Set& set : mSets) destroy(commands, set);
 }
 
 } // namespace filament::passes

@@ -28,6 +28,7 @@ private:
         uint32_t quads = 0;
     };
     void reserve(backend::CommandBuffer& commands, Arena& arena, Set& set, uint32_t quads);
+    void destroy(backend::CommandBuffer& commands, Set& set);
 
     backend::CommandStream& mStream;
     std::array<Set, 3> mSets{};

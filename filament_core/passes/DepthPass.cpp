@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/DepthPass.h"
 
-#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenPass.h"
-#include "filament_core/passes/PassGroup.h"
 
 #include <algorithm>
 #include <array>
@@ -18,25 +17,17 @@ using framegraph::PassBuilder;
 using framegraph::PassContext;
 using framegraph::TextureId;
 
-struct ChosenDepth {
-    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
-    std::span<const PipelineHandle> pipelines;
-};
-
-ChosenDepth chooseDepth(PassContext& pass, FrameContext const& context, PassBlock target) {
+ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
     const PassSlot at = depthSlot(context.settings.depthRange);
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
-    PipelineSource const& pipelines = context.resources.pipelines;
-    prepare::ViewPacket const& view = context.packet.mainView();
-    return { surfaceGroups(pass, context, target),
-             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(at), view.opaque, 0) };
+    return chooseDraws(pass, context, at, target, context.packet.mainView().opaque);
 }
 
-void recordDepths(PassContext& pass, FrameContext const& context, ChosenDepth const& chosen) {
+void recordDepths(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
                              context.settings.textureFilter };
-    recordDrawRanges(pass, draws, view.packet.opaque, chosen.pipelines);
+    recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
 }
 
 /// Materials read distances; full-screen passes take the depths themselves.
@@ -102,9 +93,9 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
                 pass.writeDepth(targets.depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
-                return chooseDepth(pass, *of, target);
+                return chooseDepths(pass, *of, target);
             },
-            [of = &context](PassContext& pass, ChosenDepth const& chosen) { recordDepths(pass, *of, chosen); });
+            [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDepths(pass, *of, chosen); });
     if (isDistanceRead(context.packet.demand)) addDistances(graph, context, targets);
 }
 

@@ -111,8 +111,6 @@ float4 shapeOf(Vignette const& vignette, uint2 size) {
     return { vignette.midPoint, vignette.midPoint + 2 * vignette.feather, exponent, width };
 }
 
-float3 row(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
-
 auto valuesOf(FrameContext const& context) {
     Effects const& effects = context.packet.effects;
     Grading const& grading = effects.grading;
@@ -127,9 +125,9 @@ auto valuesOf(FrameContext const& context) {
         FullScreenValue{ "vignetteColor", effects.vignette.color },
         FullScreenValue{ "grainStrength", effects.grain.strength },
         FullScreenValue{ "grainSize", effects.grain.size },
-        FullScreenValue{ "mixRed", row(mix, 0) },
-        FullScreenValue{ "mixGreen", row(mix, 1) },
-        FullScreenValue{ "mixBlue", row(mix, 2) },
+        FullScreenValue{ "mixRed", shaderRow(mix, 0) },
+        FullScreenValue{ "mixGreen", shaderRow(mix, 1) },
+        FullScreenValue{ "mixBlue", shaderRow(mix, 2) },
         FullScreenValue{ "shadows", grading.shadows },
         FullScreenValue{ "midtones", grading.midtones },
         FullScreenValue{ "highlights", grading.highlights },

@@ -26,8 +26,8 @@ struct FrameOutput {
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
 };
 
-/// In the arena: passes keep a pointer to it, and it keeps one to the view. Results of uploads (FrameContext::views and the members after it) are set
-/// later, before the graph is recorded.
+/// In the arena: passes keep a pointer to it, and it keeps one to the view. Results of uploads (FrameContext::views and
+/// the members after it) are set later, before the graph is recorded.
 FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources,
                                View const& view);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/MotionPass.h"
 
-#include "filament_core/passes/DrawRecorder.h"
-#include "filament_core/passes/PassGroup.h"
+#include "filament_core/passes/ChosenDraws.h"
 
 namespace filament::passes {
 namespace {
@@ -12,12 +11,6 @@ using framegraph::FrameGraph;
 using framegraph::PassBuilder;
 using framegraph::PassContext;
 using prepare::DrawCall;
-
-struct ChosenMotion {
-    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
-    std::span<const DrawCall> draws;
-    std::span<const PipelineHandle> pipelines;
-};
 
 PassSlot slotOf(PassContext& pass, DepthRange range) {
     return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthRange = range, .motionOnly = true };
@@ -33,15 +26,7 @@ std::span<const DrawCall> drawsOf(FrameContext const& context) {
     return draws;
 }
 
-ChosenMotion chooseMotion(PassContext& pass, FrameContext const& context, PassBlock target) {
-    PipelineSource const& pipelines = context.resources.pipelines;
-    const uint32_t slot = pipelines.slot(slotOf(pass, context.settings.depthRange));
-    const std::span<const DrawCall> draws = drawsOf(context);
-    return { surfaceGroups(pass, context, target), draws,
-             choosePipelines(pass, *context.arena, pipelines, slot, draws, 0) };
-}
-
-void recordMotion(PassContext& pass, FrameContext const& context, ChosenMotion const& chosen) {
+void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, context.packet.motionView);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
                              context.settings.textureFilter };
@@ -64,9 +49,9 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
                 pass.writeDepth(targets.prepassDepth, {});
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
-                return chooseMotion(pass, *of, target);
+                return chooseDraws(pass, *of, slotOf(pass, of->settings.depthRange), target, drawsOf(*of));
             },
-            [of = &context](PassContext& pass, ChosenMotion const& chosen) { recordMotion(pass, *of, chosen); });
+            [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordMotion(pass, *of, chosen); });
 }
 
 } // namespace filament::passes

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/PickPass.h"
 
-#include "filament_core/passes/DrawRecorder.h"
-#include "filament_core/passes/PassGroup.h"
+#include "filament_core/passes/ChosenDraws.h"
 
 namespace filament::passes {
 namespace {
@@ -12,12 +11,6 @@ using framegraph::FrameGraph;
 using framegraph::PassBuilder;
 using framegraph::PassContext;
 using prepare::DrawCall;
-
-struct ChosenPick {
-    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
-    std::span<const DrawCall> draws;
-    std::span<const PipelineHandle> pipelines;
-};
 
 PassSlot pickSlot(PassContext& pass) {
     return { .layout = pass.passLayout(), .subpass = pass.subpass(), .depthOnly = true, .isPick = true };
@@ -32,14 +25,7 @@ std::span<const DrawCall> pickDraws(FrameContext const& context) {
     return draws;
 }
 
-ChosenPick choosePick(PassContext& pass, FrameContext const& context, PassBlock target) {
-    PipelineSource const& pipelines = context.resources.pipelines;
-    const std::span<const DrawCall> draws = pickDraws(context);
-    return { surfaceGroups(pass, context, target), draws,
-             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(pickSlot(pass)), draws, 0) };
-}
-
-void recordPick(PassContext& pass, FrameContext const& context, ChosenPick const& chosen, uint2 size, uint2 pixel) {
+void recordPick(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen, uint2 size, uint2 pixel) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
                              context.settings.textureFilter };
@@ -60,8 +46,10 @@ void addPickPass(FrameGraph& graph, FrameContext const& context, framegraph::Tex
     const PassBlock target = declareTarget(context, { .width = size.x, .height = size.y });
     graph.addPass(
             "pick", [&](PassBuilder& pass) { pass.writeDepth(depths, { .clear = 0.0f }); },
-            [of = &context, target](PassContext& pass) { return choosePick(pass, *of, target); },
-            [of = &context, size, pixel](PassContext& pass, ChosenPick const& chosen) {
+            [of = &context, target](PassContext& pass) {
+                return chooseDraws(pass, *of, pickSlot(pass), target, pickDraws(*of));
+            },
+            [of = &context, size, pixel](PassContext& pass, ChosenDraws const& chosen) {
                 recordPick(pass, *of, chosen, size, pixel);
             });
 }

@@ -162,8 +162,7 @@ struct Gathering {
     float2 jitterPixels{ 0 }; ///< ViewInput::jitterPixels of the main view
     float weight = 1;         ///< of this frame in the gathered picture, (0, 1]
     bool isFixed = false;     ///< nothing changed but where the camera looks: the gathered picture is right
-    float ramp =
-            0; ///< of a picture that gathering enlarges: half the width, in pixels, of the edge of the samples' filter
+    float ramp = 0;           ///< of a picture that gathering enlarges: half the width of its filter's edges, pixels
 };
 
 struct FramePacket {

@@ -12,12 +12,14 @@
 
 namespace filament {
 
-/// kToneMap... of tone.glsl.
+/// kToneMap... of tone.glsl; DisplayColor.cpp checks the numbers. The look is that of AgX alone.
+constexpr int32_t shaderToneMapper(ToneMapper mapper, AgxLook look) {
+    if (mapper == ToneMapper::Agx && look == AgxLook::Golden) return 9;
+    if (mapper == ToneMapper::Agx && look == AgxLook::Punchy) return 10;
+    return static_cast<int32_t>(mapper);
+}
 inline int32_t shaderToneMapper(ColorGrading const& grading) {
-    constexpr int32_t kGolden = 9, kPunchy = 10;
-    if (grading.toneMapper == ToneMapper::Agx && grading.agxLook == AgxLook::Golden) return kGolden;
-    if (grading.toneMapper == ToneMapper::Agx && grading.agxLook == AgxLook::Punchy) return kPunchy;
-    return static_cast<int32_t>(grading.toneMapper);
+    return shaderToneMapper(grading.toneMapper, grading.agxLook);
 }
 
 /// kOutput... of tone.glsl.
@@ -40,6 +42,9 @@ inline float4 shaderToneCurve(ToneCurve const& curve) {
 inline float exposureBeforeNight(Grading const& grading) {
     return grading.nightAdaptation > 0 ? std::exp2(grading.exposure) : 1;
 }
+
+/// A row of a matrix, as dot products in shaders take it.
+inline float3 shaderRow(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
 
 /// gradingMatrix() of what comes after exposureBeforeNight().
 inline double3x3 matrixAfterNight(Grading const& grading) {

@@ -13,26 +13,28 @@ namespace lib = shader::lib;
 
 namespace {
 
-static_assert(static_cast<int>(ToneMapper::Linear) == lib::kToneMapLinear &&
-              static_cast<int>(ToneMapper::Aces) == lib::kToneMapAces &&
-              static_cast<int>(ToneMapper::Filmic) == lib::kToneMapFilmic &&
-              static_cast<int>(ToneMapper::Mobile) == lib::kToneMapMobile &&
-              static_cast<int>(ToneMapper::Agx) == lib::kToneMapAgx &&
-              static_cast<int>(ToneMapper::PbrNeutral) == lib::kToneMapPbrNeutral &&
-              static_cast<int>(ToneMapper::AcesReference) == lib::kToneMapAcesReference &&
-              static_cast<int>(ToneMapper::Generic) == lib::kToneMapGeneric &&
-              static_cast<int>(ToneMapper::DisplayRange) == lib::kToneMapDisplayRange);
+constexpr bool isNumbered(ToneMapper mapper, int inShaders, AgxLook look = AgxLook::Base) {
+    return shaderToneMapper(mapper, look) == inShaders;
+}
+
+static_assert(isNumbered(ToneMapper::Linear, lib::kToneMapLinear) && isNumbered(ToneMapper::Aces, lib::kToneMapAces) &&
+              isNumbered(ToneMapper::Filmic, lib::kToneMapFilmic) &&
+              isNumbered(ToneMapper::Mobile, lib::kToneMapMobile) && isNumbered(ToneMapper::Agx, lib::kToneMapAgx) &&
+              isNumbered(ToneMapper::Agx, lib::kToneMapAgxGolden, AgxLook::Golden) &&
+              isNumbered(ToneMapper::Agx, lib::kToneMapAgxPunchy, AgxLook::Punchy) &&
+              isNumbered(ToneMapper::PbrNeutral, lib::kToneMapPbrNeutral) &&
+              isNumbered(ToneMapper::AcesReference, lib::kToneMapAcesReference) &&
+              isNumbered(ToneMapper::Generic, lib::kToneMapGeneric) &&
+              isNumbered(ToneMapper::DisplayRange, lib::kToneMapDisplayRange));
 static_assert(static_cast<int>(OutputSpace::Srgb) == lib::kOutputSrgb &&
               static_cast<int>(OutputSpace::LinearRec709) == lib::kOutputLinearRec709 &&
               static_cast<int>(OutputSpace::DisplayP3) == lib::kOutputDisplayP3 &&
               static_cast<int>(OutputSpace::Rec2020Pq) == lib::kOutputRec2020Pq);
 
-float3 row(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
-
 lib::Grading asInShaders(Grading const& grading, double3x3 const& mix) {
     lib::Grading values;
     values.nightAdaptation = grading.nightAdaptation;
-    values.mixRed = row(mix, 0), values.mixGreen = row(mix, 1), values.mixBlue = row(mix, 2);
+    values.mixRed = shaderRow(mix, 0), values.mixGreen = shaderRow(mix, 1), values.mixBlue = shaderRow(mix, 2);
     values.shadows = grading.shadows, values.midtones = grading.midtones, values.highlights = grading.highlights;
     values.tonalRanges = grading.tonalRanges;
     values.slope = grading.slope, values.offset = grading.offset, values.power = grading.power;

@@ -44,7 +44,7 @@ Result<void> saveLook(std::filesystem::path const& path, Look const& look);
 
 /// What a view does to light, from grading to display values, as a cube of `size` entries a side, [2, 128], for other
 /// programs. Its inputs are linear Rec. 709 on the logarithm of ACEScct (S-2016-001, section 4.4), from 0 (0.0729) to
-/// 222.9 (1). `grading.look` is part of it.
+/// 222.9 (1). `colorGrading.look` is part of it.
 Look bakeLook(ColorGrading const& colorGrading, Grading const& grading, uint32_t size);
 
 } // namespace filament

@@ -27,6 +27,7 @@
 #include <filament/QualityBudget.h>
 #include <filament/QualityCosts.h>
 #include <filament/Renderer.h>
+#include <filament/ResolutionController.h>
 #include <filament/Result.h>
 #include <filament/Scene.h>
 #include <filament/Units.h>

@@ -2,7 +2,6 @@
 // FXAA and temporal anti-aliasing beside supersampling: how near they come to it, still and in motion, and that they
 // cost nothing and change nothing where there is nothing to smooth.
 #include "tests/filament_core/engine/Fan.h"
-#include "tools/conformance/Flip.h"
 
 #include <cmath>
 
@@ -26,29 +25,13 @@ TEST(Taa, OfAStillCameraConvergesToSupersampling) {
     EXPECT_LT(errors[63], 0.01);
 }
 
-/// FLIP beside supersampling, the mean over frames.
-double flipInMotion(AntiAliasing antiAliasing, void (*move)(Fan& fan, int frame)) {
-    Fan fan(Backend::Vulkan);
-    fan.view.quality.antiAliasing = antiAliasing;
-    double sum = 0;
-    constexpr int kWarmUp = 8, kFrames = 16;
-    for (int frame = 0; frame < kFrames; ++frame) {
-        move(fan, frame);
-        const Image drawn = fan.draw();
-        if (frame >= kWarmUp) sum += conformance::flip(fan.supersampled(), drawn).mean / (kFrames - kWarmUp);
-    }
-    return sum;
-}
-
 TEST(Taa, InMotionIsNearerToSupersamplingThanFxaaAndNothing) {
-    const std::pair<const char*, void (*)(Fan&, int)> motions[] = {
-        { "the camera turns", [](Fan& fan, int frame) { fan.turn(0.37 * frame); } },
-        { "the camera moves", [](Fan& fan, int frame) { fan.view.camera.worldFromView[3].x = 0.013 * frame; } },
-        { "the bars turn", [](Fan& fan, int frame) { fan.turnBars(0.7 * frame); } },
-    };
-    for (auto const& [name, move] : motions) {
-        const double off = flipInMotion(AntiAliasing::Off, move), fxaa = flipInMotion(AntiAliasing::Fxaa, move),
-                     taa = flipInMotion(AntiAliasing::Taa, move);
+    for (auto const& [name, move] : test::kFanMotions) {
+        const auto flipOf = [move = move](AntiAliasing choice) {
+            return test::flipInMotion([&](View& view) { view.quality.antiAliasing = choice; }, move);
+        };
+        const double off = flipOf(AntiAliasing::Off), fxaa = flipOf(AntiAliasing::Fxaa),
+                     taa = flipOf(AntiAliasing::Taa);
         EXPECT_LT(taa, fxaa) << name;
         EXPECT_LT(taa, off) << name;
         RecordProperty(name, fmt::format("off {:.4f}, fxaa {:.4f}, taa {:.4f}", off, fxaa, taa));

@@ -4,13 +4,16 @@
 
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tools/conformance/Flip.h"
 
 #include <filament/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 namespace filament::test {
 
@@ -39,14 +42,7 @@ public:
     void turnBars(double degrees) {
         for (size_t i = 0; i < mBars.size(); ++i) scene.setTransform(mBars[i], placeOf(i, degrees));
     }
-    Image draw(Renderer& with) {
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        with.render(scene, view, target);
-        auto image = with.waitPixels(with.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
-    }
+    Image draw(Renderer& with) { return renderLinear(engine, with, scene, view); }
     Image draw() { return draw(renderer); }
 
     /// The mean of 8 x 8 samples a pixel.
@@ -119,6 +115,28 @@ inline double rmsBetween(Image const& a, Image const& b) {
         }
     }
     return std::sqrt(sum / (static_cast<double>(a.width) * a.height));
+}
+
+/// What moves, and what it does before a frame.
+using FanMotion = void (*)(Fan& fan, int frame);
+inline constexpr std::pair<const char*, FanMotion> kFanMotions[] = {
+    { "the camera turns", [](Fan& fan, int frame) { fan.turn(0.37 * frame); } },
+    { "the camera moves", [](Fan& fan, int frame) { fan.view.camera.worldFromView[3].x = 0.013 * frame; } },
+    { "the bars turn", [](Fan& fan, int frame) { fan.turnBars(0.7 * frame); } },
+};
+
+/// FLIP beside supersampling, the mean over frames.
+inline double flipInMotion(std::function<void(View&)> const& set, FanMotion move) {
+    Fan fan(Backend::Vulkan);
+    set(fan.view);
+    double sum = 0;
+    constexpr int kWarmUp = 8, kFrames = 16;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        move(fan, frame);
+        const Image drawn = fan.draw();
+        if (frame >= kWarmUp) sum += conformance::flip(fan.supersampled(), drawn).mean / (kFrames - kWarmUp);
+    }
+    return sum;
 }
 
 } // namespace filament::test

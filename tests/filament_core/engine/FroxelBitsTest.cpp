@@ -99,12 +99,7 @@ struct Stage {
     Image draw(Scene const& scene, View const& view, OneList::Mode with) {
         engine.waitIdle();
         *mode = with;
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        renderer.render(scene, view, target);
-        auto image = renderer.waitPixels(renderer.readPixels(target));
-        EXPECT_TRUE(image.ok());
-        return std::move(*image);
+        return test::renderLinear(engine, renderer, scene, view);
     }
 };
 

@@ -39,7 +39,7 @@ public:
         mWall = instance(kWallLight);
         mSquare.add(scene, mWall, double3(0, 0, -kSquareMeters - 3), 40);
         square = mSquare.add(scene, mLamp, double3(0, 0, -kSquareMeters), kHalfSquare);
-        view.camera = Camera::lookAt({ 0, 0, 0 }, { 0, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
+        lookFrom(0);
         view.size = kMotionBlurSize;
         view.effects.motionBlur = { .enabled = true, .shutterDegrees = 360, .maxRadius = 0.1f };
     }
@@ -50,12 +50,11 @@ public:
         double4x4 world(kHalfSquare);
         world[3] = double4(pixels / pixelsPerMeter(), 0, -kSquareMeters, 1);
         scene.setTransform(square, world);
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        renderer.render(scene, view, target);
-        auto image = renderer.waitPixels(renderer.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
+        return draw();
+    }
+    Image draw() { return test::renderLinear(engine, renderer, scene, view); }
+    void lookFrom(double x) {
+        view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
     }
 
     Engine engine;
@@ -78,14 +77,12 @@ private:
 
 /// The second of two frames; the square moves by so many pixels, to the middle.
 Image blurred(
-        double pixels, std::function<void(Passing&)> const& set = [](Passing&) {},
-        std::function<void(Passing&)> const& between = [](Passing&) {}) {
+        double pixels, std::function<void(Passing&)> const& set = [](Passing&) {}) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
         Passing passing(backend);
         set(passing);
         passing.draw(-pixels);
-        between(passing);
         images.push_back(passing.draw(0));
     }
     EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u) << pixels;
@@ -128,15 +125,12 @@ TEST(MotionBlur, HalfAShutterBlursHalfTheWay) {
 TEST(MotionBlur, FollowsTheCamera) {
     // Everything moves by 12 pixels at the distance of the square, and by less behind it, where all is alike.
     const double meters = 12 / pixelsPerMeter();
-    const auto lookFrom = [](Passing& at, double x) {
-        at.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
-    };
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
         Passing passing(backend);
-        lookFrom(passing, meters);
+        passing.lookFrom(meters);
         passing.draw(0);
-        lookFrom(passing, 0);
+        passing.lookFrom(0);
         images.push_back(passing.draw(0));
     }
     EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u);
@@ -144,19 +138,12 @@ TEST(MotionBlur, FollowsTheCamera) {
 }
 
 TEST(MotionBlur, LeavesAnEvenPictureAlone) {
-    const auto brighten = [](Passing& at) { at.scene.remove(at.square); };
-    std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
         Passing passing(backend);
-        brighten(passing);
+        passing.scene.remove(passing.square);
         for (const double x : { 0.0, 0.3 }) {
-            passing.view.camera = Camera::lookAt({ x, 0, 0 }, { x, 0, -1 }, { .verticalFovDegrees = kLensDegrees });
-            const Owned<SwapChain> target = passing.engine.own(passing.engine.create(SwapChainDesc{
-                    .size = passing.view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-            passing.renderer.render(passing.scene, passing.view, target);
-            auto image = passing.renderer.waitPixels(passing.renderer.readPixels(target));
-            ASSERT_TRUE(image);
-            const test::Extremes found = test::extremesOf(*image);
+            passing.lookFrom(x);
+            const test::Extremes found = test::extremesOf(passing.draw());
             EXPECT_NEAR(found.least, kWallLight, 2e-3f);
             EXPECT_NEAR(found.most, kWallLight, 2e-3f);
         }

@@ -68,14 +68,7 @@ public:
         panel = scene.add(morphed);
     }
 
-    Image draw() {
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        renderer.render(scene, view, target);
-        auto image = renderer.waitPixels(renderer.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
-    }
+    Image draw() { return test::renderLinear(engine, renderer, scene, view); }
 
     Engine engine;
     Scene scene;

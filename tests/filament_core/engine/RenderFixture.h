@@ -39,8 +39,7 @@ inline void expectNoErrors(Engine& engine) {
 }
 
 /// Renders one frame into scene-linear half floats: no tone mapping.
-inline Image renderLinear(Engine& engine, Scene const& scene, View const& view) {
-    Renderer renderer(engine);
+inline Image renderLinear(Engine& engine, Renderer& renderer, Scene const& scene, View const& view) {
     const Owned<SwapChain> target = engine.own(engine.create(
             SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
     renderer.render(scene, view, target);
@@ -50,6 +49,11 @@ inline Image renderLinear(Engine& engine, Scene const& scene, View const& view) 
         return {};
     }
     return std::move(*image);
+}
+/// The same with a renderer that has drawn nothing yet.
+inline Image renderLinear(Engine& engine, Scene const& scene, View const& view) {
+    Renderer renderer(engine);
+    return renderLinear(engine, renderer, scene, view);
 }
 
 inline float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {

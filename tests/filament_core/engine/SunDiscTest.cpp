@@ -29,14 +29,7 @@ struct DiscStage : test::SquareStage {
 
     explicit DiscStage(Backend backend) : SquareStage(backend, kBlack, std::make_shared<backend::FrameCapture>()) {}
 
-    Image draw(Scene const& scene, View const& view) {
-        const Owned<SwapChain> target = engine.own(engine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        renderer.render(scene, view, target);
-        auto image = renderer.waitPixels(renderer.readPixels(target));
-        EXPECT_TRUE(image.ok());
-        return image ? std::move(*image) : Image{};
-    }
+    Image draw(Scene const& scene, View const& view) { return test::renderLinear(engine, renderer, scene, view); }
     Image drawSun(SunLight const& sun, View const& view) {
         Scene scene(engine);
         scene.add(sun);

@@ -52,14 +52,7 @@ public:
     }
     ~MirrorRoom() { test::expectNoErrors(mEngine); }
 
-    Image draw() {
-        const Owned<SwapChain> target = mEngine.own(mEngine.create(
-                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
-        mRenderer.render(mScene, view, target);
-        auto image = mRenderer.waitPixels(mRenderer.readPixels(target));
-        EXPECT_TRUE(image);
-        return image ? std::move(*image) : Image{};
-    }
+    Image draw() { return test::renderLinear(mEngine, mRenderer, mScene, view); }
     FrameStatistics statistics() const { return mRenderer.statistics(); }
     Engine& engine() { return mEngine; }
     Scene& scene() { return mScene; }

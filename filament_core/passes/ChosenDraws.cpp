@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/ChosenDraws.h"
+
+namespace filament::passes {
+
+ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
+                        PassBlock target, std::span<const prepare::DrawCall> draws) {
+    PipelineSource const& pipelines = context.resources.pipelines;
+    return { surfaceGroups(pass, context, target), draws,
+             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(slot), draws, 0) };
+}
+
+} // namespace filament::passes

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ChosenDraws: what a pass that draws one list of surfaces needs to record, chosen before it begins.
+///   Use     chooseDraws() in the pass's `beforePass`; then recordDraws() or recordDrawRanges() (DrawRecorder.h).
+///   Thread  the app thread.
+///   Memory  the arena of the frame.
+#pragma once
+
+#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/PassGroup.h"
+
+namespace filament::passes {
+
+struct ChosenDraws {
+    std::array<backend::BindGroupHandle, shader::kSurfaceKinds> passGroups; ///< by shader::PassKind
+    std::span<const prepare::DrawCall> draws;
+    std::span<const backend::PipelineHandle> pipelines; ///< choosePipelines() of `draws`
+};
+
+/// For programs of the variant 0 that read no textures of the engine.
+ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
+                        PassBlock target, std::span<const prepare::DrawCall> draws);
+
+} // namespace filament::passes
