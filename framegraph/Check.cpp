@@ -145,8 +145,6 @@ void checkResolve(FrameGraph const& graph, Pass const& pass, Access const& acces
     require(from.samples > 1 && to.samples == 1,
             "pass '{}': resolves '{}' ({} samples) to '{}' ({} samples): needs many to one", pass.name, from.name,
             from.samples, to.name, to.samples);
-    require(!backend::hasStencil(from.format), "pass '{}': resolves '{}', whose format {} has stencil: use D32F or D16",
-            pass.name, from.name, backend::formatInfo(from.format).name);
     require(from.format == to.format && sizeOfLevel(from, access.range.level) == sizeOfLevel(to, 0),
             "pass '{}': resolves '{}' to '{}', which has another format or size", pass.name, from.name, to.name);
 }

@@ -63,7 +63,7 @@ struct DepthTarget {
     bool overwrites = false;
     uint8_t level = 0;
     uint16_t layer = 0;
-    TextureId resolve{}; ///< single-sampled texture that receives sample 0; formats without stencil
+    TextureId resolve{}; ///< single-sampled texture that receives sample 0; its stencil is undefined then
 };
 
 enum class AccessKind : uint8_t { Color, Depth, DepthTest, Sampled, Input, TransferRead, TransferWrite };

@@ -198,7 +198,7 @@ struct Attachment {
     LoadOp load = LoadOp::Clear;
     StoreOp store = StoreOp::Store;
     std::array<float, 4> clear{}; ///< colour, or {depth, stencil, -, -}
-    TextureHandle resolve;        ///< single-sampled target, level 0 layer 0; depth: of a format without stencil
+    TextureHandle resolve;        ///< single-sampled target, level 0 layer 0; the stencil of one is undefined then
 };
 
 /// Attachment i of `colors` has layout.colorFormats[i]. All have the size of `area` or are larger.

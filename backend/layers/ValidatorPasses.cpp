@@ -37,8 +37,6 @@ void Validator::checkPassLayout(PassLayout const& layout) {
             "resolveMask names attachments beyond colorCount");
     require(!layout.resolvesDepth || (layout.samples > 1 && layout.depthFormat != Format::None), Harm::Crash,
             "resolvesDepth needs a depth attachment of samples > 1");
-    require(!layout.resolvesDepth || !hasStencil(layout.depthFormat), Harm::Crash,
-            "resolvesDepth: format {} has stencil, which cannot be resolved", formatInfo(layout.depthFormat).name);
     require(!layout.resolvesDepth || mInfo.features.depthResolve, Harm::Crash,
             "this device lacks DeviceFeatures::depthResolve");
     checkSubpasses(layout);

@@ -185,8 +185,10 @@ private:
         part.depthResolve = reference(of.depthResolve, mAspects);
         part.resolve = make<VkSubpassDescriptionDepthStencilResolve>(
                 VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE);
-        part.resolve.depthResolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // supported by every device
-        part.resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
+        constexpr VkResolveModeFlagBits kFirstSample = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // by every device
+        part.resolve.depthResolveMode = kFirstSample;
+        // nobody reads it, but not every device can resolve depth alone
+        part.resolve.stencilResolveMode = hasStencil(layout.depthFormat) ? kFirstSample : VK_RESOLVE_MODE_NONE;
         part.resolve.pDepthStencilResolveAttachment = &part.depthResolve;
         auto& to = mSubpasses[mSubpassCount++];
         to = make<VkSubpassDescription2>(VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2);

@@ -148,14 +148,17 @@ TextureId createLike(FrameGraph& graph, TextureId color, Format format, uint8_t 
 ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     const uint8_t samples = context.settings.samples;
     ColorAttachments made{ .color = targets.color };
-    made.hasDepth = targets.depth && samples == 1 && context.view->quality.depthPrepass != DepthPrepass::Off;
-    made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, Format::D32F, samples, "depth");
+    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
+    const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
+    made.hasDepth =
+            targets.depth && samples == 1 && !hasStencil && context.view->quality.depthPrepass != DepthPrepass::Off;
+    made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, depth, samples, "depth");
     made.samples = samples == 1
                            ? made.color
                            : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
     if (context.packet.demand.needs(prepare::Effect::Refraction) || context.settings.keepsDepth)
         made.depthOfPicture =
-                samples == 1 ? made.depth : createLike(graph, made.color, Format::D32F, 1, "depth of the picture");
+                samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include "shaders/package/Package.h"
 
 #include <atomic>
+#include <optional>
 
 namespace filament::passes {
 namespace {
@@ -38,6 +39,7 @@ public:
             mCommands.record(CmdBindGroup{ material, shader::kGroupMaterial });
             mMaterial = material;
         }
+        if (draw.material->raster.stencil) bindReferences(*draw.material->raster.stencil);
         if (draw.deformation != mDeformation && draw.deformation != scene::kNotDeformed) {
             mCommands.record(mContext.deformations[draw.deformation]);
             mDeformation = draw.deformation;
@@ -52,6 +54,13 @@ private:
         if (group == mPass) return;
         mCommands.record(CmdBindGroup{ group, shader::kGroupPass });
         mPass = group;
+    }
+
+    void bindReferences(StencilState const& state) {
+        const CmdSetStencilReference wanted{ state.front.reference, state.back.reference };
+        if (mReferences && mReferences->front == wanted.front && mReferences->back == wanted.back) return;
+        mCommands.record(wanted);
+        mReferences = wanted;
     }
 
     void bindGeometry(scene::Geometry const& geometry) {
@@ -72,6 +81,7 @@ private:
     uint32_t mWindow = ~0u, mList = 0;
     BindGroupHandle mPass, mMaterial;
     uint32_t mDeformation = scene::kNotDeformed;
+    std::optional<CmdSetStencilReference> mReferences;
     BufferHandle mVertices, mIndices;
     IndexFormat mIndexType = IndexFormat::UInt16;
 };

@@ -180,6 +180,45 @@ void usePass(PipelineDesc& desc, shader::TransparencyMode transparency, prepare:
     }
 }
 
+StencilOp stencilOp(StencilOperation operation) {
+    static_assert(static_cast<int>(StencilOperation::Keep) == static_cast<int>(StencilOp::Keep) &&
+                  static_cast<int>(StencilOperation::Zero) == static_cast<int>(StencilOp::Zero) &&
+                  static_cast<int>(StencilOperation::Replace) == static_cast<int>(StencilOp::Replace) &&
+                  static_cast<int>(StencilOperation::IncrementClamp) == static_cast<int>(StencilOp::IncrementClamp) &&
+                  static_cast<int>(StencilOperation::DecrementClamp) == static_cast<int>(StencilOp::DecrementClamp) &&
+                  static_cast<int>(StencilOperation::Invert) == static_cast<int>(StencilOp::Invert) &&
+                  static_cast<int>(StencilOperation::IncrementWrap) == static_cast<int>(StencilOp::IncrementWrap) &&
+                  static_cast<int>(StencilOperation::DecrementWrap) == static_cast<int>(StencilOp::DecrementWrap));
+    return static_cast<StencilOp>(operation);
+}
+
+CompareOp compareOp(StencilTest test) {
+    static constexpr std::array kCompares{ CompareOp::Never,   CompareOp::Less,     CompareOp::LessEqual,
+                                           CompareOp::Equal,   CompareOp::NotEqual, CompareOp::GreaterEqual,
+                                           CompareOp::Greater, CompareOp::Always };
+    return kCompares[static_cast<size_t>(test)];
+}
+
+backend::StencilFace stencilFace(filament::StencilFace const& face) {
+    return { .compare = compareOp(face.test),
+             .fail = stencilOp(face.onFail),
+             .depthFail = stencilOp(face.onDepthFail),
+             .pass = stencilOp(face.onPass),
+             .readMask = face.readMask,
+             .writeMask = face.writeMask };
+}
+
+bool hasStencilTest(PassSlot const& slot, scene::InstanceRaster const& raster) {
+    return raster.stencil && hasStencil(slot.layout.depthFormat) && slot.layout.subpasses[slot.subpass].usesDepth;
+}
+
+/// References are bound with the draw: states that differ in them share pipelines.
+PassSlot withStencil(PassSlot slot, StencilState state) {
+    state.front.reference = state.back.reference = 0;
+    slot.stencil = state;
+    return slot;
+}
+
 constexpr VariantSet variantSet(uint32_t bits) { return static_cast<VariantSet>(bits) & VariantSet::All; }
 
 // The geometry's own attributes, then the instance index in the next buffer slot.
@@ -206,9 +245,13 @@ std::string missingVariant(std::string_view material, shader::MaterialPackage co
                        material, toString(variantSet(variant)), toString(filtered));
 }
 
-uint32_t PipelineCache::slot(PassSlot const& slot) {
+std::optional<uint32_t> PipelineCache::findSlot(PassSlot const& slot) const {
     const auto found = std::find(mSlots.begin(), mSlots.end(), slot);
-    if (found != mSlots.end()) return static_cast<uint32_t>(found - mSlots.begin());
+    return found != mSlots.end() ? std::optional(static_cast<uint32_t>(found - mSlots.begin())) : std::nullopt;
+}
+
+uint32_t PipelineCache::slot(PassSlot const& slot) {
+    if (const std::optional<uint32_t> known = findSlot(slot)) return *known;
     mSlots.push_back(slot);
     return static_cast<uint32_t>(mSlots.size() - 1);
 }
@@ -326,6 +369,11 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.depthOnly) return desc;
+    if (slot.stencil) {
+        desc.depthStencil.stencilTest = true;
+        desc.depthStencil.front = stencilFace(slot.stencil->front);
+        desc.depthStencil.back = stencilFace(slot.stencil->back);
+    }
     BlendState blend = blendState(package);
     if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
@@ -342,12 +390,19 @@ PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, Pipelin
 }
 
 std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, PipelineUse const& use) const {
+    if (hasStencilTest(mSlots[slot], use.instance.raster)) {
+        const std::optional<uint32_t> own = findSlot(withStencil(mSlots[slot], *use.instance.raster.stencil));
+        if (!own) return std::nullopt;
+        slot = *own;
+    }
     const uint64_t key = makeKey(slot, use, rasterIn(mSlots[slot], use.instance.raster));
     PipelineTable::Entry const* entry = mPipelines.find(key);
     return entry ? std::optional(entry->handle) : std::nullopt;
 }
 
 PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, PipelineUse const& use) {
+    if (hasStencilTest(mSlots[slot], use.instance.raster))
+        slot = this->slot(withStencil(mSlots[slot], *use.instance.raster.stencil));
     const scene::InstanceRaster raster = rasterIn(mSlots[slot], use.instance.raster);
     const uint64_t key = makeKey(slot, use, raster);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;

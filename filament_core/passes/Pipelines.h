@@ -37,6 +37,7 @@ struct PassSlot {
     bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
     bool isPick = false;       ///< of depthOnly: whatever their material says, they test and leave depth
+    std::optional<StencilState> stencil{}; ///< of what is drawn there, without references; PipelineCache's own
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 
@@ -57,7 +58,8 @@ public:
     PipelineCache(backend::CommandStream& stream, scene::GeometryLayouts const& layouts)
             : mStream(stream), mLayouts(layouts) {}
 
-    /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame.
+    /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame. What has a stencil state
+    /// gets slots of its own, because there are too many states for a key.
     uint32_t slot(PassSlot const& slot);
     std::span<const PassSlot> slots() const { return mSlots; }
 
@@ -112,6 +114,8 @@ private:
                                    scene::InstanceRaster const& raster, uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
                                    uint32_t material);
+
+    std::optional<uint32_t> findSlot(PassSlot const& slot) const;
 
     backend::ProgramHandle surfaceProgram(backend::CommandBuffer& setup, uint32_t slot, scene::Material const& material,
                                           uint8_t variant);

@@ -98,6 +98,8 @@ const char* describeNobody(Effect effect) {
         return "a debug view is shown";
     case Effect::Motion:
         return "no effect looks at the last picture";
+    case Effect::Stencil:
+        return "nothing in view has a stencil state";
     default:
         return "no light in view asks for them";
     }
@@ -222,6 +224,7 @@ const char* nameOf(Effect effect) {
                                                                "sun disc",
                                                                "blending",
                                                                "deformation",
+                                                               "stencil",
                                                                "depth prepass",
                                                                "ambient occlusion",
                                                                "refraction",

@@ -17,7 +17,8 @@ uint32_t specialOrders(ViewKind kind, RefractionOrder refraction) {
     using scene::Drawables;
     if (kind == ViewKind::Shadow) return 0;
     return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
-           Drawables::kNoDepthTestOrder | (refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
+           Drawables::kNoDepthTestOrder | Drawables::kStencilWriteOrder |
+           (refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
 }
 
 uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special,
@@ -25,11 +26,13 @@ uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, 
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
     if (special & Drawables::kBlendedOrder) return blendedKey(depth);
+    if (special & Drawables::kStencilWriteOrder) return opaqueKey(use.order, item.draw, kStencilSlice, depth);
     if (special & Drawables::kSeesPictureOrder)
         return refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
         return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0);
-    return opaqueKey(use.order, item.draw, sliceStart(span, use.users >> hidden, coarseStep(depth)), depth);
+    const uint32_t slice = sliceStart(span, use.users >> hidden, coarseStep(depth));
+    return opaqueKey(use.order, item.draw, std::max(slice, kFirstSlice), depth);
 }
 
 bool startsDraw(std::span<const SortItem> items, size_t i) {

@@ -40,6 +40,11 @@ uint32_t countReflective(std::span<const DrawCall> draws) {
     }));
 }
 
+uint32_t countStencil(std::span<const DrawCall> draws) {
+    return static_cast<uint32_t>(std::ranges::count_if(
+            draws, [](DrawCall const& draw) { return draw.material->raster.stencil.has_value(); }));
+}
+
 void countDraws(DrawLists const& draws, ViewCounts& counts) {
     counts.litDraws = countLit(draws.opaque) + countLit(draws.blended);
     counts.blendedDraws = static_cast<uint32_t>(draws.blended.size());
@@ -47,6 +52,7 @@ void countDraws(DrawLists const& draws, ViewCounts& counts) {
     counts.opaqueLitDraws = countLit(draws.opaque);
     counts.refractiveDraws = countRefractive(draws.opaque) + countRefractive(draws.blended);
     counts.reflectiveDraws = countReflective(draws.opaque) + countReflective(draws.blended);
+    counts.stencilDraws = countStencil(draws.opaque) + countStencil(draws.blended);
 }
 
 /// Light that meets no lit surface is in no shader.

@@ -37,6 +37,11 @@ EffectDemand demandOfDraws(uint32_t draws) {
     return draws ? EffectDemand{ true, DemandReason::IsVisible, draws } : EffectDemand{};
 }
 
+EffectDemand demandOfStencil(ViewCounts const& counts) {
+    if (counts.stencilDraws == 0) return { .reason = DemandReason::NothingAsks };
+    return { true, DemandReason::IsVisible, counts.stencilDraws };
+}
+
 EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
     if (inView) return { true, DemandReason::ShowsInSky, inView, outOfView };
     return { false, outOfView ? DemandReason::OutOfView : DemandReason::NotInScene, 0, outOfView };
@@ -245,6 +250,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::SunDisc, demandOfDiscs(input.discsInView, input.discsOutOfView));
     set(Effect::Blending, demandOfDraws(counts.blendedDraws));
     set(Effect::Deformation, demandOfDraws(input.deformed));
+    set(Effect::Stencil, demandOfStencil(counts));
     set(Effect::AmbientOcclusion, demandOfOcclusion(input));
     set(Effect::Refraction, demandOfPicture(counts.refractiveDraws,
                                             input.quality.refraction == RefractionSource::Screen, input.copiedPixels));

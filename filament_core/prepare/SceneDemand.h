@@ -31,6 +31,7 @@ enum class Effect : uint8_t {
     SunDisc, ///< discs of suns, and their halos
     Blending,
     Deformation,
+    Stencil,      ///< stencil values beside the depths
     DepthPrepass, ///< of what is opaque, before anything is shaded
     AmbientOcclusion,
     Refraction,  ///< of the picture
@@ -52,7 +53,7 @@ enum class Effect : uint8_t {
     Sharpening,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 31;
+inline constexpr size_t kEffects = 32;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {

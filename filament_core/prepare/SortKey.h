@@ -2,7 +2,8 @@
 /// SortKey: the drawing order as one number, smaller first. Equal keys keep the order of the scene.
 ///
 ///   opaque   63    0
-///            55-62 slice      where the renderable's slice of its draw begins, four steps an octave
+///            55-62 slice      where the renderable's slice of its draw begins, four steps an octave; 0: what changes
+///                             stencil values
 ///            43-54 material   same programs together
 ///            42    mirrored   same raster state together
 ///            30-41 instance   same parameters and textures together
@@ -85,6 +86,9 @@ constexpr uint32_t sliceStart(DepthSpan span, uint32_t members, uint32_t step) {
     const int width = std::clamp(bits(span.farthest - span.nearest) + bits(kSliceMembers) - bits(members), 0, 8);
     return span.nearest + ((step - span.nearest) >> width << width);
 }
+
+/// Of opaqueKey(): all that changes stencil values, before the first slice of the others.
+inline constexpr uint32_t kStencilSlice = 0, kFirstSlice = 1;
 
 /// `order`: of the draw's drawable (scene::Drawables::Use).
 constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint32_t depth) {

@@ -35,6 +35,7 @@ struct ViewCounts {
     uint32_t opaqueLitDraws = 0;             ///< of these: whose material is lit
     uint32_t refractiveDraws = 0;            ///< through which the picture is seen: `refractionMode : screenspace`
     uint32_t reflectiveDraws = 0;            ///< in which it is: `reflections : screenspace`
+    uint32_t stencilDraws = 0;               ///< that test or change stencil values
     uint32_t contactLights = 0;              ///< of the lights in view, the sun among them: those with contact shadows
     uint64_t triangles = 0;
 };

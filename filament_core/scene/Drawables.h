@@ -63,8 +63,9 @@ public:
     static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
     /// Opaque, but leaves no depth by which it could keep its place: drawn after the sky, before what blends.
     static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
-    static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
-    static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but shows what is drawn behind it
+    static constexpr uint32_t kNoDepthTestOrder = 1u << 28;  ///< opaque on top of all other opaque objects: after those
+    static constexpr uint32_t kSeesPictureOrder = 1u << 27;  ///< opaque, but shows what is drawn behind it
+    static constexpr uint32_t kStencilWriteOrder = 1u << 26; ///< opaque, and changes what others test: before those
 
     /// The number of this pair; adds a user.
     uint32_t acquire(Drawable const& drawable);

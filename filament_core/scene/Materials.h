@@ -10,6 +10,7 @@
 #include <filament/Material.h>
 #include <filament/Quality.h>
 #include <filament/Sampler.h>
+#include <filament/Stencil.h>
 
 #include <array>
 #include <cstddef>
@@ -44,6 +45,7 @@ struct InstanceRaster {
     bool cullingDisabled = false; ///< both faces, whatever `culling` says
     bool colorWrite = true, depthWrite = true, depthCulling = true;
     std::optional<shader::Culling> shadowCulling{}; ///< in shadow maps; none: as everywhere
+    std::optional<StencilState> stencil{};
     friend bool operator==(InstanceRaster const&, InstanceRaster const&) = default;
 };
 

@@ -124,14 +124,6 @@ TEST_F(GraphRulesDeathTest, ResolvingTwoAttachmentsToOneTexture) {
     EXPECT_DEATH(checkDeclarations(graph), "texture 'c' is a resolve target and something else");
 }
 
-TEST_F(GraphRulesDeathTest, ResolvingDepthWithStencil) {
-    const TextureId ms =
-            graph.createTexture({ .width = 64, .height = 32, .format = Format::D32FS8, .samples = 4, .name = "ms" });
-    const TextureId z = graph.createTexture({ .width = 64, .height = 32, .format = Format::D32FS8, .name = "z" });
-    pass("draw", [&](PassBuilder& p) { p.writeDepth(ms, { .resolve = z }); });
-    EXPECT_DEATH(checkDeclarations(graph), "pass 'draw': resolves 'ms', whose format D32FS8 has stencil");
-}
-
 TEST_F(GraphRulesDeathTest, ReadingAMultisampledTexture) {
     const TextureId a = color("a", 64, 4), out = backbuffer();
     pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); });

@@ -55,10 +55,12 @@ Result<std::vector<Node>> addMaterialCopies(Engine& engine, Scene& scene, SceneS
     for (size_t i = 0; i < copies.size(); ++i) {
         const LightChannels channels = i < spec.copyChannels.size() ? spec.copyChannels[i] : kDefaultLightChannels;
         MaterialInstance instance = stand.instance();
-        if (i < spec.copyValues.size() && !spec.copyValues[i].empty()) {
+        const CopyRaster raster = i < spec.copyRasters.size() ? spec.copyRasters[i] : CopyRaster{};
+        if (raster.isUsed() || (i < spec.copyValues.size() && !spec.copyValues[i].empty())) {
             const Result<MaterialInstance> other = stand.vary(engine, *model->file, valuesOfCopy(*model, spec, i));
             if (!other) return other.error();
             instance = *other;
+            applyRaster(engine, instance, raster);
         }
         roots.push_back(stand.addTo(scene, copies[i], channels, instance));
     }

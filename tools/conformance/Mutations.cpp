@@ -619,6 +619,12 @@ public:
     }
 };
 
+class StencilOffEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override { command.desc.depthStencil.stencilTest = false; }
+};
+
 class CullFaceEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -687,6 +693,7 @@ constexpr Mutation kMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
     { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },
+    { "stencilOff", "stencil test off", make<StencilOffEdit> },
     { "debugThrough", "surfaces do not hide debug drawing", make<DebugThroughEdit> },
     { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
     { "gradingOff", "no grading by formula", makeFinish<kGraded> },

@@ -32,6 +32,7 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     spec.copyChannels.push_back(channels);
     readBits(reader, "layers", spec.copyLayers.emplace_back(kDefaultLayers));
     reader.read("values", spec.copyValues.emplace_back());
+    readRaster(reader, spec.copyRasters.emplace_back());
     reader.read("moves", spec.copyMoves.emplace_back(0.0));
 }
 
@@ -249,11 +250,13 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
         spec.copyChannels.push_back(kDefaultLightChannels);
         spec.copyLayers.push_back(kDefaultLayers);
         spec.copyValues.emplace_back();
+        spec.copyRasters.emplace_back();
         spec.copyMoves.emplace_back(0.0);
     }
     const bool hasValues = std::ranges::any_of(spec.copyValues, [](NamedWords const& words) { return !words.empty(); });
-    if (hasValues && !(spec.modelObject && spec.modelObject->contains("material")))
-        reader.complain("copies", "'values' belong to a model that is a material");
+    const bool hasRasters = std::ranges::any_of(spec.copyRasters, &CopyRaster::isUsed);
+    if ((hasValues || hasRasters) && !(spec.modelObject && spec.modelObject->contains("material")))
+        reader.complain("copies", "'values' and raster states belong to a model that is a material");
     reader.read("origin", spec.origin);
     reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "tools/conformance/JsonReader.h"
+#include "tools/conformance/SceneRaster.h"
 
 #include <filament/Camera.h>
 #include <filament/DebugDraw.h>
@@ -64,6 +65,7 @@ struct SceneSpec {
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
     std::vector<Layers> copyLayers;          ///< the same
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
+    std::vector<CopyRaster> copyRasters;     ///< of each copy: raster states of a material
     std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place
     double3 cameraMoves{ 0.0 };              ///< the same
     double secondsPerFrame = 0;              ///< of the view's time and of the animation

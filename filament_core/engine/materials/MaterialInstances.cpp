@@ -245,6 +245,11 @@ void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
     ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
 }
 
+void Engine::setStencil(MaterialInstance handle, std::optional<StencilState> state) {
+    mImpl->instances.get(handle).raster.stencil = state;
+    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
+}
+
 void Engine::Impl::destroy(MaterialInstance handle) {
     scene::MaterialInstance& instance = instances.get(handle);
     std::erase(dirtyInstances, handle);

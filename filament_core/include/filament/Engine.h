@@ -14,6 +14,7 @@
 #include <filament/Backend.h>
 #include <filament/Objects.h>
 #include <filament/Result.h>
+#include <filament/Stencil.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -171,6 +172,8 @@ public:
     void setColorWrite(MaterialInstance instance, bool writes);
     void setDepthWrite(MaterialInstance instance, bool writes);
     void setDepthCulling(MaterialInstance instance, bool tests); ///< false: draws over everything and writes no depth
+    /// None, the default: neither tests nor changes stencil values.
+    void setStencil(MaterialInstance instance, std::optional<StencilState> state);
     /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 

@@ -30,5 +30,6 @@
 #include <filament/ResolutionController.h>
 #include <filament/Result.h>
 #include <filament/Scene.h>
+#include <filament/Stencil.h>
 #include <filament/Units.h>
 #include <filament/View.h>

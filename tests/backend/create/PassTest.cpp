@@ -200,7 +200,7 @@ void drawSlope(Gpu& gpu, DepthScene const& scene, double right) {
 DRIVER_TEST(Pass, ResolvedDepthIsThatOfTheFirstSampleOfTheStandardPattern) {
     constexpr uint32_t kSide = 8;
     constexpr double kSampleX = 0.375, kSampleY = 0.125; // of sample 0
-    for (const Format format : { Format::D32F, Format::D16 }) {
+    for (const Format format : { Format::D32F, Format::D16, Format::D32FS8 }) {
         SCOPED_TRACE(formatInfo(format).name);
         for (const double right : { 8.0, 4.25, 4.5 }) { // in pixel 4, sample 0 lies between the two edges
             const DepthScene scene = multisampledDepth(gpu, format, kSide);

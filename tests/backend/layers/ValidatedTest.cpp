@@ -506,13 +506,6 @@ std::vector<Case> passCases() {
         { "DepthResolveOfOneSample",
           [](C& to) { recordPassWith(to, [](auto& d) { d.layout.resolvesDepth = true, d.depth.resolve = kDepth; }); },
           "resolvesDepth needs a depth attachment of samples > 1" },
-        { "DepthResolveWithStencil",
-          [](C& to) {
-              recordPassWith(to, [](auto& d) {
-                  d.layout.resolvesDepth = true, d.layout.samples = 4, d.layout.depthFormat = Format::D32FS8;
-              });
-          },
-          "format D32FS8 has stencil" },
         { "DepthResolveToAnotherFormat",
           [](C& to) {
               to.record(textureWith([](auto& d) {
