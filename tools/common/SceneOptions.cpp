@@ -4,6 +4,7 @@
 #include "tools/common/CommandLine.h"
 
 #include <filament/Look.h>
+#include <filament/RenderPreset.h>
 
 #include <CLI/CLI.hpp>
 
@@ -155,7 +156,20 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
     return std::nullopt;
 }
 
+Result<void> convertPreset(SceneWords const& words, SceneOptions& options) {
+    if (words.preset.empty()) return {};
+    const auto preset = renderPresetFromName(words.preset);
+    if (!preset) return invalidOption("--preset", words.preset, "fast, balanced, fine or cinematic");
+    View view;
+    applyPreset(view, *preset);
+    options.quality = view.quality;
+    options.effects = view.effects;
+    options.samples = view.samples;
+    return {};
+}
+
 Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
+    if (const Result<void> done = convertPreset(words, options); !done) return done;
     if (!words.quality.empty()) {
         const auto preset = qualityPresetFromName(words.quality);
         if (!preset) return invalidOption("--quality", words.quality, "low, medium, high or reference");
@@ -205,6 +219,7 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
     app.add_option("--tone-mapper", words.toneMapper, std::string(toneMapperNames()) + " (aces)");
     app.add_option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
     app.add_option("--dither", words.dither, "on or off (off)");
+    app.add_option("--preset", words.preset, "fast, balanced, fine or cinematic: the whole view, effects included");
     app.add_option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
     app.add_option("--set", words.set, "NAME=VALUE: one choice of docs/quality.md, after --quality; repeatable")
             ->expected(1)

@@ -52,7 +52,7 @@ struct SceneWords {
     std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
                                     look, dither, out = "out";
     std::vector<std::string> eye, at, exposure, sun;
-    std::string quality;
+    std::string preset, quality;
     std::vector<std::string> set; ///< name=value
 };
 

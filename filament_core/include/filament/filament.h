@@ -26,6 +26,7 @@
 #include <filament/Quality.h>
 #include <filament/QualityBudget.h>
 #include <filament/QualityCosts.h>
+#include <filament/RenderPreset.h>
 #include <filament/Renderer.h>
 #include <filament/ResolutionController.h>
 #include <filament/Result.h>

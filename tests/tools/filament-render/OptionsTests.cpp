@@ -2,6 +2,8 @@
 // Size: AllReachTheirFields is a list: every option on a command line once, every field once.
 #include "tools/filament-render/Options.h"
 
+#include <filament/RenderPreset.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -105,6 +107,18 @@ TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
     EXPECT_EQ(parsed({ "--set", "shBands=3", "--quality", "low", "--set", "fresnel=exact", "--set", "shBands=1" })
                       .quality,
               expected);
+}
+
+TEST(Options, APresetOfTheViewComesBeforeAQualityAndItsChanges) {
+    View fine;
+    applyPreset(fine, RenderPreset::Fine);
+    EXPECT_EQ(parsed({ "--preset", "fine" }).quality, fine.quality);
+    EXPECT_EQ(parsed({ "--preset", "fine" }).effects, fine.effects);
+    EXPECT_EQ(parsed({ "--preset", "fine", "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));
+    const Options changed = parsed({ "--set", "bloom=off", "--set", "antiAliasing=fxaa", "--preset", "fine" });
+    EXPECT_FALSE(changed.effects.bloom.enabled);
+    EXPECT_EQ(changed.quality.antiAliasing, AntiAliasing::Fxaa);
+    EXPECT_THAT(refused({ "--preset", "best" }), HasSubstr("fast, balanced, fine or cinematic"));
 }
 
 TEST(Options, AWrongQualityNamesWhatWouldBeRight) {
