@@ -153,7 +153,8 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .castsShadows = desc.castsShadows,
                                         .receivesShadows = desc.receivesShadows,
                                         .lightChannels = desc.lightChannels,
-                                        .layers = desc.layers };
+                                        .layers = desc.layers,
+                                        .place = desc.drawPlace };
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
@@ -287,6 +288,17 @@ void Scene::setLayers(Renderable renderable, Layers select, Layers layers) {
 
 void Scene::setLayers(Node node, Layers select, Layers layers) {
     scene::setLayers(mImpl->changed(), node, select, layers);
+}
+
+void Scene::setDrawPlace(Renderable renderable, DrawPlace place) {
+    scene::setDrawPlace(mImpl->changed().renderables, renderable, place);
+}
+
+void Scene::setDrawPlace(Node node, DrawPlace place) { scene::setDrawPlace(mImpl->changed(), node, place); }
+
+DrawPlace Scene::drawPlace(Renderable renderable) const {
+    scene::Renderables const& renderables = mImpl->data.renderables;
+    return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].place;
 }
 
 Layers Scene::layers(Renderable renderable) const {

@@ -25,12 +25,12 @@ uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, 
                RefractionOrder refraction) {
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
-    if (special & Drawables::kBlendedOrder) return blendedKey(depth);
+    if (special & Drawables::kBlendedOrder) return blendedKey(depth, use.place);
     if (special & Drawables::kStencilWriteOrder) return opaqueKey(use.order, item.draw, kStencilSlice, depth);
     if (special & Drawables::kSeesPictureOrder)
         return refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
-        return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0);
+        return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0, use.place);
     const uint32_t slice = sliceStart(span, use.users >> hidden, coarseStep(depth));
     return opaqueKey(use.order, item.draw, std::max(slice, kFirstSlice), depth);
 }

@@ -11,11 +11,13 @@
 ///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
 ///   late     63-62 10      drawn after the sky
 ///            60-61 class      0: opaque without depth writes; 1: refracts what is drawn so far; 2: without depth test
-///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back where
-///                             they do not see each other, because they leave depth
+///            41-59 place      of classes 0 and 2, as of blended ones
+///            10-40 depth      the same: the nearest object ends on top
+///            29-59 depth      of class 1, front to back where they do not see each other, because they leave depth
 ///             0    alone      of class 1: a draw call of its own, because those behind it may be seen through it
 ///   blended  63-62 11
-///            31-61 depth      of the renderable, every bit, inverted: back to front
+///            43-61 place      priority (3 bits) and blend order (16 bits) of the renderable: DrawPlace
+///            10-40 depth      of the renderable, every bit, inverted: back to front
 ///
 /// A draw is what instances can share: geometry, material instance and side. Its renderables are cut into slices by
 /// depth, and the slices of all draws are sorted front to back. A slice is as thin as a quarter of an octave if a draw
@@ -100,12 +102,18 @@ constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint
 }
 
 /// `depth`: depthBits(), whose highest bit is 0.
-constexpr uint64_t blendedKey(uint32_t depth) { return kBlendedKey | static_cast<uint64_t>(~depth) << 31; }
+constexpr uint64_t backToFront(uint32_t depth) { return uint64_t{ ~depth & 0x7FFF'FFFFu } << 10; }
+
+inline constexpr uint32_t kDefaultPlace = scene::placeOrder({});
+
+/// `place`: scene::placeOrder().
+constexpr uint64_t blendedKey(uint32_t depth, uint32_t place = kDefaultPlace) {
+    return kBlendedKey | uint64_t{ place } << 43 | backToFront(depth);
+}
 
 /// What is opaque, but has to be drawn after the sky.
-constexpr uint64_t lateKey(uint32_t depth, bool onTop) {
-    const uint64_t inverted = ~depth & 0x7FFF'FFFFu;
-    return kLateKey | static_cast<uint64_t>(onTop) << 61 | inverted << 29;
+constexpr uint64_t lateKey(uint32_t depth, bool onTop, uint32_t place = kDefaultPlace) {
+    return kLateKey | static_cast<uint64_t>(onTop) << 61 | uint64_t{ place } << 41 | backToFront(depth);
 }
 
 /// What is opaque, but shows the picture behind it.

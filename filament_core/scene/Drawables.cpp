@@ -43,7 +43,7 @@ size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
     const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material),
                                      uint64_t{ drawable.deformation } << 9 | uint64_t{ drawable.lightChannels } << 1 |
                                              drawable.receivesShadows);
-    return hashCombine(hashCombine(buffers, range), own);
+    return hashCombine(hashCombine(buffers, range), hashCombine(own, placeOrder(drawable.place)));
 }
 
 uint32_t Drawables::acquire(Drawable const& drawable) {
@@ -59,7 +59,7 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
     const uint32_t number = known->second;
     if (isNew) {
         mDrawables[number] = drawable;
-        mUses[number] = { orderOf(*drawable.material), 0 };
+        mUses[number] = { orderOf(*drawable.material), 0, placeOrder(drawable.place) };
     }
     ++mUses[number].users;
     return number;

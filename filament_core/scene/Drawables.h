@@ -9,6 +9,8 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/scene/Materials.h"
 
+#include <filament/Objects.h>
+
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -51,8 +53,12 @@ struct Drawable {
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
     bool receivesShadows = true;
     uint8_t lightChannels = 1; ///< bit n: lights of channel n shine on it
+    DrawPlace place{};
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };
+
+/// Smaller: drawn first. 19 bits.
+constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
 
 class Drawables {
 public:
@@ -78,6 +84,7 @@ public:
     struct Use {
         uint32_t order = 0; ///< material << kInstanceBits | instance, and the flags above
         uint32_t users = 0;
+        uint32_t place = 0; ///< placeOrder() of Drawable::place
     };
     Use use(uint32_t number) const { return mUses[number]; }
     /// All numbers are below this, including those of pairs without users.

@@ -31,6 +31,11 @@ int castingFlag(MaterialInstance const& instance) {
 
 bool isNeverDrawn(Geometry const& geometry, uint8_t layers) { return geometry.indexCount == 0 || layers == 0; }
 
+DrawPlace checked(DrawPlace place) {
+    FILAMENT_ASSERT(place.priority <= DrawPlace::kLastPriority, "a priority is one of 0 to 7");
+    return place;
+}
+
 bool isPoint(Placement const& placement) {
     return placement.rows[0] == float3(0) && placement.rows[1] == float3(0) && placement.rows[2] == float3(0);
 }
@@ -55,8 +60,9 @@ void BoundsColumns::remove(uint32_t gap) {
 }
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
-    const uint32_t drawable = renderables.drawables.acquire(
-            { input.geometry, input.material, input.deformation, input.receivesShadows, input.lightChannels });
+    const uint32_t drawable =
+            renderables.drawables.acquire({ input.geometry, input.material, input.deformation, input.receivesShadows,
+                                            input.lightChannels, checked(input.place) });
     const Renderable handle = renderables.index.add();
     const int flags = (input.culled ? kCulled : 0) | (isNeverDrawn(input.geometry, input.layers) ? kNeverDrawn : 0) |
                       (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
@@ -109,6 +115,11 @@ void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstan
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels) {
     changeDrawable(renderables, renderables.index.at(renderable),
                    [&](Drawable& changed) { changed.lightChannels = channels; });
+}
+
+void setDrawPlace(Renderables& renderables, Renderable renderable, DrawPlace place) {
+    changeDrawable(renderables, renderables.index.at(renderable),
+                   [&](Drawable& changed) { changed.place = checked(place); });
 }
 
 void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, uint8_t layers) {

@@ -79,6 +79,7 @@ struct RenderableInput {
     bool castsShadows = true, receivesShadows = true;
     uint8_t lightChannels = 1;
     uint8_t layers = kDefaultLayers;
+    DrawPlace place{};
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
@@ -86,6 +87,7 @@ void remove(Renderables& renderables, Renderable renderable);
 /// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
+void setDrawPlace(Renderables& renderables, Renderable renderable, DrawPlace place);
 /// Those of `select` become what they are in `layers`.
 void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, uint8_t layers);
 

@@ -70,6 +70,10 @@ void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers) {
                       [&](Renderable renderable) { setLayers(scene.renderables, renderable, select, layers); });
 }
 
+void setDrawPlace(SceneData& scene, Node node, DrawPlace place) {
+    forEachRenderable(scene, node, [&](Renderable renderable) { setDrawPlace(scene.renderables, renderable, place); });
+}
+
 void removeNode(SceneData& scene, Node node) {
     const std::vector<uint32_t> slots = scene.transforms.remove(node);
     for (const uint32_t slot : slots) {

@@ -22,6 +22,7 @@ Node nodeOf(SceneData const& scene, Light light);
 /// Of all renderables attached to the node or to a node below it.
 void setLightChannels(SceneData& scene, Node node, uint8_t channels);
 void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers);
+void setDrawPlace(SceneData& scene, Node node, DrawPlace place);
 
 /// Removes the node, its descendants, and every renderable, light and skin attached to them.
 void removeNode(SceneData& scene, Node node);

@@ -31,6 +31,10 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     readLightChannels(reader, channels);
     spec.copyChannels.push_back(channels);
     readBits(reader, "layers", spec.copyLayers.emplace_back(kDefaultLayers));
+    uint32_t priority = DrawPlace{}.priority, blendOrder = 0;
+    reader.read("priority", priority, 0, DrawPlace::kLastPriority);
+    reader.read("blendOrder", blendOrder, 0, 65535);
+    spec.copyPlaces.push_back({ static_cast<uint8_t>(priority), static_cast<uint16_t>(blendOrder) });
     reader.read("values", spec.copyValues.emplace_back());
     readRaster(reader, spec.copyRasters.emplace_back());
     reader.read("moves", spec.copyMoves.emplace_back(0.0));

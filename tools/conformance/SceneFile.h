@@ -64,6 +64,7 @@ struct SceneSpec {
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
     std::vector<Layers> copyLayers;          ///< the same
+    std::vector<DrawPlace> copyPlaces;       ///< the same
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
     std::vector<CopyRaster> copyRasters;     ///< of each copy: raster states of a material
     std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place

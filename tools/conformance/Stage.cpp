@@ -97,6 +97,7 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
         const Node root = mCopies.emplace_back(mScene->add(*mModel, copy));
         if (channels != kDefaultLightChannels) mScene->setLightChannels(root, channels);
         if (i < spec.copyLayers.size()) mScene->setLayers(root, kAllLayers, spec.copyLayers[i]);
+        if (i < spec.copyPlaces.size()) mScene->setDrawPlace(root, spec.copyPlaces[i]);
         nodesOfOne = mScene->nodeCount() - nodes;
         if (!spec.animationSeconds) continue;
         if (spec.animation >= mModel->animationCount()) {

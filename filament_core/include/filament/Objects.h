@@ -51,6 +51,16 @@ using Node = Handle<struct NodeObject>;             ///< of one Scene
 using Layers = uint8_t;
 inline constexpr Layers kDefaultLayers = 1, kAllLayers = 0xFF;
 
+/// The place of a renderable among what is drawn in an order: what blends, and what is opaque but does not test depth or
+/// leave it. Smaller priorities are drawn first, then smaller blend orders, then what is farther from the camera; those
+/// that agree in all of this keep the order of the scene. What refracts the picture and leaves depth has no place.
+struct DrawPlace {
+    static constexpr uint8_t kLastPriority = 7;
+    uint8_t priority = 4;    ///< [0, kLastPriority]
+    uint16_t blendOrder = 0; ///< among those of one priority
+    friend bool operator==(DrawPlace const&, DrawPlace const&) = default;
+};
+
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
 
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If

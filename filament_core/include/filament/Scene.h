@@ -54,6 +54,7 @@ struct RenderableDesc {
     bool receivesShadows = true;
     LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
     Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
+    DrawPlace drawPlace{};                               ///< among what is drawn in an order
     std::string name{};
 };
 
@@ -93,6 +94,11 @@ public:
     /// For all renderables attached to the node or below it: a copy of a model, for example.
     void setLayers(Node node, Layers select, Layers layers);
     Layers layers(Renderable renderable) const;
+    /// Takes effect with the next frame.
+    void setDrawPlace(Renderable renderable, DrawPlace place);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setDrawPlace(Node node, DrawPlace place);
+    DrawPlace drawPlace(Renderable renderable) const;
     /// For a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 

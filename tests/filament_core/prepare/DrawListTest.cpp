@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <vector>
 
 namespace filament::prepare {
@@ -136,6 +138,38 @@ TEST_F(DrawListTest, AllBlendedIsBackToFrontAndEqualDepthsKeepTheOrderOfTheScene
     expectCoversItsObjects(packet);
     for (uint32_t i = 0; i < 300; ++i) {
         EXPECT_EQ(packet.objects.order[i].renderable, (299 - i) / 2 * 2 + i % 2) << i;
+    }
+}
+
+TEST_F(DrawListTest, PriorityThenBlendOrderThenDistanceThenTheOrderOfTheScene) {
+    const auto* glass = material(shader::Blending::Transparent);
+    scene::MaterialInstance* overlay = material();
+    overlay->raster.depthCulling = false;
+    Random random(5);
+    struct Added {
+        bool blends;
+        DrawPlace place;
+        double distance;
+    };
+    std::vector<Added> added;
+    for (uint32_t i = 0; i < 600; ++i) {
+        const Added one{ random.next() % 2 == 0,
+                         { static_cast<uint8_t>(random.next() % 8), static_cast<uint16_t>(random.next() % 3 * 30'000) },
+                         static_cast<double>(random.next() % 5) };
+        setDrawPlace(scene.renderables, add({ 0.0, 0.0, -one.distance }, one.blends ? glass : overlay), one.place);
+        added.push_back(one);
+    }
+    std::vector<uint32_t> expected(added.size());
+    std::iota(expected.begin(), expected.end(), 0u);
+    std::ranges::stable_sort(expected, {}, [&](uint32_t i) {
+        Added const& one = added[i];
+        return std::tuple(one.blends, one.place.priority, one.place.blendOrder, -one.distance);
+    });
+    for (int workers : { 0, 1, 3, 16 }) {
+        const ViewPacket packet = prepare(workers);
+        ASSERT_EQ(packet.objects.size(), expected.size());
+        for (size_t i = 0; i < expected.size(); ++i)
+            ASSERT_EQ(packet.objects.order[i].renderable, expected[i]) << i << " with " << workers << " workers";
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <vector>
 
 namespace filament::prepare {
 namespace {
@@ -38,7 +39,30 @@ TEST(SortKey, WhatIsNotInFrontCountsAsNearestAndInfinityAsFarthest) {
 
 TEST(SortKey, BlendedKeysFallWithDepthToTheLastBit) {
     EXPECT_GT(blendedKey(depthBits(1.0f)), blendedKey(depthBits(std::nextafter(1.0f, 2.0f))));
-    EXPECT_EQ(blendedKey(depthBits(1.0f)) & 0x7FFF'FFFFu, 0u) << "equal depths keep the order of the scene";
+    EXPECT_EQ(blendedKey(depthBits(1.0f)) & 0x3FFu, 0u) << "equal depths keep the order of the scene";
+}
+
+/// Places, ascending.
+std::vector<uint32_t> someOfAllPlaces() {
+    std::vector<uint32_t> places;
+    for (uint8_t priority = 0; priority <= DrawPlace::kLastPriority; ++priority)
+        for (const uint32_t order : { 0u, 1u, 255u, 256u, 65535u })
+            places.push_back(scene::placeOrder({ priority, static_cast<uint16_t>(order) }));
+    return places;
+}
+
+TEST(SortKey, PlaceBeforeDepthForBlendedAndLateOnes) {
+    const uint32_t far = depthBits(kFarthest), near = depthBits(1e-3f);
+    const std::vector<uint32_t> places = someOfAllPlaces();
+    for (size_t i = 1; i < places.size(); ++i) {
+        EXPECT_LT(blendedKey(0, places[i - 1]), blendedKey(far, places[i])) << i;
+        EXPECT_LT(lateKey(0, false, places[i - 1]), lateKey(far, false, places[i])) << i;
+        EXPECT_LT(lateKey(0, true, places[i - 1]), lateKey(far, true, places[i])) << i;
+    }
+    EXPECT_LT(lateKey(0, false, places.back()), kPictureEndKey);
+    EXPECT_GE(lateKey(far, true, places.front()), kRefractingEndKey);
+    EXPECT_LT(lateKey(0, true, places.back()), blendedKey(far, places.front()));
+    EXPECT_EQ(blendedKey(near), blendedKey(near, scene::placeOrder({})));
 }
 
 TEST(SortKey, OpaqueBeforeBlendedWhateverElse) {
