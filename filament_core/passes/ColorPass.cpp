@@ -5,6 +5,7 @@
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/PicturePass.h"
+#include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
 namespace filament::passes {
@@ -18,10 +19,11 @@ using framegraph::TextureId;
 using prepare::DrawCall;
 
 /// What of the view a pass draws: all, or what is drawn before the first copy of the picture, between two, or after
-/// the last.
+/// the last; and of the last of these what comes before, behind and after what blends in any order.
 struct ColorPart {
     bool isFirst = true, isLast = true; ///< the first draws what is opaque, and the sky
     std::span<const DrawCall> blended;
+    shader::TransparencyTerm transparency = shader::kTransparencyInOrder;
 };
 
 struct Chosen {
@@ -71,9 +73,11 @@ BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
 }
 
 /// What the occlusion of the surfaces behind does not apply to.
-uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSource const& pipelines) {
+uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSource const& pipelines,
+                     shader::TransparencyTerm transparency) {
     PassSlot slot = slotOf(settings, pass.passLayout(), pass.subpass());
     slot.shading = withoutOcclusion(slot.shading);
+    slot.transparency = transparency;
     return pipelines.slot(slot);
 }
 
@@ -82,7 +86,7 @@ ColorPart partOf(prepare::ViewPacket const& view, size_t nth) {
     const size_t first = nth == 0 ? 0 : view.pictures[nth - 1].firstDraw;
     const bool isLast = nth == view.pictures.size();
     const size_t end = isLast ? view.blended.size() : view.pictures[nth].firstDraw;
-    return { nth == 0, isLast, view.blended.subspan(first, end - first) };
+    return { .isFirst = nth == 0, .isLast = isLast, .blended = view.blended.subspan(first, end - first) };
 }
 
 void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks, uint32_t slot,
@@ -112,8 +116,9 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
                 choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
         chooseBackground(pass, context, blocks, slot, chosen);
     }
-    chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedSlot(pass, settings, pipelines),
-                                     chosen.blendedDraws, view.variant, view.channels);
+    const uint32_t blendedAt = blendedSlot(pass, settings, pipelines, blocks.part.transparency);
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedAt, chosen.blendedDraws, view.variant,
+                                     view.channels);
     return chosen;
 }
 
@@ -156,7 +161,9 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
     made.samples = samples == 1
                            ? made.color
                            : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
-    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.settings.keepsDepth)
+    const bool isPeeled = !context.packet.mainView().anyOrder.empty() &&
+                          context.view->quality.transparency == TransparencyOrder::Peeled;
+    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.settings.keepsDepth || isPeeled)
         made.depthOfPicture =
                 samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
     return made;
@@ -202,6 +209,45 @@ void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const
     blocks.textures.pictureLevels = copy.levels;
 }
 
+/// The same part without what follows its first draws.
+ColorPart before(ColorPart part, size_t draws) {
+    part.isLast = false;
+    part.blended = part.blended.first(draws);
+    return part;
+}
+
+/// The last part of a view in which something blends in any order: what is before that in its order, that, and what is
+/// after it.
+void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttachments const& to, std::string_view name,
+                      ColorBlocks blocks) {
+    prepare::ViewPacket const& view = context.packet.mainView();
+    const ColorPart whole = blocks.part;
+    const size_t skipped = view.blended.size() - whole.blended.size();
+    blocks.part = before(whole, view.anyOrder.first - skipped);
+    addPart(graph, context, to, name, blocks);
+    const TransparencyTargets targets{ .color = to.color,
+                                       .samples = to.samples,
+                                       .depth = to.depth,
+                                       .solidDepth = to.depthOfPicture,
+                                       .target = blocks.target,
+                                       .textures = blocks.textures };
+    if (context.view->quality.transparency == TransparencyOrder::Weighted) {
+        addWeightedPasses(graph, context, targets);
+    } else {
+        const PeeledLayers layers = addPeelPasses(graph, context, targets);
+        ColorBlocks beyond = blocks;
+        beyond.textures.occlusion = layers.depth;
+        beyond.part = { .isFirst = false,
+                        .isLast = false,
+                        .blended = view.blended.subspan(view.anyOrder.first, view.anyOrder.end - view.anyOrder.first),
+                        .transparency = shader::kTransparencyBeyond };
+        addPart(graph, context, to, "beyond layers", beyond);
+        addPeeledOver(graph, context, targets, layers);
+    }
+    blocks.part = { .isFirst = false, .isLast = true, .blended = view.blended.subspan(view.anyOrder.end) };
+    if (!blocks.part.blended.empty()) addPart(graph, context, to, "blended", blocks);
+}
+
 } // namespace
 
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
@@ -215,13 +261,19 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     targets.depth = to.depth;
     targets.solidDepth = to.depthOfPicture;
     prepare::ViewPacket const& view = context.packet.mainView();
+    const auto add = [&](std::string_view name) {
+        if (blocks.part.isLast && !view.anyOrder.empty())
+            addComposedParts(graph, context, to, name, blocks);
+        else
+            addPart(graph, context, to, name, blocks);
+    };
     blocks.part = partOf(view, 0);
-    addPart(graph, context, to, "color", blocks);
+    add("color");
     for (size_t i = 0; i < view.pictures.size(); ++i) {
         targets.picture = addPicturePasses(graph, context, to.color, to.depthOfPicture, view.pictures[i]);
         showPicture(context, like, view.pictures[i], targets.picture, blocks);
         blocks.part = partOf(view, i + 1);
-        addPart(graph, context, to, "refraction", blocks);
+        add("refraction");
     }
 }
 

@@ -86,7 +86,8 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
 framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
     framegraph::ColorTarget target{ .overwrites = pass.tiles.empty() &&
                                                   pass.material.package.blending == shader::Blending::Opaque,
-                                    .level = pass.level };
+                                    .level = pass.level,
+                                    .resolve = pass.resolve };
     float4 const& color = pass.clearColor;
     if (pass.clears) target.clear = std::array{ color.x, color.y, color.z, color.w };
     return target;

@@ -50,6 +50,7 @@ struct FullScreenPass {
     std::span<const FullScreenInput> inputs{};
     std::span<const FullScreenValue> values{};
     framegraph::TextureId target{};
+    framegraph::TextureId resolve{};         ///< of a target with several samples a pixel: receives their mean
     uint8_t level = 0;                       ///< of the target
     std::span<const FullScreenTile> tiles{}; ///< only these are drawn, with their own values; none: all of the target
     bool clears = false; ///< what lies outside of the tiles becomes `clearColor`; otherwise it keeps its contents

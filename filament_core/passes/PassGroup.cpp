@@ -17,7 +17,7 @@ namespace {
 shader::PassUniforms uniformsOf(FrameContext const& context, float2 size) {
     prepare::LastView const& last = context.packet.last;
     return { .target = { size, 1.0f / size },
-             .raster = { 1, 0, 0, 0 },
+             .raster = { 1, 0, 0, context.packet.mainView().anyOrder.nearestMeters },
              .picture = float4(0),
              .reflection = float4(0),
              .lastClipFromWorld = last.clipFromWorld,

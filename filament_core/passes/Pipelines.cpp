@@ -168,6 +168,33 @@ BlendState blendState(shader::MaterialPackage const& package) {
     return over;
 }
 
+// What one of the passes of TransparencyPass.h leaves.
+void composeInAnyOrder(PipelineDesc& desc, shader::TransparencyTerm term) {
+    BlendState& blend = desc.blend[0];
+    switch (term) {
+    case shader::kTransparencyWeightedLight:
+        blend.dstColor = blend.dstAlpha = BlendFactor::One;
+        return;
+    case shader::kTransparencyDepth:
+    case shader::kTransparencyNextDepth:
+        blend = { .writeMask = 0 };
+        desc.depthStencil.depthWrite = true;
+        return;
+    case shader::kTransparencyLayer: // under those that are there: Porter and Duff 1984
+        blend.srcColor = blend.srcAlpha = BlendFactor::OneMinusDstAlpha;
+        blend.dstColor = blend.dstAlpha = BlendFactor::One;
+        return;
+    default:
+        return;
+    }
+}
+
+// The alpha of lit materials does not depend on light.
+bool needsNoLight(shader::TransparencyTerm term) {
+    return term == shader::kTransparencyCover || term == shader::kTransparencyDepth ||
+           term == shader::kTransparencyNextDepth;
+}
+
 // Materials guide, 4.2.18. The second of two equal depths passes: both passes run the same vertex stage.
 void usePass(PipelineDesc& desc, shader::TransparencyMode transparency, prepare::DrawPass pass) {
     if (pass == prepare::DrawPass::Only) return;
@@ -294,13 +321,16 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
     }
     if (at.motionOnly)
         return { static_cast<uint16_t>(shader::kVariantMotion | (variant & shader::kVariantSkinning)), 0 };
+    if (material.isLit() && needsNoLight(at.transparency))
+        return { static_cast<uint16_t>(variant & shader::kVariantSkinning), withTransparency(0, at.transparency) };
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
     const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
     ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
     if ((needed & shader::kVariantPunctual) == 0) shading = withoutLightList(shading);
     if (material.package.refractionMode != shader::RefractionMode::ScreenSpace) shading = withoutRefraction(shading);
     if (material.package.reflections != shader::Reflections::ScreenSpace) shading = withoutReflections(shading);
-    return { withPrecision(material, needed, at.precision), isShadowed ? shading : withoutShadows(shading) };
+    shading = withTransparency(isShadowed ? shading : withoutShadows(shading), at.transparency);
+    return { withPrecision(material, needed, at.precision), shading };
 }
 
 void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
@@ -378,6 +408,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);
+    composeInAnyOrder(desc, slot.transparency);
     return desc;
 }
 

@@ -36,7 +36,8 @@ struct PassSlot {
     bool depthOnly = false;    ///< surfaces are drawn by their variants with kVariantDepth
     bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
-    bool isPick = false;       ///< of depthOnly: whatever their material says, they test and leave depth
+    shader::TransparencyTerm transparency = shader::kTransparencyInOrder; ///< all that is drawn blends in any order
+    bool isPick = false;                   ///< of depthOnly: whatever their material says, they test and leave depth
     std::optional<StencilState> stencil{}; ///< of what is drawn there, without references; PipelineCache's own
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };

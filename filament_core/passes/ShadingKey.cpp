@@ -9,8 +9,8 @@ namespace filament::passes {
 namespace {
 
 // In the order of shader::kQualityConstants.
-constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
-                                                                        2, 2, 2, 2, 1, 4, 2, 1, 1, 4 };
+constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
+                                                                        2, 2, 2, 1, 4, 2, 1, 1, 4, 3 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -54,7 +54,8 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              lights.hasAreas ? 1 + static_cast<uint32_t>(quality.areaLights) : 0u,
              lights.hasProfiles ? 1u : 0u,
              lights.hasColoredShadows ? 1u : 0u,
-             static_cast<uint32_t>(quality.shadows) };
+             static_cast<uint32_t>(quality.shadows),
+             0u }; // withTransparency()
 }
 
 } // namespace
@@ -83,6 +84,10 @@ ShadingKey withoutRefraction(ShadingKey key) { return key & ~maskOf(shader::kQua
 ShadingKey withoutReflections(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenReflections); }
 
 ShadingKey ofUnlit(ShadingKey key) { return key & maskOf(shader::kQualityFog); }
+
+ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term) {
+    return (key & ~maskOf(shader::kQualityTransparency)) | ShadingKey{ term } << shiftOf(shader::kQualityTransparency);
+}
 
 ShadingKey withoutShadows(ShadingKey key) {
     return key & ~(maskOf(shader::kQualityColoredShadows) | maskOf(shader::kQualityShadowFilter));

@@ -46,6 +46,8 @@ ShadingKey withoutOcclusion(ShadingKey key);
 ShadingKey withoutRefraction(ShadingKey key);
 /// For what does not mirror the picture.
 ShadingKey withoutReflections(ShadingKey key);
+/// For what blends in any order.
+ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);
 /// The choices of materials that are not lit.
 ShadingKey ofUnlit(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.

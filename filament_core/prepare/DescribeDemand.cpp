@@ -47,6 +47,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: refraction=environment";
     case Effect::Reflections:
         return "switched off: ssr=off";
+    case Effect::Transparency:
+        return "switched off: transparency=sorted";
     case Effect::Fog:
         return "switched off: fog=off";
     case Effect::Taa:
@@ -83,6 +85,7 @@ const char* describeNobody(Effect effect) {
         return "nothing in view refracts the picture";
     case Effect::Reflections:
         return "nothing in view reflects the picture";
+    case Effect::Transparency:
     case Effect::Taa:
     case Effect::DepthOfField:
     case Effect::MotionBlur:
@@ -156,6 +159,9 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
                            demand.count == 1 ? "" : "s");
     case DemandReason::MeasuresPicture:
         return "measures how bright the picture is";
+    case DemandReason::MayOverlap:
+        return demand.others ? fmt::format("{} in view may overlap; {} layers", demand.count, demand.others)
+                             : fmt::format("{} in view may overlap", demand.count);
     case DemandReason::EnlargesPicture:
         return fmt::format("{} x {} pixels are drawn", demand.count, demand.others);
     default:
@@ -167,6 +173,8 @@ std::string describeLack(Effect effect, EffectDemand const& demand) {
     switch (demand.reason) {
     case DemandReason::NothingTransmits:
         return fmt::format("no light passes through what casts ({} maps)", demand.count);
+    case DemandReason::NothingOverlaps:
+        return fmt::format("{} in view that may be composed in any order", demand.count);
     case DemandReason::IsInFocus:
         return "everything visible is in focus";
     case DemandReason::IsNeutral:
@@ -223,6 +231,7 @@ const char* nameOf(Effect effect) {
                                                                "sky",
                                                                "sun disc",
                                                                "blending",
+                                                               "transparency",
                                                                "deformation",
                                                                "stencil",
                                                                "depth prepass",

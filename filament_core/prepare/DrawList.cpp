@@ -13,22 +13,28 @@ struct RangeDraws {
 
 // What drawing order depends on besides state. Nothing but casters is drawn into shadow maps, all of which leave their
 // depth once: there nothing is.
-uint32_t specialOrders(ViewKind kind, RefractionOrder refraction) {
+uint32_t specialOrders(DrawOrder const& order) {
     using scene::Drawables;
-    if (kind == ViewKind::Shadow) return 0;
+    if (order.kind == ViewKind::Shadow) return 0;
     return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
-           Drawables::kNoDepthTestOrder | Drawables::kStencilWriteOrder |
-           (refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
+           Drawables::kNoDepthTestOrder | Drawables::kStencilWriteOrder | (order.composes ? Drawables::kAnyOrder : 0) |
+           (order.refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
+}
+
+Composed composedAs(scene::Drawables::Use use, uint32_t depth, uint32_t special, DrawOrder const& order) {
+    if (!order.composes || use.place != kDefaultPlace) return Composed::Behind;
+    if (special & scene::Drawables::kAnyOrder) return Composed::InAnyOrder;
+    return depth > order.farthest ? Composed::Behind : Composed::InOrder;
 }
 
 uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special,
-               RefractionOrder refraction) {
+               DrawOrder const& order) {
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
-    if (special & Drawables::kBlendedOrder) return blendedKey(depth, use.place);
+    if (special & Drawables::kBlendedOrder) return blendedKey(depth, use.place, composedAs(use, depth, special, order));
     if (special & Drawables::kStencilWriteOrder) return opaqueKey(use.order, item.draw, kStencilSlice, depth);
     if (special & Drawables::kSeesPictureOrder)
-        return refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
+        return order.refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
         return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0, use.place);
     const uint32_t slice = sliceStart(span, use.users >> hidden, coarseStep(depth));
@@ -59,6 +65,12 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              drawable.deformation };
 }
 
+void widen(AnyOrderExtent& extent, uint32_t depth) {
+    ++extent.count;
+    if (depth > 0) extent.nearest = std::min(extent.nearest, depth);
+    extent.farthest = std::max(extent.farthest, depth);
+}
+
 // Returns the number of triangles in the range.
 uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem> items, size_t begin, size_t end,
                     DrawCall* draws) {
@@ -82,12 +94,32 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
 
 } // namespace
 
+AnyOrderExtent findAnyOrder(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
+                            VisibleItems const& visible) {
+    const auto ranges = arena.array<AnyOrderExtent>(visible.firsts.size() - 1);
+    jobs::parallelFor<"any order">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
+        const size_t range = begin / kCullRange, count = visible.firsts[range + 1] - visible.firsts[range];
+        for (SortItem const& item : visible.slots.subspan(begin, count)) {
+            const scene::Drawables::Use use = drawables.use(drawableOf(item.draw));
+            if ((use.order & scene::Drawables::kAnyOrder) && use.place == kDefaultPlace)
+                widen(ranges[range], static_cast<uint32_t>(item.key));
+        }
+    });
+    AnyOrderExtent all;
+    for (AnyOrderExtent const& range : ranges) {
+        all.count += range.count;
+        all.nearest = std::min(all.nearest, range.nearest);
+        all.farthest = std::max(all.farthest, range.farthest);
+    }
+    return all;
+}
+
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind, RefractionOrder refraction) {
+                              VisibleItems const& visible, DrawOrder const& order) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
-    const uint32_t specials = specialOrders(kind, refraction);
+    const uint32_t specials = specialOrders(order);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -96,7 +128,7 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
             const scene::Drawables::Use use = drawables.use(drawableOf(from->draw));
             static_assert(scene::Drawables::kTwoPassesOrder << 1 == kDrawnTwice);
             const uint32_t special = use.order & specials;
-            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, special, refraction), from->renderable,
+            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, special, order), from->renderable,
                          from->draw | (special & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });

@@ -24,10 +24,25 @@ enum class RefractionOrder : uint8_t {
     BackToFront, ///< the same; each sees those behind it
 };
 
+/// What is visible and may be composed in any order: it has the default place, and blendsInAnyOrder().
+struct AnyOrderExtent {
+    uint32_t count = 0;
+    uint32_t nearest = ~0u, farthest = 0; ///< depthBits() of those in front of the camera
+};
+AnyOrderExtent findAnyOrder(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
+                            VisibleItems const& visible);
+
+/// What orders the draws of a view, besides their own state and depth.
+struct DrawOrder {
+    ViewKind kind = ViewKind::Color;
+    RefractionOrder refraction = RefractionOrder::Any;
+    bool composes = false; ///< what may be composed in any order is
+    uint32_t farthest = 0; ///< of AnyOrderExtent
+};
+
 /// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind,
-                              RefractionOrder refraction = RefractionOrder::Any);
+                              VisibleItems const& visible, DrawOrder const& order = {});
 
 /// The part of a sorted list with keys below `key`: kLateKey for what comes before the sky, kPictureEndKey for what
 /// refracting objects see.

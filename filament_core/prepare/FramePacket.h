@@ -106,6 +106,13 @@ struct ProfileLists {
     bool empty() const { return lights.empty(); }
 };
 
+/// The draws of ViewPacket::blended that Quality::transparency composes in any order; none: all are drawn in order.
+struct AnyOrderDraws {
+    uint32_t first = 0, end = 0; ///< of `blended`
+    float nearestMeters = 0; ///< how near the nearest of them is, by the middle of its box; weights count from there
+    bool empty() const { return first == end; }
+};
+
 /// What one view sees.
 struct ViewPacket {
     ViewKind kind = ViewKind::Color;
@@ -120,6 +127,7 @@ struct ViewPacket {
     std::span<const DrawCall> opaque;      ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended;     ///< back to front; none where nothing is shaded
     std::span<const PictureCopy> pictures; ///< for what of `blended` refracts what is drawn before it; none: nothing
+    AnyOrderDraws anyOrder;
     ViewCounts counts;
 };
 

@@ -5,6 +5,8 @@
 #include "filament_core/prepare/HashWords.h"
 #include "filament_core/prepare/ObjectData.h"
 
+#include <bit>
+
 namespace filament::prepare {
 namespace {
 
@@ -94,6 +96,8 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed) {
     for (DrawCall const& draw : view.blended) seed = hashDraw(draw, seed);
     seed = hashWords(seed, view.kind, view.variant, view.hasAreaLights, view.lights.size(), view.objects.size(),
                      view.opaque.size(), view.blended.size());
+    seed = hashWords(seed, view.anyOrder.first, view.anyOrder.end,
+                     std::bit_cast<uint32_t>(view.anyOrder.nearestMeters));
     for (PictureCopy const& copy : view.pictures)
         seed = hashWords(seed, copy.rect.x, copy.rect.y, copy.rect.width, copy.rect.height, copy.levels,
                          copy.firstDraw);

@@ -11,6 +11,7 @@
 #include "filament_core/prepare/ViewConstants.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace filament::prepare {
 namespace {
@@ -76,6 +77,19 @@ RefractionOrder refractionOrder(ViewInput const& view) {
     return view.quality.refractionLayers > 1 ? RefractionOrder::BackToFront : RefractionOrder::FrontToBack;
 }
 
+/// Looks for what may be composed in any order only where that is asked for.
+AnyOrderExtent anyOrderIn(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables, ViewInput const& view,
+                          VisibleItems const& visible) {
+    const bool isAsked = isShaded(view.kind) && asksForAnyOrder(view.quality, view.debugView);
+    return isAsked ? findAnyOrder(jobs, arena, drawables, visible) : AnyOrderExtent{};
+}
+
+AnyOrderDraws anyOrderDraws(std::span<const SortItem> order, std::span<const DrawCall> blended, uint32_t nearest) {
+    return { .first = static_cast<uint32_t>(drawsBefore(blended, itemsBefore(order, kAnyOrderKey).size())),
+             .end = static_cast<uint32_t>(drawsBefore(blended, itemsBefore(order, kAnyOrderEndKey).size())),
+             .nearestMeters = nearest == ~0u ? 1 : std::bit_cast<float>(nearest) };
+}
+
 } // namespace
 
 PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view) {
@@ -103,14 +117,18 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     scene::Renderables const& renderables = scene.renderables;
     prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
     const RefractionOrder refraction = refractionOrder(view);
-    const std::span<SortItem> items =
-            writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind, refraction);
+    const AnyOrderExtent any = anyOrderIn(jobs, arena, renderables.drawables, view, prepared.visible);
+    const bool composes = overlaps(any.count);
+    packet.counts.anyOrderObjects = any.count;
+    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible,
+                                                { view.kind, refraction, composes, any.farthest });
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();
 
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
+    if (composes) packet.anyOrder = anyOrderDraws(order, packet.blended, any.nearest);
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
     if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
         packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,

@@ -42,6 +42,16 @@ EffectDemand demandOfStencil(ViewCounts const& counts) {
     return { true, DemandReason::IsVisible, counts.stencilDraws };
 }
 
+EffectDemand demandOfTransparency(DemandInput const& input) {
+    Quality const& quality = input.quality;
+    if (!asksForAnyOrder(quality, DebugView::None)) return { .reason = DemandReason::SwitchedOff };
+    if (!asksForAnyOrder(quality, input.debugView)) return { .reason = DemandReason::NothingAsks };
+    const uint32_t objects = input.counts.anyOrderObjects;
+    if (!overlaps(objects)) return { false, DemandReason::NothingOverlaps, objects };
+    const bool isPeeled = quality.transparency == TransparencyOrder::Peeled;
+    return { true, DemandReason::MayOverlap, objects, isPeeled ? quality.transparencyLayers : 0u };
+}
+
 EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
     if (inView) return { true, DemandReason::ShowsInSky, inView, outOfView };
     return { false, outOfView ? DemandReason::OutOfView : DemandReason::NotInScene, 0, outOfView };
@@ -249,6 +259,7 @@ SceneDemand findDemand(DemandInput const& input) {
     if (input.hasSky) set(Effect::Sky, { true, DemandReason::FillsBackground });
     set(Effect::SunDisc, demandOfDiscs(input.discsInView, input.discsOutOfView));
     set(Effect::Blending, demandOfDraws(counts.blendedDraws));
+    set(Effect::Transparency, demandOfTransparency(input));
     set(Effect::Deformation, demandOfDraws(input.deformed));
     set(Effect::Stencil, demandOfStencil(counts));
     set(Effect::AmbientOcclusion, demandOfOcclusion(input));

@@ -30,6 +30,7 @@ enum class Effect : uint8_t {
     Sky,
     SunDisc, ///< discs of suns, and their halos
     Blending,
+    Transparency, ///< what blends is composed in any order
     Deformation,
     Stencil,      ///< stencil values beside the depths
     DepthPrepass, ///< of what is opaque, before anything is shaded
@@ -53,7 +54,7 @@ enum class Effect : uint8_t {
     Sharpening,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 32;
+inline constexpr size_t kEffects = 33;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -82,6 +83,7 @@ enum class DemandReason : uint8_t {
     IsOutOfFocus,         ///< something visible is, by `count` pixels at most
     MeasuresPicture,
     EnlargesPicture, ///< of `count` by `others` pixels
+    MayOverlap,      ///< `count` objects do; `others`: layers that are peeled, 0: none are
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -102,6 +104,7 @@ enum class DemandReason : uint8_t {
     NothingShines,     ///< nothing is in view, not even a sky
     NothingHasEdges,   ///< no surface is in view
     IsInFocus,         ///< everything that is visible
+    NothingOverlaps,   ///< `count` objects, 0 or 1, need no order
 };
 
 struct EffectDemand {
@@ -149,6 +152,16 @@ inline bool gathersFrames(Quality const& quality, DebugView debugView) {
 inline bool gathersLarger(Quality const& quality, DebugView debugView) {
     return gathersFrames(quality, debugView) && quality.upscale == Upscaling::Off;
 }
+
+/// Whether the view composes what blends in any order, if that may overlap. One layer is what sorting draws.
+inline bool asksForAnyOrder(Quality const& quality, DebugView debugView) {
+    const bool isSorted = quality.transparency == TransparencyOrder::Sorted ||
+                          (quality.transparency == TransparencyOrder::Peeled && quality.transparencyLayers <= 1);
+    return !isSorted && debugView == DebugView::None;
+}
+
+/// Whether so many objects need an order.
+constexpr bool overlaps(uint32_t objects) { return objects > 1; }
 
 /// The pixels that a view draws of `size`.
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);

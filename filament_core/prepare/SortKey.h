@@ -17,6 +17,8 @@
 ///             0    alone      of class 1: a draw call of its own, because those behind it may be seen through it
 ///   blended  63-62 11
 ///            43-61 place      priority (3 bits) and blend order (16 bits) of the renderable: DrawPlace
+///            41-42 composed   with Quality::transparency: 0: behind all that is composed in any order, 1: that, 2: the
+///                             rest; otherwise 0
 ///            10-40 depth      of the renderable, every bit, inverted: back to front
 ///
 /// A draw is what instances can share: geometry, material instance and side. Its renderables are cut into slices by
@@ -104,12 +106,19 @@ constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint
 /// `depth`: depthBits(), whose highest bit is 0.
 constexpr uint64_t backToFront(uint32_t depth) { return uint64_t{ ~depth & 0x7FFF'FFFFu } << 10; }
 
+/// When Quality::transparency draws what blends.
+enum class Composed : uint8_t { Behind, InAnyOrder, InOrder };
+
 inline constexpr uint32_t kDefaultPlace = scene::placeOrder({});
 
 /// `place`: scene::placeOrder().
-constexpr uint64_t blendedKey(uint32_t depth, uint32_t place = kDefaultPlace) {
-    return kBlendedKey | uint64_t{ place } << 43 | backToFront(depth);
+constexpr uint64_t blendedKey(uint32_t depth, uint32_t place = kDefaultPlace, Composed composed = Composed::Behind) {
+    return kBlendedKey | uint64_t{ place } << 43 | static_cast<uint64_t>(composed) << 41 | backToFront(depth);
 }
+
+/// From here on, up to the end: composed in any order.
+inline constexpr uint64_t kAnyOrderKey = kBlendedKey | uint64_t{ kDefaultPlace } << 43 | 1ull << 41;
+inline constexpr uint64_t kAnyOrderEndKey = kAnyOrderKey + (1ull << 41);
 
 /// What is opaque, but has to be drawn after the sky.
 constexpr uint64_t lateKey(uint32_t depth, bool onTop, uint32_t place = kDefaultPlace) {

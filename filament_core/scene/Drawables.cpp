@@ -22,11 +22,18 @@ uint32_t orderOf(MaterialInstance const& instance) {
     constexpr uint32_t kMaterialMask = (1u << Drawables::kMaterialBits) - 1;
     constexpr uint32_t kInstanceMask = (1u << Drawables::kInstanceBits) - 1;
     const uint32_t twice = instance.material->hasTwoPasses() ? Drawables::kTwoPassesOrder : 0;
-    return depthOrder(instance) | twice | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
+    const uint32_t any = blendsInAnyOrder(instance) ? Drawables::kAnyOrder : 0;
+    return depthOrder(instance) | twice | any | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
            (instance.id & kInstanceMask);
 }
 
 } // namespace
+
+bool blendsInAnyOrder(MaterialInstance const& instance) {
+    InstanceRaster const& raster = instance.raster;
+    return shader::blendsInAnyOrder(instance.material->package) && raster.colorWrite && raster.depthCulling &&
+           !raster.depthWrite && !raster.stencil;
+}
 
 uint32_t GeometryLayouts::intern(GeometryLayout const& layout) {
     for (uint32_t i = 0; i < mLayouts.size(); ++i) {

@@ -60,6 +60,11 @@ struct Drawable {
 /// Smaller: drawn first. 19 bits.
 constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
 
+/// Whether Quality::transparency may compose what this material draws without sorting it: it covers what is behind it,
+/// tests depth and leaves none, has no stencil state, draws no depth of its own first, and shows no copy of the
+/// picture.
+bool blendsInAnyOrder(MaterialInstance const& instance);
+
 class Drawables {
 public:
     /// Bits of Use::order: neighbours in this order share programs, then parameters. Ids beyond 12 bits wrap around,
@@ -69,9 +74,10 @@ public:
     static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
     /// Opaque, but leaves no depth by which it could keep its place: drawn after the sky, before what blends.
     static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
-    static constexpr uint32_t kNoDepthTestOrder = 1u << 28;  ///< opaque on top of all other opaque objects: after those
-    static constexpr uint32_t kSeesPictureOrder = 1u << 27;  ///< opaque, but shows what is drawn behind it
-    static constexpr uint32_t kStencilWriteOrder = 1u << 26; ///< opaque, and changes what others test: before those
+    static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
+    static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but shows what is drawn behind it
+    static constexpr uint32_t kAnyOrder = 1u << 26; ///< blended, but may be composed in any order (blendsInAnyOrder())
+    static constexpr uint32_t kStencilWriteOrder = 1u << 25; ///< opaque, and changes what others test: before those
 
     /// The number of this pair; adds a user.
     uint32_t acquire(Drawable const& drawable);

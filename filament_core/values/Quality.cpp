@@ -47,6 +47,8 @@ constexpr std::string_view kAoSlices[] = { "1", "2", "3" };
 constexpr std::string_view kAmbientOcclusionResolutions[] = { "half", "full", "checkerboard" };
 constexpr std::string_view kRefractionSources[] = { "screen", "environment" };
 constexpr std::string_view kRefractionLayers[] = { "1", "2", "4", "8" };
+constexpr std::string_view kTransparencyOrders[] = { "sorted", "weighted", "peeled" };
+constexpr std::string_view kTransparencyLayers[] = { "1", "2", "4", "8" };
 constexpr std::string_view kSsrSteps[] = { "16", "48", "128" };
 constexpr std::string_view kContactSteps[] = { "8", "16", "32" };
 constexpr std::string_view kDepthPrepasses[] = { "auto", "on", "off" };
@@ -133,6 +135,9 @@ constexpr std::array kFields{
     enumField<&Quality::aoBentNormals>("aoBentNormals", kBooleans),
     enumField<&Quality::refraction>("refraction", kRefractionSources),
     numberField<&Quality::refractionLayers, 1, 8>("refractionLayers", kRefractionLayers, "a whole number from 1 to 8"),
+    enumField<&Quality::transparency>("transparency", kTransparencyOrders),
+    numberField<&Quality::transparencyLayers, 1, 8>("transparencyLayers", kTransparencyLayers,
+                                                    "a whole number from 1 to 8"),
     enumField<&Quality::ssr>("ssr", kBooleans),
     numberField<&Quality::ssrSteps, 8, 255>("ssrSteps", kSsrSteps, "a whole number from 8 to 255"),
     numberField<&Quality::contactSteps, 4, 64>("contactSteps", kContactSteps, "a whole number from 4 to 64"),
@@ -216,6 +221,7 @@ const char* toString(AreaLightTerm value) { return wordOf(kAreaLightTerms, value
 const char* toString(AmbientOcclusionTerm value) { return wordOf(kAmbientOcclusionTerms, value); }
 const char* toString(AmbientOcclusionResolution value) { return wordOf(kAmbientOcclusionResolutions, value); }
 const char* toString(RefractionSource value) { return wordOf(kRefractionSources, value); }
+const char* toString(TransparencyOrder value) { return wordOf(kTransparencyOrders, value); }
 const char* toString(DepthPrepass value) { return wordOf(kDepthPrepasses, value); }
 const char* toString(DepthRange value) { return wordOf(kDepthRanges, value); }
 const char* toString(QualityPreset value) { return wordOf(kPresets, value); }
@@ -275,6 +281,9 @@ std::optional<AmbientOcclusionResolution> ambientOcclusionResolutionFromName(std
 }
 std::optional<RefractionSource> refractionSourceFromName(std::string_view name) {
     return valueOf<RefractionSource>(kRefractionSources, name);
+}
+std::optional<TransparencyOrder> transparencyOrderFromName(std::string_view name) {
+    return valueOf<TransparencyOrder>(kTransparencyOrders, name);
 }
 std::optional<DepthPrepass> depthPrepassFromName(std::string_view name) {
     return valueOf<DepthPrepass>(kDepthPrepasses, name);

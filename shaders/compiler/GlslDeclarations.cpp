@@ -110,9 +110,9 @@ void declareQuality(StageText& out) {
     for (QualityConstant const& constant : kQualityConstants) declareConstant(out, constant);
 }
 
-void declareFogQuality(StageText& out) {
-    const auto* const fog = std::ranges::find(kQualityConstants, uint32_t{ kQualityFog }, &QualityConstant::id);
-    declareConstant(out, *fog);
+void declareUnlitQuality(StageText& out) {
+    for (const uint32_t id : { uint32_t{ kQualityFog }, uint32_t{ kQualityTransparency } })
+        declareConstant(out, *std::ranges::find(kQualityConstants, id, &QualityConstant::id));
 }
 
 void declareInterface(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {

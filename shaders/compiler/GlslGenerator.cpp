@@ -267,6 +267,14 @@ Result<void> includeFog(StageText& out, MaterialPackage const& package) {
                              "shaders/material/surface/apply_fog.glsl" });
 }
 
+/// Only in materials whose surfaces may be composed in any order.
+Result<void> includeTransparency(StageText& out, MaterialPackage const& package) {
+    if (!blendsInAnyOrder(package)) return {};
+    out.define("BLENDS_IN_ANY_ORDER");
+    return includeAll(out, { "shaders/lib/distance.glsl", "shaders/lib/transparency.glsl",
+                             "shaders/material/surface/transparency.glsl" });
+}
+
 /// Authors' models, cloth and subsurface have no transformed lobe.
 Result<void> areaLights(StageText& out, MaterialDefinition const& definition) {
     const ShadingModel shading = definition.package.shading;
@@ -295,6 +303,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && refracts(definition))
         done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
     if (done) done = out.include("shaders/material/surface/output.glsl");
+    if (done) done = includeTransparency(out, definition.package);
     if (done) done = includeFog(out, definition.package);
     if (done && (variantKey & kVariantShadowReceiver) != 0) done = includeShadows(out, definition.package);
     if (done)
@@ -391,11 +400,12 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if (isShadowed)
         declareQuality(out);
     else if (!isLit)
-        declareFogQuality(out);
+        declareUnlitQuality(out);
     if (done && isShadowed) done = includeShadows(out, definition.package);
     if (done && !isLit) done = includeFog(out, definition.package);
-    if (done && !isLit)
-        done = includeAll(out, { "shaders/material/surface/output.glsl", "shaders/material/surface/unlit_main.glsl" });
+    if (done && !isLit) done = out.include("shaders/material/surface/output.glsl");
+    if (done && !isLit) done = includeTransparency(out, definition.package);
+    if (done && !isLit) done = out.include("shaders/material/surface/unlit_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
 }

@@ -6,7 +6,7 @@
 ///     material            its own   of the engine, with every effect on
 ///     lit                    9        7
 ///     lit, screen space      8        8   reflects or refracts the picture
-///     unlit                 12        3
+///     unlit                 12        4
 ///     without fog           +1       -1
 ///     featureLevel 3        16        as above; using all 16 needs a device with more than 16
 ///
@@ -59,7 +59,7 @@ inline constexpr std::array kEngineTextures{
     EngineTexture{ "environment",       kReadByLit,                              kBindingSpecular },
     EngineTexture{ "lighting tables",   kReadByLit,                              kBindingDfg },
     EngineTexture{ "irradiance",        kReadByLit,                              kBindingIrradiance },
-    EngineTexture{ "ambient occlusion", kReadByLit,                              kBindingOcclusion },
+    EngineTexture{ "ambient occlusion", kReadByLit | kReadByUnlit,               kBindingOcclusion }, // or peeled depth
     EngineTexture{ "depth",             kReadByLit | kReadByUnlit,               kBindingSceneDepth },
     EngineTexture{ "fog",               kReadByLit | kReadByUnlit | kReadForFog, kBindingFog },
     EngineTexture{ "picture behind",    kReadByScreenSpace,                      kBindingPicture },

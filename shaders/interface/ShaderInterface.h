@@ -51,7 +51,7 @@ enum PassBinding : uint8_t {
     kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
-    kBindingOcclusion = 6,   ///< sampler2D: ambient occlusion of what is opaque; r: visibility; with bent normals gba: encodeLean() of the open direction
+    kBindingOcclusion = 6,   ///< sampler2D: where surfaces are peeled (TransparencyTerm), the depth of a layer; otherwise ambient occlusion of what is opaque, for lit materials; r: visibility; with bent normals gba: encodeLean() of the open direction
     kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels
@@ -86,7 +86,7 @@ struct FrameUniforms {
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: unused
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: metres from which on transparencyWeight() falls
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they hit, metres; w: last level of the pyramid of distances
     float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none
@@ -217,6 +217,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture; 2: -1 - the metres to what is hit, in red
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
+    kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -226,6 +227,17 @@ enum FogTerms : uint8_t {
     kFogFromEnvironment = 2, ///< its colour is that of the environment behind
     kFogFromRgbm = 4,        ///< which is encoded
     kFogSun = 8,             ///< scatters the light of the sun
+};
+
+/// What materials that blend in any order write (shaders/material/surface/transparency.glsl).
+enum TransparencyTerm : uint8_t {
+    kTransparencyInOrder = 0,       ///< their colour, to be blended in order
+    kTransparencyWeightedLight = 1, ///< their colour and alpha by weight, to be added up
+    kTransparencyCover = 2,         ///< their alpha alone, for how much they cover together
+    kTransparencyDepth = 3,         ///< nothing: their depth counts
+    kTransparencyNextDepth = 4,     ///< the same, of what is farther than a layer
+    kTransparencyLayer = 5,         ///< their colour, where they are that layer
+    kTransparencyBeyond = 6,        ///< their colour, where they are farther than it
 };
 
 inline constexpr std::array kQualityConstants{
@@ -249,6 +261,7 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "lightProfiles", kQualityLightProfiles },
     QualityConstant{ "coloredShadows", kQualityColoredShadows },
     QualityConstant{ "shadowFilter", kQualityShadowFilter },
+    QualityConstant{ "transparency", kQualityTransparency },
 };
 
 // clang-format on

@@ -61,6 +61,7 @@ namespace {
 #include "shaders/lib/tangent.glsl"
 #include "shaders/lib/temporal.glsl"
 #include "shaders/lib/tone.glsl"
+#include "shaders/lib/transparency.glsl"
 
 } // namespace
 #pragma GCC diagnostic pop

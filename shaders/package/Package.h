@@ -143,6 +143,14 @@ inline bool transmitsLight(MaterialPackage const& package) {
     return isModelled && package.refractionMode != RefractionMode::None;
 }
 
+/// Whether Quality::transparency may compose its surfaces without sorting them, if they test depth and leave none: they
+/// cover what is behind them, draw no depth of their own first, and show no copy of the picture.
+inline bool blendsInAnyOrder(MaterialPackage const& package) {
+    const bool covers = package.blending == Blending::Transparent || package.blending == Blending::Fade;
+    return covers && package.transparency != TransparencyMode::TwoPassesOneSide &&
+           package.refractionMode != RefractionMode::ScreenSpace;
+}
+
 /// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
 inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
 /// Name of the bool that says whether back faces are lit as front faces; its default is MaterialPackage::doubleSided.

@@ -508,6 +508,37 @@ class ReflectionReachEdit final : public PassBlocksEdit {
     }
 };
 
+/// What blends in any order weighs the same at any distance.
+class OneWeightEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        constexpr size_t kNearest = offsetof(shader::PassUniforms, raster) + 3 * sizeof(float);
+        for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
+            const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+            const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
+            const bool isPass = number(0) >= 1 && number(1) >= 1 && isReciprocal(0) && isReciprocal(1) &&
+                                (number(4) == 1 || number(4) == 4) && number(7) > 0;
+            if (isPass) writeFloat(bytes, at + kNearest, 0);
+        }
+    }
+};
+
+/// The second peeled layer is the first once more, and so are all after it.
+class LayerAgainEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void inspect(CommandView) override { mChanged.clear(); }
+    void edit(CmdCreateProgram& command) override {
+        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
+        const auto term = std::ranges::find(constants, uint32_t{ shader::kQualityTransparency }, &ConstantValue::id);
+        if (term != constants.end() && term->bits == shader::kTransparencyNextDepth)
+            term->bits = shader::kTransparencyDepth;
+        command.desc.constants = constants;
+    }
+
+private:
+    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
+};
+
 class ShadowShiftEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -683,6 +714,8 @@ constexpr Mutation kMutations[] = {
     { "thickness", "thickness of solids + 5 %", thickness },
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
+    { "oneWeight", "what blends in any order weighs the same at any distance", make<OneWeightEdit> },
+    { "layerAgain", "every peeled layer is the nearest one", make<LayerAgainEdit> },
     { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
     { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
     { "fxaaBrightness", "FXAA takes the picture's values for light",

@@ -54,6 +54,7 @@ inline constexpr Layers kDefaultLayers = 1, kAllLayers = 0xFF;
 /// The place of a renderable among what is drawn in an order: what blends, and what is opaque but does not test depth or
 /// leave it. Smaller priorities are drawn first, then smaller blend orders, then what is farther from the camera; those
 /// that agree in all of this keep the order of the scene. What refracts the picture and leaves depth has no place.
+/// Quality::transparency composes in any order only what has the default place.
 struct DrawPlace {
     static constexpr uint8_t kLastPriority = 7;
     uint8_t priority = 4;    ///< [0, kLastPriority]

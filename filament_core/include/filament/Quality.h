@@ -152,6 +152,18 @@ enum class RefractionSource : uint8_t {
     Environment, ///< the environment alone
 };
 
+/// How surfaces that blend come over each other.
+enum class TransparencyOrder : uint8_t {
+    Sorted, ///< object by object, the farthest first
+    /// In any order, as a mean that weights what is near most: McGuire and Bavoil 2013, "Weighted Blended
+    /// Order-Independent Transparency". For many thin layers, such as smoke and leaves: nothing flickers when objects pass
+    /// each other.
+    Weighted,
+    /// Pixel by pixel, the nearest layers first (Everitt 2001, "Interactive Order-Independent Transparency"): exact, also
+    /// where surfaces intersect, up to Quality::transparencyLayers.
+    Peeled,
+};
+
 /// Whether what is opaque leaves its depth before anything is shaded, so that each pixel is shaded once.
 enum class DepthPrepass : uint8_t {
     Auto, ///< where another effect reads the depths anyway
@@ -233,6 +245,9 @@ struct Quality {
     /// How often the picture is copied for what refracts it, [1, 8]. 1: refracting objects show what is opaque. n: they
     /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.
     uint8_t refractionLayers = 1;
+    TransparencyOrder transparency = TransparencyOrder::Sorted;
+    uint8_t transparencyLayers =
+            4;                 ///< of Peeled, [1, 8]: all but the last are peeled, the last is what is left, sorted
     bool ssr = false;          ///< reflections of the picture, on materials that ask for them
     uint8_t ssrSteps = 48;     ///< cells of the pyramid of distances that a reflected ray visits at most, [8, 255]
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
@@ -267,6 +282,7 @@ const char* toString(AreaLightTerm value);
 const char* toString(AmbientOcclusionTerm value);
 const char* toString(AmbientOcclusionResolution value);
 const char* toString(RefractionSource value);
+const char* toString(TransparencyOrder value);
 const char* toString(DepthPrepass value);
 const char* toString(DepthRange value);
 const char* toString(QualityPreset value);
@@ -290,6 +306,7 @@ std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);
 std::optional<AmbientOcclusionTerm> ambientOcclusionTermFromName(std::string_view name);
 std::optional<AmbientOcclusionResolution> ambientOcclusionResolutionFromName(std::string_view name);
 std::optional<RefractionSource> refractionSourceFromName(std::string_view name);
+std::optional<TransparencyOrder> transparencyOrderFromName(std::string_view name);
 std::optional<DepthPrepass> depthPrepassFromName(std::string_view name);
 std::optional<DepthRange> depthRangeFromName(std::string_view name);
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name);

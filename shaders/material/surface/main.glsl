@@ -10,6 +10,9 @@ void main() {
     prepareMaterial(inputs); // the author did not
 #endif
     applyMask(inputs.baseColor);
+#if defined(BLENDS_IN_ANY_ORDER)
+    keepLayer(inputs.baseColor.a);
+#endif
 
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
@@ -48,6 +51,9 @@ void main() {
 #endif
 #if defined(REFLECTION_OF_PICTURE)
     if (quality_screenReflections == 2) color.rgb = codeOfHit(surface.mirrored);
+#endif
+#if defined(BLENDS_IN_ANY_ORDER)
+    color = composedColor(color);
 #endif
     fragment_color = color;
 }

@@ -7,6 +7,9 @@ void main() {
     computeShadingGeometry();
     material(inputs);
     applyMask(inputs.baseColor);
+#if defined(BLENDS_IN_ANY_ORDER)
+    keepLayer(inputs.baseColor.a);
+#endif
     vec4 color = vec4(inputs.baseColor.rgb, outputAlpha(inputs.baseColor.a));
     addEmissive(inputs, color);
 #if defined(SHADOW_MULTIPLIER)
@@ -21,6 +24,9 @@ void main() {
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)
     if (quality_fog != 0) applyFog(color, vec3(0.0), vec3(0.0));
+#endif
+#if defined(BLENDS_IN_ANY_ORDER)
+    color = composedColor(color);
 #endif
     fragment_color = color;
 }

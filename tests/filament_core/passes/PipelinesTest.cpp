@@ -173,6 +173,63 @@ TEST(PipelineCache, TwoSidesDrawTheBackFacesAndThenTheFrontFaces) {
     }
 }
 
+/// The pipeline of a material that blends in any order, by what the pass is for.
+PipelineDesc composing(shader::TransparencyTerm term, shader::ShadingModel shading = shader::ShadingModel::Lit) {
+    DrawFixture fixture(1, 1, 1);
+    shader::MaterialPackage& package = fixture.materials[0].package;
+    package.shading = shading;
+    package.blending = shader::Blending::Fade;
+    fixture.instances[0].raster.depthWrite = false;
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F }, .transparency = term };
+    slot.layout.subpasses[0].usesDepth = true;
+    fixture.slot = fixture.pipelines->slot(slot);
+    CommandBuffer setup;
+    (void)fixture.choose(std::vector{ fixture.draw(0, 0, 0) }, setup);
+    return createdBy(setup).descs.at(0);
+}
+
+TEST(PipelineCache, EachPassOfTransparencyBlendsAndLeavesDepthAsItsSumNeeds) {
+    using enum BlendFactor;
+    const auto expectBlend = [](shader::TransparencyTerm term, BlendFactor source, BlendFactor target) {
+        const PipelineDesc desc = composing(term);
+        const BlendState expected{
+            .enabled = true, .srcColor = source, .dstColor = target, .srcAlpha = source, .dstAlpha = target
+        };
+        EXPECT_EQ(desc.blend[0], expected) << int{ term };
+        EXPECT_FALSE(desc.depthStencil.depthWrite) << int{ term };
+        EXPECT_EQ(desc.depthStencil.depthCompare, CompareOp::GreaterEqual) << int{ term };
+    };
+    expectBlend(shader::kTransparencyInOrder, One, OneMinusSrcAlpha);
+    expectBlend(shader::kTransparencyBeyond, One, OneMinusSrcAlpha);
+    expectBlend(shader::kTransparencyCover, One, OneMinusSrcAlpha);
+    expectBlend(shader::kTransparencyWeightedLight, One, One);
+    expectBlend(shader::kTransparencyLayer, OneMinusDstAlpha, One);
+    for (const auto term : { shader::kTransparencyDepth, shader::kTransparencyNextDepth }) {
+        const PipelineDesc desc = composing(term);
+        EXPECT_EQ(desc.blend[0].writeMask, 0);
+        EXPECT_TRUE(desc.depthStencil.depthWrite);
+        EXPECT_EQ(desc.depthStencil.depthCompare, CompareOp::GreaterEqual);
+    }
+}
+
+TEST(PipelineCache, WhereAlphaAloneCountsALitMaterialTakesTheProgramWithoutLight) {
+    DrawFixture fixture(1, 1, 1);
+    shader::MaterialPackage& package = fixture.materials[0].package;
+    package.shading = shader::ShadingModel::Lit;
+    package.blending = shader::Blending::Transparent;
+    const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0) };
+    CommandBuffer setup;
+    for (const uint8_t variant : { uint8_t{ 0 }, uint8_t{ shader::kVariantSun } }) {
+        for (const auto term :
+             { shader::kTransparencyCover, shader::kTransparencyDepth, shader::kTransparencyNextDepth }) {
+            fixture.slot = fixture.pipelines->slot(
+                    { .shading = shadingKey({ .fresnel = FresnelTerm::Exact }), .transparency = term });
+            EXPECT_TRUE(fixture.choose(draws, setup, nullptr, variant)[0]);
+        }
+    }
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[0]), 3u) << "one for each term";
+}
+
 TEST(PipelineCache, CullingOfBothFacesLeavesNoTraceInTheDepthBuffer) {
     DrawFixture fixture(1, 1, 1);
     fixture.instances[0].raster.culling = shader::Culling::FrontAndBack;

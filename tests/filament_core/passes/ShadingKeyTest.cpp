@@ -77,6 +77,20 @@ TEST(ShadingKey, LightProfilesAreAKeyOnlyWhereThereAreSome) {
     EXPECT_EQ(withoutShadows(shadingKey(shadowed, {}, kProfiles)), shadingKey({}, {}, kProfiles));
 }
 
+TEST(ShadingKey, EveryTermOfTransparencyIsAKeyAndNoViewHasOne) {
+    const ShadingKey key = shadingKey({ .fresnel = FresnelTerm::Exact, .transparency = TransparencyOrder::Peeled });
+    EXPECT_EQ(key, shadingKey({ .fresnel = FresnelTerm::Exact })) << "the pass chooses";
+    std::set<ShadingKey> keys;
+    for (int term = shader::kTransparencyInOrder; term <= shader::kTransparencyBeyond; ++term) {
+        const ShadingKey with = withTransparency(key, static_cast<shader::TransparencyTerm>(term));
+        EXPECT_EQ(bitsOf(with, shader::kQualityTransparency), static_cast<uint32_t>(term));
+        EXPECT_EQ(bitsOf(with, shader::kQualityFresnel), 1u);
+        EXPECT_EQ(withTransparency(with, shader::kTransparencyInOrder), key);
+        keys.insert(with);
+    }
+    EXPECT_EQ(keys.size(), 7u);
+}
+
 TEST(ShadingKey, ColoursOfShadowsAreAKeyOnlyWhereAMapHasThem) {
     const Quality colored{ .coloredShadows = true };
     EXPECT_EQ(shadingKey(colored), shadingKey({})) << "no map with colours, no program of its own";

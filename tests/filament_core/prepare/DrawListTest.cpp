@@ -170,7 +170,106 @@ TEST_F(DrawListTest, PriorityThenBlendOrderThenDistanceThenTheOrderOfTheScene) {
         ASSERT_EQ(packet.objects.size(), expected.size());
         for (size_t i = 0; i < expected.size(); ++i)
             ASSERT_EQ(packet.objects.order[i].renderable, expected[i]) << i << " with " << workers << " workers";
+        EXPECT_TRUE(packet.anyOrder.empty()) << "sorted by default";
     }
+}
+
+/// What may be composed in any order: between `farthest` and `nearest`, and things that are not.
+struct AnyOrderTest : DrawListTest {
+    AnyOrderTest() { view.quality.transparency = TransparencyOrder::Weighted; }
+
+    scene::MaterialInstance* pane(shader::Blending blending = shader::Blending::Transparent) {
+        scene::MaterialInstance* look = material(blending);
+        look->raster.depthWrite = false;
+        return look;
+    }
+    /// Of the camera, at z = 10.
+    Renderable at(double distance, scene::MaterialInstance const* look) { return add({ 0, 0, 10 - distance }, look); }
+    std::vector<uint32_t> order(ViewPacket const& packet) {
+        std::vector<uint32_t> renderables;
+        for (SortItem const& item : packet.objects.order) renderables.push_back(item.renderable);
+        return renderables;
+    }
+    std::vector<uint32_t> composed(ViewPacket const& packet) {
+        std::vector<uint32_t> renderables;
+        for (DrawCall const& draw :
+             packet.blended.subspan(packet.anyOrder.first, packet.anyOrder.end - packet.anyOrder.first))
+            for (uint32_t i = 0; i < draw.instanceCount; ++i)
+                renderables.push_back(packet.objects.order[draw.firstObject + i].renderable);
+        return renderables;
+    }
+};
+
+TEST_F(AnyOrderTest, OnlyWhatCoversTestsDepthLeavesNoneAndHasTheDefaultPlace) {
+    const auto unlike = [&](auto change) {
+        scene::MaterialInstance* look = pane();
+        change(*look);
+        return look;
+    };
+    const auto *transparent = pane(), *fade = pane(shader::Blending::Fade);
+    at(5, transparent);
+    at(9, fade);
+    at(6,
+       unlike([](auto& look) { look.material->package.transparency = shader::TransparencyMode::TwoPassesTwoSides; }));
+    for (const shader::Blending other :
+         { shader::Blending::Add, shader::Blending::Multiply, shader::Blending::Screen, shader::Blending::Custom })
+        at(7, pane(other));
+    at(7, unlike([](auto& look) { look.material->package.transparency = shader::TransparencyMode::TwoPassesOneSide; }));
+    at(7, unlike([](auto& look) { look.material->package.refractionMode = shader::RefractionMode::ScreenSpace; }));
+    at(7, unlike([](auto& look) { look.raster.depthWrite = true; }));
+    at(7, unlike([](auto& look) { look.raster.depthCulling = false; }));
+    at(7, unlike([](auto& look) { look.raster.colorWrite = false; }));
+    setDrawPlace(scene.renderables, at(7, transparent), { .priority = 3 });
+    setDrawPlace(scene.renderables, at(7, transparent), { .blendOrder = 1 });
+    const ViewPacket packet = prepare();
+    EXPECT_EQ(composed(packet), (std::vector<uint32_t>{ 1, 2, 2, 0 })) << "one of them in two passes";
+    EXPECT_EQ(packet.counts.anyOrderObjects, 3u);
+    EXPECT_EQ(packet.anyOrder.nearestMeters, 5);
+    EXPECT_EQ(packet.blended.size() - packet.anyOrder.end, 4 + 2 + 4 + 1u) << "and one of the others";
+}
+
+TEST_F(AnyOrderTest, OthersKeepTheirPlaceBehindAndComeAfterWhereTheyLieInBetween) {
+    const auto *glass = pane(), *glow = pane(shader::Blending::Add);
+    for (const double distance : { 4.0, 9.0, 6.0 }) at(distance, glass);            // 0, 1, 2
+    for (const double distance : { 3.0, 12.0, 7.0, 11.0, 9.0 }) at(distance, glow); // 3 to 7
+    EXPECT_EQ(order(prepare()), (std::vector<uint32_t>{ 4, 6, 1, 2, 0, 7, 5, 3 }));
+    EXPECT_EQ(composed(prepare()), (std::vector<uint32_t>{ 1, 2, 0 }));
+}
+
+TEST_F(AnyOrderTest, FewerThanTwoObjectsAreDrawnAsIfNobodyAsked) {
+    const auto *glass = pane(), *glow = pane(shader::Blending::Add);
+    at(6, glass);
+    for (const double distance : { 3.0, 12.0, 5.5 }) at(distance, glow);
+    const auto quality = view.quality;
+    view.quality.transparency = TransparencyOrder::Sorted;
+    const uint64_t sorted = hashPacket(frame());
+    for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
+        view.quality.transparency = order;
+        const FramePacket packet = frame();
+        EXPECT_TRUE(packet.mainView().anyOrder.empty());
+        EXPECT_FALSE(packet.demand.needs(Effect::Transparency));
+        EXPECT_EQ(describe(Effect::Transparency, packet.demand.of(Effect::Transparency)),
+                  "1 in view that may be composed in any order");
+    }
+    view.quality = quality;
+    at(5, glass);
+    EXPECT_TRUE(frame().demand.needs(Effect::Transparency));
+    EXPECT_EQ(this->order(prepare()), (std::vector<uint32_t>{ 2, 0, 4, 3, 1 }));
+    EXPECT_NE(hashPacket(frame()), sorted);
+}
+
+TEST_F(AnyOrderTest, AnyNumberOfWorkersFindsTheSame) {
+    std::vector<scene::MaterialInstance*> looks{ pane(), pane(shader::Blending::Fade), pane(shader::Blending::Add),
+                                                 material(), twoPasses() };
+    looks.back()->raster.depthWrite = false;
+    Random random(11);
+    for (uint32_t i = 0; i < 20'000; ++i)
+        add({ random.within(-20, 20), random.within(-20, 20), random.within(-60, 5) },
+            looks[random.next() % looks.size()], 1 + random.next() % 5);
+    const FramePacket reference = frame(0);
+    expectCoversItsObjects(reference.mainView());
+    EXPECT_GT(reference.mainView().anyOrder.end, reference.mainView().anyOrder.first + 100);
+    for (int workers : { 1, 2, 3, 16 }) EXPECT_EQ(hashPacket(frame(workers)), hashPacket(reference)) << workers;
 }
 
 TEST_F(DrawListTest, NeighboursThatBlendMergeToo) {

@@ -254,6 +254,32 @@ TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
     EXPECT_FALSE(findDemand(input).needs(Effect::Refraction));
 }
 
+TEST(SceneDemand, ComposesInAnyOrderOnlyWhatMayOverlap) {
+    DemandInput input{ .counts = { .blendedDraws = 3, .anyOrderObjects = 2 } };
+    const auto needs = [&] { return findDemand(input).needs(Effect::Transparency); };
+    EXPECT_EQ(words(Effect::Transparency, input), "switched off: transparency=sorted");
+    input.quality.transparency = TransparencyOrder::Weighted;
+    EXPECT_EQ(words(Effect::Transparency, input), "2 in view may overlap");
+    EXPECT_TRUE(needs());
+    input.quality.transparency = TransparencyOrder::Peeled;
+    EXPECT_EQ(words(Effect::Transparency, input), "2 in view may overlap; 4 layers");
+    EXPECT_TRUE(needs());
+    input.quality.transparencyLayers = 1;
+    EXPECT_EQ(words(Effect::Transparency, input), "switched off: transparency=sorted") << "one layer is that";
+    EXPECT_FALSE(needs());
+    input.quality.transparencyLayers = 8;
+    input.debugView = DebugView::Fog;
+    EXPECT_EQ(words(Effect::Transparency, input), "a debug view is shown");
+    EXPECT_FALSE(needs());
+    input.debugView = DebugView::None;
+    for (const uint32_t objects : { 0u, 1u }) {
+        input.counts.anyOrderObjects = objects;
+        EXPECT_EQ(words(Effect::Transparency, input),
+                  fmt::format("{} in view that may be composed in any order", objects));
+        EXPECT_FALSE(needs());
+    }
+}
+
 TEST(SceneDemand, SaysWhatDebugViewsShow) {
     const ViewCounts lists{ .lights = 40, .froxels = 4096, .longestFroxel = 7, .litDraws = 1 };
     DemandInput input{ .counts = lists, .debugView = DebugView::Cascades, .cascades = 3 };

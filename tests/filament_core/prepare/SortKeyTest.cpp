@@ -55,7 +55,7 @@ TEST(SortKey, PlaceBeforeDepthForBlendedAndLateOnes) {
     const uint32_t far = depthBits(kFarthest), near = depthBits(1e-3f);
     const std::vector<uint32_t> places = someOfAllPlaces();
     for (size_t i = 1; i < places.size(); ++i) {
-        EXPECT_LT(blendedKey(0, places[i - 1]), blendedKey(far, places[i])) << i;
+        EXPECT_LT(blendedKey(0, places[i - 1], Composed::InOrder), blendedKey(far, places[i])) << i;
         EXPECT_LT(lateKey(0, false, places[i - 1]), lateKey(far, false, places[i])) << i;
         EXPECT_LT(lateKey(0, true, places[i - 1]), lateKey(far, true, places[i])) << i;
     }
@@ -63,6 +63,17 @@ TEST(SortKey, PlaceBeforeDepthForBlendedAndLateOnes) {
     EXPECT_GE(lateKey(far, true, places.front()), kRefractingEndKey);
     EXPECT_LT(lateKey(0, true, places.back()), blendedKey(far, places.front()));
     EXPECT_EQ(blendedKey(near), blendedKey(near, scene::placeOrder({})));
+}
+
+TEST(SortKey, WhatIsComposedIsBetweenWhatIsBehindItAndTheRestOfItsPlaceAlone) {
+    const uint32_t far = depthBits(kFarthest), place = kDefaultPlace;
+    const uint64_t keys[] = { blendedKey(0, place - 1, Composed::InOrder), blendedKey(far, place, Composed::Behind),
+                              blendedKey(0, place, Composed::Behind),      kAnyOrderKey,
+                              blendedKey(0, place, Composed::InAnyOrder),  kAnyOrderEndKey,
+                              blendedKey(0, place, Composed::InOrder),     blendedKey(far, place + 1) };
+    for (size_t i = 1; i < std::size(keys); ++i) EXPECT_LT(keys[i - 1], keys[i]) << i;
+    EXPECT_EQ(blendedKey(0x7FFF'FFFFu, place, Composed::InAnyOrder), kAnyOrderKey);
+    EXPECT_EQ(blendedKey(0x7FFF'FFFFu, place, Composed::InOrder), kAnyOrderEndKey);
 }
 
 TEST(SortKey, OpaqueBeforeBlendedWhateverElse) {

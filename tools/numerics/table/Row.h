@@ -106,6 +106,7 @@ std::vector<Row> temporalRows();
 std::vector<Row> gradingRows(); ///< grading, exposure
 std::vector<Row> toneRows();    ///< tone, and night in grading
 std::vector<Row> resolutionRows();
+std::vector<Row> transparencyRows();
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

@@ -6,9 +6,9 @@ namespace filament::shader::numerics {
 std::span<const Row> rows() {
     static const std::vector<Row> all = [] {
         std::vector<Row> joined;
-        for (auto const& source :
-             { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(), imageRows(), areaRows(),
-               geometryRows(), screenRows(), temporalRows(), gradingRows(), toneRows(), resolutionRows() })
+        for (auto const& source : { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(),
+                                    imageRows(), areaRows(), geometryRows(), screenRows(), temporalRows(),
+                                    gradingRows(), toneRows(), resolutionRows(), transparencyRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What blends in any order, composed over the picture: Quality::transparency. ColorPass calls these between what it
+/// draws before and after.
+///   Weighted  two passes over the surfaces: sums of their light by weight, and how much they cover together. One draw
+///             over the picture. With several samples a pixel both are drawn with them, and composed once a pixel.
+///   Peeled    two passes for each layer but the last: the depth of what is nearest behind the layer before it, then the
+///             light of what has that depth, under the layers before it. What is farther than they are is drawn into the
+///             picture, sorted, by ColorPass; the layers come over it. Layers have one sample a pixel.
+///   In        ViewPacket::anyOrder: nothing runs if it is empty.
+///   Bits      as of other draws: a surface has the same depth in all of its passes, as in the depth prepass.
+///   Cost      docs/transparency.md.
+#pragma once
+
+#include "filament_core/passes/PassGroup.h"
+
+namespace filament::passes {
+
+/// What is drawn so far, and what surfaces read.
+struct TransparencyTargets {
+    framegraph::TextureId color;      ///< the picture, one sample a pixel
+    framegraph::TextureId samples;    ///< what is drawn to; `color` itself, if the view has one sample a pixel
+    framegraph::TextureId depth;      ///< with as many samples
+    framegraph::TextureId solidDepth; ///< with one sample a pixel; read by peeling
+    PassBlock target;
+    PassTextures textures;
+};
+
+void addWeightedPasses(framegraph::FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets);
+
+struct PeeledLayers {
+    framegraph::TextureId light; ///< of all layers, multiplied by how much they cover, which is its alpha
+    framegraph::TextureId depth; ///< of the last of them, where there is one: PassTextures::occlusion of what is beyond
+};
+/// At least one.
+PeeledLayers addPeelPasses(framegraph::FrameGraph& graph, FrameContext const& context,
+                           TransparencyTargets const& targets);
+/// When what is beyond them is drawn.
+void addPeeledOver(framegraph::FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets,
+                   PeeledLayers const& layers);
+
+} // namespace filament::passes
