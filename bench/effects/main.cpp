@@ -165,6 +165,16 @@ void addBloom(std::vector<Pair>& all, const char* file) {
     };
     all.push_back({ "bloom", file, blooming({}), blooming({ .enabled = true }) });
     all.push_back({ "bloom of strength 0", file, blooming({}), blooming({ .enabled = true, .strength = 0 }), true });
+    const auto flaring = [](LensFlare const& flare) {
+        return [flare](Scene&, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            view.effects.lensFlare = flare;
+        };
+    };
+    all.push_back({ "lens flare", file, flaring({}), flaring({ .enabled = true, .threshold = 0.5f }) });
+    all.push_back({ "lens flare, nothing bright", file, flaring({}), flaring({ .enabled = true, .threshold = 1e4f }) });
+    all.push_back({ "lens flare of strength 0", file, flaring({}),
+                    flaring({ .enabled = true, .ghostStrength = 0, .haloStrength = 0 }), true });
 }
 
 void addAntiAliasing(std::vector<Pair>& all, const char* file) {

@@ -13,6 +13,7 @@ using passes::FrameResources;
 constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
 constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
 constexpr Sampler kNearest{};
+constexpr Sampler kBilinearOfLevels{ Filter::Linear, Filter::Linear, MipFilter::Nearest };
 constexpr Sampler kNearestOfLevels{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest };
 
 uint32_t toneTableSize(ToneMapping mapping) {
@@ -55,6 +56,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
         resources.debugView = debugView(view.debugView, isToneMapped);
     else if (isToneMapped)
         resources.toneTable = toneTable(view, packet);
+    resources.dirt = dirt(packet);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;
     return resources;
 }
@@ -63,6 +65,7 @@ passes::FrameSamplers FrameResourceCache::samplers() {
     return { .nearest = mEngine.samplers.get(kNearest, mEngine.pending),
              .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending),
              .nearestOfLevels = mEngine.samplers.get(kNearestOfLevels, mEngine.pending),
+             .bilinearOfLevels = mEngine.samplers.get(kBilinearOfLevels, mEngine.pending),
              .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending) };
 }
 
@@ -98,6 +101,19 @@ scene::Material const* FrameResourceCache::debugView(DebugView debugView, bool i
                 "debug_view", { { "view", static_cast<int32_t>(debugView) }, { "isEncoded", isEncoded } }));
     }
     return known;
+}
+
+passes::DirtTexture FrameResourceCache::dirt(prepare::FramePacket const& packet) {
+    Bloom const& bloom = packet.effects.bloom;
+    if (!packet.demand.needs(prepare::Effect::Bloom) || !bloom.dirt || bloom.dirtStrength == 0) return {};
+    TextureState const& state = mEngine.textures.get(bloom.dirt);
+    backend::DeviceTextureDesc const& desc = state.desc;
+    FILAMENT_ASSERT(desc.type == backend::TextureType::Texture2D &&
+                            backend::formatInfo(desc.format).kind == backend::FormatKind::Color,
+                    "the dirt of bloom is a 2D texture of colours");
+    FILAMENT_ASSERT(desc.levels == backend::fullMipCount(desc.width, desc.height),
+                    "the dirt of bloom has all of its mip levels: the last one is its mean");
+    return { state.handle, { desc.width, desc.height }, desc.levels };
 }
 
 /// None: the view computes its tones.

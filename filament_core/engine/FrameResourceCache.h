@@ -25,6 +25,7 @@ private:
     passes::FrameSamplers samplers();
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
     backend::TextureHandle toneTable(View const& view, prepare::FramePacket const& packet);
+    passes::DirtTexture dirt(prepare::FramePacket const& packet);
     scene::Material const* skybox(bool isRgbm);
     scene::Material const* farDepth();
     scene::Material const* sunDisc();

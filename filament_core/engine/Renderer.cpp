@@ -88,6 +88,11 @@ scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, Tar
     return nullptr;
 }
 
+bool isDirtOf(FrameContext const& context, Target const& target) {
+    const TextureHandle dirt = context.resources.dirt.texture;
+    return dirt && (dirt == target.color.handle || (target.depth && dirt == target.depth->handle));
+}
+
 /// `target`: pixels.
 void checkPlace(View const& view, uint2 target) {
     if (!view.viewport) {
@@ -210,6 +215,7 @@ struct Renderer::Impl {
         FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines));
         scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
         if (material) return samplesTarget(*material, target);
+        if (target.isSampled && isDirtOf(context, target)) return dirtIsTarget(target);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
@@ -227,6 +233,16 @@ struct Renderer::Impl {
                            "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another "
                            "render target, or hide what has the material by View::visibleLayers",
                            material.name.empty() ? material.material->name : material.name, target.color.name);
+        engine.report(error.message);
+        return error;
+    }
+
+    Error dirtIsTarget(Target const& target) {
+        plan = {};
+        Error error = fail(ErrorCode::InvalidArgument,
+                           "a frame is left out: the dirt of bloom is '{}', which the frame draws to; draw to another "
+                           "render target",
+                           target.color.name);
         engine.report(error.message);
         return error;
     }

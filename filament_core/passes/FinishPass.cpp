@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/FinishPass.h"
 
+#include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PlacePass.h"
 #include "filament_core/passes/ResolutionPass.h"
@@ -22,9 +23,10 @@ constexpr FullScreenInterface kLight{ .pass = "light", .inputs = kLightInputs };
 constexpr FullScreenInterface kAlpha{ .pass = "alpha", .inputs = kLightInputs };
 constexpr std::string_view kToneInputs[] = { "color", "table" };
 constexpr FullScreenInterface kTone{ .pass = "tone map", .inputs = kToneInputs };
-constexpr std::string_view kFinishInputs[] = { "color", "around", "spread", "table", "exposure" };
+constexpr std::string_view kFinishInputs[] = { "color", "around", "spread", "dirt", "flare", "table", "exposure" };
 constexpr FullScreenParameter kFinishValues[] = {
     { "bloomStrength", ParameterType::Float },   { "bloomThreshold", ParameterType::Float },
+    { "dirtLevels", ParameterType::Float3 },     { "flareShare", ParameterType::Float4 },
     { "fringe", ParameterType::Float },          { "vignette", ParameterType::Float4 },
     { "vignetteColor", ParameterType::Float3 },  { "grainStrength", ParameterType::Float },
     { "grainSize", ParameterType::Float },       { "mixRed", ParameterType::Float3 },
@@ -47,7 +49,8 @@ constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .val
 struct Finish {
     bool isSceneLinear = false;
     bool smoothsEdges = false, enlarges = false, sharpens = false; // in this order, after the others
-    bool hasBloom = false, isExposed = false, isGraded = false, hasVignette = false, hasFringes = false;
+    bool hasBloom = false, isDirty = false, hasFlare = false, isExposed = false, isGraded = false, hasVignette = false,
+         hasFringes = false;
     bool hasToneValues = false;             // of a formula with numbers, or for a display other than sRGB
     bool hasGrain = false, dithers = false; // by the last pass, because the others take noise for edges
 
@@ -55,7 +58,7 @@ struct Finish {
     bool changesPixels() const { return enlarges || sharpens; }
     /// Whether more than a tone mapper is asked for.
     bool hasLens() const {
-        return hasBloom || isExposed || isGraded || hasVignette || hasFringes || hasToneValues ||
+        return hasBloom || hasFlare || isExposed || isGraded || hasVignette || hasFringes || hasToneValues ||
                (hasGrain && !goesOn());
     }
 };
@@ -71,6 +74,8 @@ Finish finishOf(FrameContext const& context, bool isSceneLinear, bool enlarges) 
              .enlarges = enlarges,
              .sharpens = demand.needs(Effect::Sharpening),
              .hasBloom = demand.needs(Effect::Bloom),
+             .isDirty = static_cast<bool>(context.resources.dirt.texture),
+             .hasFlare = demand.needs(Effect::LensFlare),
              .isExposed = demand.needs(Effect::AutoExposure),
              .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
              .hasVignette = demand.needs(Effect::Vignette),
@@ -111,7 +116,23 @@ float4 shapeOf(Vignette const& vignette, uint2 size) {
     return { vignette.midPoint, vignette.midPoint + 2 * vignette.feather, exponent, width };
 }
 
-auto valuesOf(FrameContext const& context) {
+/// Strength, the level of its texture that has as many texels as the picture has pixels, and that of its mean.
+float3 dirtLevelsOf(FrameContext const& context, uint2 size) {
+    DirtTexture const& dirt = context.resources.dirt;
+    const float2 texels = float2(dirt.size) / float2(size);
+    const float level = std::max(std::log2(std::max(texels.x, texels.y)), 0.0f);
+    return { context.packet.effects.bloom.dirtStrength, level, static_cast<float>(dirt.levels - 1) };
+}
+
+/// Threshold, the share of light that is taken, and the coordinates of the flare's texture by those of the picture.
+float4 flareShareOf(FrameContext const& context, uint2 size) {
+    LensFlare const& flare = context.packet.effects.lensFlare;
+    const uint32_t block = flareBlock(size.y);
+    const float2 covered = float2((size + block - 1u) / block * block);
+    return { flare.threshold, flareShare(flare), float2(size) / covered };
+}
+
+auto valuesOf(FrameContext const& context, uint2 drawn) {
     Effects const& effects = context.packet.effects;
     Grading const& grading = effects.grading;
     const double3x3 mix = matrixAfterNight(grading);
@@ -120,6 +141,8 @@ auto valuesOf(FrameContext const& context) {
     return std::array{
         FullScreenValue{ "bloomStrength", effects.bloom.strength },
         FullScreenValue{ "bloomThreshold", effects.bloom.threshold },
+        FullScreenValue{ "dirtLevels", dirtLevelsOf(context, drawn) },
+        FullScreenValue{ "flareShare", flareShareOf(context, drawn) },
         FullScreenValue{ "fringe", fringePerPixel(effects.chromaticAberration, size) },
         FullScreenValue{ "vignette", shapeOf(effects.vignette, size) },
         FullScreenValue{ "vignetteColor", effects.vignette.color },
@@ -155,6 +178,8 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "dither", finish.dithers && !finish.goesOn() },
         EffectConstant{ "autoExposure", finish.isExposed },
         EffectConstant{ "bloom", finish.hasBloom },
+        EffectConstant{ "isDirty", finish.isDirty },
+        EffectConstant{ "hasFlare", finish.hasFlare },
         EffectConstant{ "graded", finish.isGraded },
         EffectConstant{ "mapsGamut", finish.isGraded && context.packet.effects.grading.gamutMapping },
         EffectConstant{ "aberration", finish.hasFringes },
@@ -163,18 +188,23 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "outputSpace", hasTable ? 0 : shaderOutputSpace(context.view->colorGrading) },
         EffectConstant{ "adaptsToNight", finish.isGraded && context.packet.effects.grading.nightAdaptation > 0 },
     };
-    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
-                             FullScreenInput{ .name = "around",
-                                              .texture = finish.hasFringes ? targets.color : TextureId{},
-                                              .sampler = context.resources.samplers.bilinear },
-                             FullScreenInput{ .name = "spread",
-                                              .texture = targets.spread,
-                                              .sampler = context.resources.samplers.bilinear,
-                                              .range =
-                                                      targets.spread ? backend::oneLevel(0) : backend::TextureRange{} },
-                             FullScreenInput{ .name = "table", .image = context.resources.toneTable },
-                             FullScreenInput{ .name = "exposure", .texture = targets.exposure } };
-    const auto values = valuesOf(context);
+    const std::array inputs{
+        FullScreenInput{ .name = "color", .texture = targets.color },
+        FullScreenInput{ .name = "around",
+                         .texture = finish.hasFringes ? targets.color : TextureId{},
+                         .sampler = context.resources.samplers.bilinear },
+        FullScreenInput{ .name = "spread",
+                         .texture = targets.spread,
+                         .sampler = context.resources.samplers.bilinear,
+                         .range = targets.spread ? backend::oneLevel(0) : backend::TextureRange{} },
+        FullScreenInput{ .name = "dirt",
+                         .image = context.resources.dirt.texture,
+                         .sampler = context.resources.samplers.trilinear },
+        FullScreenInput{ .name = "flare", .texture = targets.flare, .sampler = context.resources.samplers.bilinear },
+        FullScreenInput{ .name = "table", .image = context.resources.toneTable },
+        FullScreenInput{ .name = "exposure", .texture = targets.exposure }
+    };
+    const auto values = valuesOf(context, sizeOf(graph, targets.color));
     addFullScreenPass(graph, context,
                       { .name = "finish",
                         .material = context.resources.effects->get("finish", constants, kFinish),

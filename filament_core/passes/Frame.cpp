@@ -9,6 +9,7 @@
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
 #include "filament_core/passes/FinishPass.h"
+#include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FocusPass.h"
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
@@ -77,7 +78,7 @@ bool changesPicture(FrameContext const& context) {
     constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,        Effect::ChromaticAberration,
                                             Effect::Vignette,     Effect::Grading,      Effect::Fxaa,
                                             Effect::DepthOfField, Effect::AutoExposure, Effect::Upscaling,
-                                            Effect::Sharpening,   Effect::MotionBlur };
+                                            Effect::Sharpening,   Effect::MotionBlur,   Effect::LensFlare };
     return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
 }
 
@@ -122,6 +123,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     if (isEnlarged) addTemporalPass(graph, context, targets);
     addExposurePasses(graph, context, targets);
     addBloomPasses(graph, context, targets);
+    addFlarePasses(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else

@@ -16,10 +16,17 @@ struct LightingTextures {
     backend::TextureHandle specular, dfg, irradiance;
 };
 
+/// Bloom::dirt.
+struct DirtTexture {
+    backend::TextureHandle texture; ///< none: the lens is clean
+    uint2 size{ 1, 1 };
+    uint32_t levels = 1;
+};
+
 /// They clamp to the edge.
 struct FrameSamplers {
-    backend::SamplerHandle nearest, bilinear; ///< of the first level
-    backend::SamplerHandle nearestOfLevels, trilinear;
+    backend::SamplerHandle nearest, bilinear;                            ///< of the first level
+    backend::SamplerHandle nearestOfLevels, bilinearOfLevels, trilinear; ///< of levels: the nearest one
 };
 
 struct FrameResources {
@@ -40,6 +47,7 @@ struct FrameResources {
     backend::TextureHandle shadowAtlas{};   ///< of ShadowPacket::atlasSize texels a side; none without shadow maps
     backend::TextureHandle shadowMoments{}; ///< of the same size; none if the filter reads depths
     backend::TextureHandle toneTable{};     ///< of the view's mapper (ToneTable.h); none: it is computed
+    DirtTexture dirt{};                     ///< that scatters light in this frame
     bool hasHalfFloats = false;             ///< shaders may compute in 16 bits
 };
 

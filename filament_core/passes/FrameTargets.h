@@ -23,6 +23,7 @@ struct FrameTargets {
     framegraph::TextureId motion;       ///< of what moved by itself (MotionPass.h); none: nothing did, or nobody asks
     framegraph::History lastPicture;    ///< the picture of the last frame, and of this one; none: not needed
     framegraph::TextureId spread;       ///< light that bloom scatters, half as large; none: not needed
+    framegraph::TextureId flare;        ///< ghosts and halo of the lens, by blocks of pixels; none: not needed
     framegraph::TextureId exposure;     ///< one texel: stops by which the picture becomes brighter; none: not needed
     framegraph::TextureId picture;      ///< as kBindingPicture says; none: not needed
 };

@@ -62,6 +62,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: autoExposure=off";
     case Effect::Bloom:
         return "switched off: bloom=off";
+    case Effect::LensFlare:
+        return "switched off: lensFlare=off";
     case Effect::ChromaticAberration:
         return "switched off: chromaticAberration=off";
     case Effect::Vignette:
@@ -91,6 +93,7 @@ const char* describeNobody(Effect effect) {
     case Effect::MotionBlur:
     case Effect::AutoExposure:
     case Effect::Bloom:
+    case Effect::LensFlare:
     case Effect::ChromaticAberration:
     case Effect::Vignette:
     case Effect::Grading:
@@ -106,6 +109,13 @@ const char* describeNobody(Effect effect) {
     default:
         return "no light in view asks for them";
     }
+}
+
+std::string describeFlare(EffectDemand const& demand) {
+    const std::string ghosts =
+            demand.count ? fmt::format("{} ghost{}", demand.count, demand.count == 1 ? "" : "s") : std::string();
+    const char* const halo = demand.others == 0 ? "" : demand.count ? " and a halo" : "a halo";
+    return fmt::format("{}{} of what is bright", ghosts, halo);
 }
 
 std::string describeNeed(Effect effect, EffectDemand const& demand) {
@@ -149,7 +159,10 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
     case DemandReason::MovesInView:
         return fmt::format("{} in view moved", demand.count);
     case DemandReason::SpreadsLight:
-        return "spreads light of what is visible";
+        return demand.count ? "spreads light of what is visible, by dirt on the lens"
+                            : "spreads light of what is visible";
+    case DemandReason::ReflectsLight:
+        return describeFlare(demand);
     case DemandReason::SmoothsEdges:
         return "smooths the edges of what is visible";
     case DemandReason::ChangesPicture:
@@ -253,6 +266,7 @@ const char* nameOf(Effect effect) {
                                                                "fxaa",
                                                                "upscaling",
                                                                "sharpening",
+                                                               "lens flare",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }

@@ -53,16 +53,19 @@ uint64_t hashGrading(Grading const& grading, uint64_t seed) {
 // Fog and contact shadows are in the uniforms of the views, but for two switches.
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     auto const& [ao, reflections, fog, contact, bloom, focus, motion, exposure, grading, vignette, grain, aberration,
-                 resolution, sharpening] = effects;
-    seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold);
+                 resolution, sharpening, flare] = effects;
+    seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold, bloom.dirtStrength);
+    seed = hashValues(seed, flare.threshold, flare.ghostStrength, flare.ghostCount, flare.ghostSpacing,
+                      flare.ghostRadius, flare.haloStrength, flare.haloRadius, flare.haloThickness, flare.dispersion);
     seed = hashValues(seed, focus.focusMeters, focus.blurScale, focus.maxRadius, focus.blades);
     seed = hashValues(seed, motion.shutterDegrees, motion.maxRadius);
     seed = hashValues(seed, exposure.lowPercentile, exposure.highPercentile, exposure.compensation, exposure.minStops,
                       exposure.maxStops, exposure.speedUp, exposure.speedDown);
     seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
                       grain.size, aberration.strength);
-    seed = hashWords(seed, bloom.enabled, focus.enabled, motion.enabled, exposure.enabled, vignette.enabled,
-                     grain.enabled, aberration.enabled, resolution.dynamic, resolution.uniform, sharpening.enabled);
+    seed = hashWords(seed, bloom.enabled, bloom.dirt.bits, flare.enabled, focus.enabled, motion.enabled,
+                     exposure.enabled, vignette.enabled, grain.enabled, aberration.enabled, resolution.dynamic,
+                     resolution.uniform, sharpening.enabled);
     seed = hashValues(seed, resolution.scale, resolution.targetMilliseconds, resolution.leastScale, resolution.headroom,
                       resolution.history, sharpening.strength);
     return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));

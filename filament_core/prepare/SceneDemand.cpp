@@ -105,7 +105,21 @@ EffectDemand demandOfPictureEffect(DemandInput const& input, bool isOn, DemandRe
 EffectDemand demandOfBloom(DemandInput const& input) {
     if (input.effects.bloom.enabled && input.effects.bloom.strength == 0)
         return { .reason = DemandReason::HasNoIntensity };
-    return demandOfPictureEffect(input, input.effects.bloom.enabled, DemandReason::SpreadsLight);
+    Bloom const& bloom = input.effects.bloom;
+    EffectDemand demand = demandOfPictureEffect(input, bloom.enabled, DemandReason::SpreadsLight);
+    if (demand.isNeeded && bloom.dirt && bloom.dirtStrength > 0) demand.count = 1;
+    return demand;
+}
+
+EffectDemand demandOfFlare(DemandInput const& input) {
+    LensFlare const& flare = input.effects.lensFlare;
+    const bool hasGhosts = flare.ghostStrength > 0 && flare.ghostCount >= 1, hasHalo = flare.haloStrength > 0;
+    if (flare.enabled && !hasGhosts && !hasHalo) return { .reason = DemandReason::HasNoIntensity };
+    EffectDemand demand = demandOfPictureEffect(input, flare.enabled, DemandReason::ReflectsLight);
+    if (!demand.isNeeded) return demand;
+    demand.count = hasGhosts ? static_cast<uint32_t>(flare.ghostCount) : 0;
+    demand.others = hasHalo ? 1 : 0;
+    return demand;
 }
 
 EffectDemand demandOfTaa(DemandInput const& input) {
@@ -275,6 +289,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::AutoExposure,
         demandOfPictureEffect(input, input.effects.autoExposure.enabled, DemandReason::MeasuresPicture));
     set(Effect::Bloom, demandOfBloom(input));
+    set(Effect::LensFlare, demandOfFlare(input));
     setFinish(input, demand);
     set(Effect::Fxaa, demandOfFxaa(input));
     set(Effect::Upscaling, demandOfUpscaling(input));

@@ -52,9 +52,10 @@ enum class Effect : uint8_t {
     Fxaa,
     Upscaling, ///< by a filter, or by gathering frames
     Sharpening,
+    LensFlare,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 33;
+inline constexpr size_t kEffects = 34;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -77,7 +78,8 @@ enum class DemandReason : uint8_t {
     LiesInBetween,        ///< between the camera and what is visible
     MovesInView,          ///< `count` opaque objects do
     CameraMoves,          ///< and nothing else
-    SpreadsLight,         ///< of what is visible
+    SpreadsLight,         ///< of what is visible; `count`: by dirt on the lens as well
+    ReflectsLight,        ///< between the surfaces of the lens: `count` ghosts, and a halo if `others` is not 0
     SmoothsEdges,         ///< of what is visible
     ChangesPicture,       ///< as a whole
     IsOutOfFocus,         ///< something visible is, by `count` pixels at most

@@ -120,6 +120,7 @@ constexpr auto kGrain = &Effects::grain;
 constexpr auto kAberration = &Effects::chromaticAberration;
 constexpr auto kResolution = &Effects::resolution;
 constexpr auto kSharpening = &Effects::sharpening;
+constexpr auto kFlare = &Effects::lensFlare;
 
 constexpr std::string_view kFactors = "R,G,B, each from 0 to 4", kShares = "R,G,B, each from -2 to 2",
                            kGammas = "R,G,B, each from 0.1 to 10", kStops = "stops from -16 to 16",
@@ -152,6 +153,17 @@ constexpr std::array kEffectFields{
     numberField<kBloom, &Bloom::strength>("bloom.strength", 0.0f, 1.0f, "a number from 0 to 1"),
     numberField<kBloom, &Bloom::radius>("bloom.radius", 1e-3f, 1.0f, "a number from 0.001 to 1"),
     numberField<kBloom, &Bloom::threshold>("bloom.threshold", 0.0f, 1e4f, "a number from 0 to 10000"),
+    numberField<kBloom, &Bloom::dirtStrength>("bloom.dirtStrength", 0.0f, 1.0f, kShare),
+    switchField<kFlare, &LensFlare::enabled>("lensFlare"),
+    numberField<kFlare, &LensFlare::threshold>("lensFlare.threshold", 0.0f, 1e4f, "a number from 0 to 10000"),
+    numberField<kFlare, &LensFlare::ghostStrength>("lensFlare.ghostStrength", 0.0f, 1.0f, kShare),
+    numberField<kFlare, &LensFlare::ghostCount>("lensFlare.ghostCount", 0.0f, 8.0f, "a number from 0 to 8"),
+    numberField<kFlare, &LensFlare::ghostSpacing>("lensFlare.ghostSpacing", 0.05f, 2.0f, "a number from 0.05 to 2"),
+    numberField<kFlare, &LensFlare::ghostRadius>("lensFlare.ghostRadius", 0.005f, 0.25f, "a number from 0.005 to 0.25"),
+    numberField<kFlare, &LensFlare::haloStrength>("lensFlare.haloStrength", 0.0f, 1.0f, kShare),
+    numberField<kFlare, &LensFlare::haloRadius>("lensFlare.haloRadius", 0.05f, 1.0f, "a number from 0.05 to 1"),
+    numberField<kFlare, &LensFlare::haloThickness>("lensFlare.haloThickness", 0.0f, 1.0f, kShare),
+    numberField<kFlare, &LensFlare::dispersion>("lensFlare.dispersion", 0.0f, 1.0f, kShare),
     switchField<kFocus, &DepthOfField::enabled>("depthOfField"),
     numberField<kFocus, &DepthOfField::focusMeters>("depthOfField.focusMeters", 0.0f, 1e9f,
                                                     "metres from 0 to 1000000000"),

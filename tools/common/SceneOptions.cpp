@@ -135,6 +135,10 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
                       : value == "4" ? std::optional<uint8_t>(4)
                                      : std::nullopt,
                       "1 or 4 samples a pixel");
+    if (name == "bloom.dirt") {
+        options.dirt = value;
+        return Result<void>();
+    }
     if (name.starts_with("sun.")) return convertSun(name, value, options.sun);
     if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
     if (name == "environment.format")

@@ -617,7 +617,9 @@ enum FinishConstant : uint32_t {
     kHasVignette = 8,
     kGrain = 9,
     kOutputSpace = 10,
-    kAdaptsToNight = 11
+    kAdaptsToNight = 11,
+    kIsDirty = 13,
+    kHasFlare = 14
 };
 template <uint32_t Constant>
 std::unique_ptr<StreamEdit> makeFinish() {
@@ -638,6 +640,32 @@ class GatheredWeightEdit final : public PassBlocksEdit {
                                      std::abs(number(19)) <= 0.5f && number(20) > 0 && number(20) < 1 &&
                                      number(21) >= 0 && number(21) <= 0.5f && isReciprocal(22) && isReciprocal(23);
             if (isGathering) writeFloat(bytes, at + 20 * sizeof(float), 0.5f * number(20));
+        }
+    }
+};
+
+/// Ghosts and halo of the lens 2 % off: in blocks of flare.mat, which begin with the size of the picture and the reciprocal
+/// of whole blocks of pixels, followed by eight ghosts and the halo.
+class FlarePlacesEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        constexpr size_t kGhosts = 4, kHalo = 36, kWords = 40;
+        for (size_t at = 0; at + kWords * sizeof(float) <= bytes.size(); at += sizeof(float4)) {
+            const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+            const auto isWholeBlocks = [&](size_t i) {
+                const auto isOf = [&](float block) {
+                    return std::abs(block * std::ceil(number(i) / block) * number(i + 2) - 1) < 1e-5f;
+                };
+                return number(i) >= 1 && (isOf(1) || isOf(2) || isOf(4) || isOf(8));
+            };
+            const auto isPlace = [&](size_t i) { // radius, level and share behind it
+                return number(i + 1) >= 0 && number(i + 2) >= 0 && number(i + 2) == std::floor(number(i + 2)) &&
+                       number(i + 3) >= 0 && number(i + 3) <= 1;
+            };
+            bool isFlare = isWholeBlocks(0) && isWholeBlocks(1) && number(kHalo) >= 0.05f * number(1) &&
+                           number(kHalo) <= number(1) && isPlace(kHalo);
+            for (size_t i = kGhosts; i < kHalo; i += 4) isFlare = isFlare && isPlace(i);
+            if (!isFlare) continue;
+            for (size_t i = kGhosts; i <= kHalo; i += 4) writeFloat(bytes, at + i * sizeof(float), 1.02f * number(i));
         }
     }
 };
@@ -735,6 +763,9 @@ constexpr Mutation kMutations[] = {
     { "grainOff", "no grain", makeFinish<kGrain> },
     { "outputSpace", "another colour space of the display", makeFinish<kOutputSpace> },
     { "nightOff", "no vision at night", makeFinish<kAdaptsToNight> },
+    { "dirtOff", "no dirt on the lens", makeFinish<kIsDirty> },
+    { "flareOff", "no lens flare", makeFinish<kHasFlare> },
+    { "flarePlaces", "ghosts and halo of the lens 2 % off their places", make<FlarePlacesEdit> },
     { "toneMapper", "another tone mapper by formula",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("tonemap", 1); } },
     { "focusTiles", "blur does not reach into the next tile",

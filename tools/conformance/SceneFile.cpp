@@ -176,6 +176,13 @@ void readEffects(JsonReader& reader, Effects& effects) {
     }
 }
 
+/// A path from the scene's folder.
+void readDirt(JsonReader& reader, SceneSpec& spec) {
+    std::string file;
+    reader.read("bloom.dirt", file);
+    if (!file.empty()) spec.dirt = spec.folder / file;
+}
+
 /// Its view is the main one but for what it names.
 void readOverlay(JsonReader& reader, SceneSpec& spec) {
     OverlaySpec& overlay = spec.overlays.emplace_back(OverlaySpec{ .view = spec.view, .lens = spec.lens });
@@ -266,7 +273,10 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
     reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
-    reader.object("effects", [&](JsonReader& r) { readEffects(r, spec.view.effects); });
+    reader.object("effects", [&](JsonReader& r) {
+        readEffects(r, spec.view.effects);
+        readDirt(r, spec);
+    });
     reader.object("debug", [&](JsonReader& r) { readDebugDraw(r, spec.debugDraw); });
     reader.objects("overlays", [&](JsonReader& r) { readOverlay(r, spec); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });

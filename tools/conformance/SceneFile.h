@@ -79,6 +79,7 @@ struct SceneSpec {
     uint2 target{ 0 };                 ///< pixels of the target that the view is a part of; 0: its size
     std::vector<OverlaySpec> overlays; ///< over the last frame, in this order
     DebugDraw debugDraw;               ///< over all frames
+    std::filesystem::path dirt;        ///< a picture for Bloom::dirt; empty: none
     bool linear = false;               ///< scene-linear half floats: no tone mapping
     uint32_t frames = 1;               ///< frames drawn, including the one that is compared
     Comparator comparator{};

@@ -2,6 +2,7 @@
 #include "tools/conformance/Stage.h"
 
 #include "base/Result.h"
+#include "tools/materials/PictureFile.h"
 
 #include <filament/Animator.h>
 #include <fmt/core.h>
@@ -76,6 +77,17 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
     return {};
 }
 
+/// Of the lens: into the view.
+Result<void> Stage::loadDirt(SceneSpec const& spec) {
+    mDirt.reset();
+    if (spec.dirt.empty()) return {};
+    Result<Owned<Texture>> dirt = tools::loadPictureTexture(mEngine, spec.dirt);
+    if (!dirt) return fail(dirt.error().code, "{}: effects.bloom.dirt: {}", spec.name, dirt.error().message);
+    mDirt = std::move(*dirt);
+    mView.effects.bloom.dirt = mDirt;
+    return {};
+}
+
 Result<void> Stage::placeModel(SceneSpec const& spec) {
     mCopies.clear();
     if (mMaterial) {
@@ -123,6 +135,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
     else if (mModel && !mMaterial && mModel->environment())
         mScene->setEnvironment(*mModel->environment(), spec.environmentSettings);
     mView = spec.view;
+    if (Result<void> loaded = loadDirt(spec); !loaded) return loaded;
     mSpec = spec;
     setBack(0); // the camera frames what is posed
     mLastCamera = mView.camera = cameraOf(spec, mScene->bounds());

@@ -54,6 +54,7 @@ private:
     Result<void> loadModel(SceneSpec const& spec);
     Result<void> placeModel(SceneSpec const& spec);
     Result<void> loadSky(SceneSpec const& spec);
+    Result<void> loadDirt(SceneSpec const& spec);
     /// Where everything is `frames` before the last one.
     void setBack(uint32_t frames);
     void drawOverlays();
@@ -68,6 +69,7 @@ private:
     std::optional<Environment> mEnvironment;
     std::optional<Scene> mScene; // destroyed before model and environment
     Owned<SwapChain> mTarget;
+    Owned<Texture> mDirt;
     View mView;
     Camera mLastCamera; ///< of the last frame
     SceneSpec mSpec;

@@ -5,6 +5,7 @@
 #include "tools/common/Console.h"
 #include "tools/filament-render/HeapCounter.h"
 #include "tools/materials/MaterialStand.h"
+#include "tools/materials/PictureFile.h"
 
 #include <filament/Animator.h>
 #include <filament/Environment.h>
@@ -124,11 +125,12 @@ private:
     Result<void> loadMaterial(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadModel(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadSky(BackendRun& run, std::filesystem::path const& path);
+    Result<void> loadDirt();
 
     std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
     std::optional<Environment> mEnvironment;
-    Owned<Texture> mPixels;
+    Owned<Texture> mPixels, mDirt;
     Owned<RenderTarget> mTarget;
     Scene mScene;
     Renderer mRenderer;
@@ -204,6 +206,16 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                                                       .name = "pixels" }));
     mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
     mView = viewOf(mOptions);
+    return loadDirt();
+}
+
+/// Of the lens.
+Result<void> Stage::loadDirt() {
+    if (mOptions.dirt.empty()) return {};
+    Result<Owned<Texture>> dirt = loadPictureTexture(mEngine, mOptions.dirt);
+    if (!dirt) return fail(dirt.error().code, "--set bloom.dirt: {}", dirt.error().message);
+    mDirt = std::move(*dirt);
+    mView.effects.bloom.dirt = mDirt;
     return {};
 }
 

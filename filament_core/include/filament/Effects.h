@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filament/Color.h>
+#include <filament/Objects.h>
 #include <filament/Result.h>
 
 #include <optional>
@@ -63,7 +64,27 @@ struct Bloom {
     float strength = 0.1f; ///< share of the light that is scattered, [0, 1]
     float radius = 0.1f;   ///< how far, as a share of the picture's height, [0.001, 1]: that of the widest of its lobes
     float threshold = 0;   ///< only what is brighter is scattered, by that much, [0, 1e4]; 1 is white
+    /// Of the lens, over the whole picture: what is brighter than the mean of all of it shows more of the scattered light,
+    /// what is darker less. A 2D texture of colours, with all of its mip levels; none: a clean lens.
+    Texture dirt{};
+    float dirtStrength = 1; ///< share of the scattered light that the dirt scatters, [0, 1]
     friend bool operator==(Bloom const&, Bloom const&) = default;
+};
+
+/// What the surfaces of a lens reflect: ghosts, which are blurred images of what is bright, on the line from it through the
+/// middle of the picture; and a halo, a ring around it. The light is taken from where it was: none is added.
+struct LensFlare {
+    bool enabled = false;
+    float threshold = 4;         ///< only of what is brighter, by that much, [0, 1e4]; 1 is white
+    float ghostStrength = 0.03f; ///< share of the light in all ghosts together, [0, 1]
+    float ghostCount = 5;        ///< [0, 8], whole
+    float ghostSpacing = 0.4f;   ///< from the light and from ghost to ghost, of its distance from the middle, [0.05, 2]
+    float ghostRadius = 0.03f;   ///< their mean, as a share of the picture's height, [0.005, 0.25]
+    float haloStrength = 0.01f;  ///< share of the light in the halo, [0, 1]
+    float haloRadius = 0.25f;    ///< as a share of the picture's height, [0.05, 1]
+    float haloThickness = 0.2f;  ///< of the ring, as a share of its radius, [0, 1]
+    float dispersion = 0.7f;     ///< [0, 1]: from white to the colours of a spectrum, red outermost
+    friend bool operator==(LensFlare const&, LensFlare const&) = default;
 };
 
 /// The blur of what a lens does not focus, by the aperture of the camera's exposure and the focal length of its field of
@@ -182,6 +203,7 @@ struct Effects {
     ChromaticAberration chromaticAberration{};
     Resolution resolution{};
     Sharpening sharpening{};
+    LensFlare lensFlare{};
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 

@@ -2,65 +2,19 @@
 // Bloom on both APIs: how far it spreads light, that it adds none, and that it costs nothing where there is nothing to
 // spread.
 #include "filament_core/passes/BloomPass.h"
-#include "tests/filament_core/engine/SkyStage.h"
-#include "tests/filament_core/engine/materials/MaterialFixture.h"
+#include "tests/filament_core/engine/LampStage.h"
 
-#include <filament/Renderer.h>
-
+#include <array>
 #include <cmath>
-#include <functional>
 
 namespace filament {
 namespace {
 
+using test::expectSameAsPlain;
 using test::halfPixel;
-
-/// A square in front of black.
-class BloomingLamp {
-public:
-    BloomingLamp(Backend backend, float light, double side)
-            : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
-              mSquare(engine), scene(engine) {
-        mMaterial = test::loadMaterial(engine,
-                                       test::text("shadingModel : unlit",
-                                                  fmt::format("material.baseColor = vec4(vec3({:.3f}), 1.0);", light)));
-        mInstance = engine.own(engine.createInstance(mMaterial));
-        if (side > 0) mSquare.add(scene, mInstance, {}, side);
-        view.camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 90 }); // the picture is 2 m high
-        view.size = { 256, 256 };
-    }
-    ~BloomingLamp() { test::expectNoErrors(engine); }
-
-    Engine engine;
-
-private:
-    test::SquareMesh mSquare;
-    Owned<Material> mMaterial;
-    Owned<MaterialInstance> mInstance;
-
-public:
-    Scene scene;
-    View view;
-};
-
-/// The pictures of both APIs, which have the same bits.
-Image pictureOf(float light, double side, std::function<void(View&)> const& set) {
-    std::vector<Image> images;
-    for (const Backend backend : test::kBothApis) {
-        BloomingLamp lamp(backend, light, side);
-        set(lamp.view);
-        images.push_back(test::renderLinear(lamp.engine, lamp.scene, lamp.view));
-    }
-    EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u);
-    return std::move(images[0]);
-}
-
-double sumOf(Image const& image) {
-    double sum = 0;
-    for (uint32_t y = 0; y < image.height; ++y)
-        for (uint32_t x = 0; x < image.width; ++x) sum += static_cast<double>(halfPixel(image, x, y).x);
-    return sum;
-}
+using test::LampStage;
+using test::pictureOfLamp;
+using test::sumOf;
 
 /// Along x, about the middle.
 double varianceOf(Image const& image) {
@@ -102,7 +56,7 @@ TEST(BloomLevels, FollowTheRadius) {
 
 TEST(Bloom, SpreadsLightAsFarAsTheSumOfItsLobes) {
     for (const auto& [radius, levels] : { std::pair(0.004f, 1), std::pair(0.03f, 3), std::pair(0.0625f, 4) }) {
-        const Image spread = pictureOf(64, 1 / 128.0, [&](View& view) {
+        const Image spread = pictureOfLamp(64, 1 / 128.0, [&](View& view) {
             view.effects.bloom = { .enabled = true, .strength = 1, .radius = radius };
         });
         const double ofLamp = 0.25; // two pixels, each half a pixel off the middle
@@ -112,9 +66,9 @@ TEST(Bloom, SpreadsLightAsFarAsTheSumOfItsLobes) {
 }
 
 TEST(Bloom, MovesLightAndAddsNone) {
-    const double before = sumOf(pictureOf(8, 0.25, [](View&) {}));
+    const double before = sumOf(pictureOfLamp(8, 0.25, [](View&) {}));
     for (const float strength : { 0.1f, 0.5f, 1.0f }) {
-        const Image image = pictureOf(8, 0.25, [&](View& view) {
+        const Image image = pictureOfLamp(8, 0.25, [&](View& view) {
             view.effects.bloom = { .enabled = true, .strength = strength, .radius = 0.05f };
         });
         EXPECT_NEAR(sumOf(image), before, 0.005 * before) << strength;
@@ -124,7 +78,7 @@ TEST(Bloom, MovesLightAndAddsNone) {
 
 /// A picture of one light stays what it is, up to its edges.
 TEST(Bloom, LeavesAnEvenPictureAlone) {
-    const Image image = pictureOf(
+    const Image image = pictureOfLamp(
             0.75f, 4, [](View& view) { view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = 0.3f }; });
     const test::Extremes found = test::extremesOf(image);
     EXPECT_NEAR(found.least, 0.75f, 2e-3f);
@@ -132,8 +86,8 @@ TEST(Bloom, LeavesAnEvenPictureAlone) {
 }
 
 TEST(Bloom, BelowItsThresholdNothingChanges) {
-    const Image off = pictureOf(0.9f, 0.25, [](View&) {});
-    const Image on = pictureOf(
+    const Image off = pictureOfLamp(0.9f, 0.25, [](View&) {});
+    const Image on = pictureOfLamp(
             0.9f, 0.25, [](View& view) { view.effects.bloom = { .enabled = true, .strength = 1, .threshold = 1 }; });
     EXPECT_EQ(test::differingPixels(off, on), 0u);
 }
@@ -142,7 +96,7 @@ TEST(Bloom, IsFiniteAtItsEndsAndInAllSizes) {
     for (const uint2 size : { uint2(1, 1), uint2(3, 70), uint2(131, 17), uint2(64, 64) }) {
         for (const float radius : { 1e-3f, 1.0f }) {
             for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } }) {
-                const Image image = pictureOf(60'000, 0.5, [&](View& view) {
+                const Image image = pictureOfLamp(60'000, 0.5, [&](View& view) {
                     view.size = size;
                     view.samples = samples;
                     view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = radius };
@@ -153,31 +107,109 @@ TEST(Bloom, IsFiniteAtItsEndsAndInAllSizes) {
     }
 }
 
-/// The passes of a frame, and what explain() says of bloom.
-void expectNone(BloomingLamp& lamp, const char* reason) {
-    Renderer renderer(lamp.engine);
-    const View plain{ .camera = lamp.view.camera, .size = lamp.view.size };
-    (void)renderer.renderToImage(lamp.scene, plain);
-    const uint32_t passes = renderer.statistics().passesRun, draws = renderer.statistics().draws;
-    const auto before = renderer.renderToImage(lamp.scene, plain);
-    const auto after = renderer.renderToImage(lamp.scene, lamp.view);
-    EXPECT_EQ(renderer.statistics().passesRun, passes);
-    EXPECT_EQ(renderer.statistics().draws, draws);
-    ASSERT_TRUE(before && after);
-    EXPECT_EQ(before->pixels, after->pixels);
-    EXPECT_NE(renderer.explain().find(reason), std::string::npos) << renderer.explain();
-}
-
 TEST(Bloom, CostsNothingWithoutAnythingToSpread) {
     for (const Backend backend : test::kBothApis) {
-        BloomingLamp lamp(backend, 2, 0.25);
-        expectNone(lamp, "switched off: bloom=off");
+        LampStage lamp(backend, 2, 0.25);
+        expectSameAsPlain(lamp, "switched off: bloom=off");
         lamp.view.effects.bloom = { .enabled = true, .strength = 0 };
-        expectNone(lamp, "its intensity is 0");
-        BloomingLamp dark(backend, 2, 0);
+        expectSameAsPlain(lamp, "its intensity is 0");
+        LampStage dark(backend, 2, 0);
         dark.view.effects.bloom = { .enabled = true };
-        expectNone(dark, "nothing is visible, not even a sky");
+        expectSameAsPlain(dark, "nothing is visible, not even a sky");
     }
+}
+
+// ---- dirt on the lens
+
+/// Columns of sRGB codes, as wide as each other, with all mip levels.
+Owned<Texture> columns(Engine& engine, std::vector<uint8_t> const& codes) {
+    constexpr uint32_t kSide = 64;
+    std::vector<std::byte> texels;
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+        const auto code = std::byte{ codes[i % kSide * codes.size() / kSide] };
+        texels.insert(texels.end(), { code, code, code, std::byte{ 255 } });
+    }
+    return engine.own(engine.create(TextureDesc{ .format = Format::RGBA8Srgb,
+                                                 .width = kSide,
+                                                 .height = kSide,
+                                                 .generateMips = true,
+                                                 .pixels = texels,
+                                                 .name = "dirt" }));
+}
+
+/// The lamp in the middle, all of whose light is scattered; without codes the lens is clean.
+Image pictureThroughDirt(std::vector<uint8_t> const& codes, float dirtStrength, float strength = 1) {
+    std::vector<Image> images;
+    for (const Backend backend : test::kBothApis) {
+        LampStage stage(backend, 8, 0.25);
+        Owned<Texture> dirt;
+        if (!codes.empty()) dirt = columns(stage.engine, codes);
+        stage.view.effects.bloom = {
+            .enabled = true, .strength = strength, .radius = 0.05f, .dirt = dirt, .dirtStrength = dirtStrength
+        };
+        images.push_back(test::renderLinear(stage.engine, stage.scene, stage.view));
+    }
+    EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u);
+    return std::move(images[0]);
+}
+
+TEST(BloomThroughDirt, ComesWhereTheLensIsDirty) {
+    const Image clean = pictureThroughDirt({}, 1);
+    for (const float share : { 1.0f, 0.5f, 0.25f }) {
+        const Image image = pictureThroughDirt({ 0, 255 }, share); // twice the mean to the right, none to the left
+        for (const uint32_t x : { 40u, 70u, 100u, 156u, 186u, 216u }) {
+            for (const uint32_t y : { 60u, 128u, 190u }) {
+                const float factor = x < 128 ? 1 - share : 1 + share;
+                const float expected = halfPixel(clean, x, y).x * factor;
+                EXPECT_NEAR(halfPixel(image, x, y).x, expected, 0.01f * expected + 1e-4f) << x << " " << y;
+            }
+        }
+        EXPECT_NEAR(sumOf(image), sumOf(clean), 0.005 * sumOf(clean)) << "the lamp is in the middle of both";
+    }
+}
+
+TEST(BloomThroughDirt, IsThatOfACleanLensWhereDirtIsEven) {
+    const Image clean = pictureThroughDirt({}, 1, 0.5f);
+    for (const uint8_t code : { uint8_t{ 60 }, uint8_t{ 255 } }) {
+        const Image even = pictureThroughDirt({ code }, 1, 0.5f);
+        for (uint32_t y = 0; y < even.height; ++y)
+            for (uint32_t x = 0; x < even.width; ++x)
+                ASSERT_NEAR(halfPixel(even, x, y).x, halfPixel(clean, x, y).x, 2e-3f * halfPixel(clean, x, y).x + 1e-5f)
+                        << x << " " << y;
+    }
+}
+
+TEST(BloomThroughDirt, IsFiniteWithoutAnyDirtInATexture) {
+    const Image black = pictureThroughDirt({ 0 }, 1);
+    EXPECT_EQ(test::extremesOf(black).most, 0.0f) << "nothing is scattered towards the picture";
+}
+
+TEST(BloomThroughDirt, OfNoStrengthIsThatOfACleanLens) {
+    EXPECT_EQ(test::differingPixels(pictureThroughDirt({}, 1), pictureThroughDirt({ 0, 255 }, 0)), 0u);
+}
+
+TEST(BloomThroughDirt, IsNotWhatTheFrameDrawsTo) {
+    LampStage stage(Backend::Vulkan, 8, 0.25);
+    const Owned<Texture> pixels = stage.engine.own(stage.engine.create(
+            TextureDesc{ .width = 64, .height = 64, .levels = 7, .renderable = true, .name = "pane" }));
+    const Owned<RenderTarget> target =
+            stage.engine.own(stage.engine.create(RenderTargetDesc{ .color = pixels, .generateMips = true }));
+    stage.view.size = { 64, 64 };
+    stage.view.effects.bloom = { .enabled = true, .dirt = pixels };
+    Renderer renderer(stage.engine);
+    renderer.render(stage.scene, stage.view, target.get());
+    const std::vector<std::string> errors = stage.engine.takeErrors();
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_NE(errors[0].find("the dirt of bloom is 'pane', which the frame draws to"), std::string::npos) << errors[0];
+}
+
+TEST(BloomThroughDirt, IsNamedByExplain) {
+    LampStage stage(Backend::Vulkan, 8, 0.25);
+    const Owned<Texture> dirt = columns(stage.engine, { 0, 255 });
+    stage.view.effects.bloom = { .enabled = true, .dirt = dirt };
+    Renderer renderer(stage.engine);
+    ASSERT_TRUE(renderer.renderToImage(stage.scene, stage.view));
+    EXPECT_NE(renderer.explain().find("by dirt on the lens"), std::string::npos) << renderer.explain();
 }
 
 } // namespace

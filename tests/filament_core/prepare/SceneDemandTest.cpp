@@ -197,6 +197,38 @@ TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
     EXPECT_EQ(words(Effect::Grading, input), "a debug view is shown");
 }
 
+TEST(SceneDemand, NeedsALensFlareOnlyOfSomethingThatShines) {
+    DemandInput input{ .counts = { .visible = 1 } };
+    EXPECT_EQ(words(Effect::LensFlare, input), "switched off: lensFlare=off");
+    LensFlare& flare = input.effects.lensFlare;
+    flare.enabled = true;
+    EXPECT_EQ(words(Effect::LensFlare, input), "5 ghosts and a halo of what is bright");
+    input.counts.visible = 0;
+    EXPECT_EQ(words(Effect::LensFlare, input), "nothing is visible, not even a sky");
+    input.hasSky = true;
+    flare.haloStrength = 0, flare.ghostCount = 1.9f;
+    EXPECT_EQ(words(Effect::LensFlare, input), "1 ghost of what is bright");
+    input.debugView = DebugView::Lights;
+    EXPECT_EQ(words(Effect::LensFlare, input), "a debug view is shown");
+    input.debugView = DebugView::None;
+    for (const bool hasStrength : { false, true }) { // no ghosts by number, or by strength
+        flare.ghostStrength = hasStrength ? 1.0f : 0.0f, flare.ghostCount = hasStrength ? 0.9f : 8.0f;
+        EXPECT_EQ(words(Effect::LensFlare, input), "its intensity is 0");
+    }
+    flare.haloStrength = 0.1f;
+    EXPECT_EQ(words(Effect::LensFlare, input), "a halo of what is bright");
+}
+
+TEST(SceneDemand, SaysWhenDirtScattersLight) {
+    DemandInput input{ .counts = { .visible = 1 } };
+    input.effects.bloom.enabled = true;
+    EXPECT_EQ(words(Effect::Bloom, input), "spreads light of what is visible");
+    input.effects.bloom.dirt.bits = 1;
+    EXPECT_EQ(words(Effect::Bloom, input), "spreads light of what is visible, by dirt on the lens");
+    input.effects.bloom.dirtStrength = 0;
+    EXPECT_EQ(words(Effect::Bloom, input), "spreads light of what is visible");
+}
+
 TEST(SceneDemand, NeedsUpscalingOnlyOfFewerPixels) {
     DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
     EXPECT_EQ(words(Effect::Upscaling, input), "switched off: upscale=off");

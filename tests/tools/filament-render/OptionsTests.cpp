@@ -84,6 +84,13 @@ TEST(Options, DebugViewsAreSetByName) {
     EXPECT_THAT(refused({ "--set", "debugView=depth" }), HasSubstr("none, cascades, atlas, froxels, lights, "));
 }
 
+TEST(Options, DirtOfTheLensIsAFile) {
+    EXPECT_EQ(parsed({}).dirt, "");
+    const Options options = parsed({ "--set", "bloom=on", "--set", "bloom.dirt=a/b.png", "--set", "lensFlare=on" });
+    EXPECT_EQ(options.dirt, "a/b.png");
+    EXPECT_TRUE(options.effects.bloom.enabled && options.effects.lensFlare.enabled);
+}
+
 TEST(Options, TheDiscOfTheSunIsSetByName) {
     const Options options =
             parsed({ "--sun", "1000", "0", "-1", "0", "--set", "sun.showsDisc=on", "--set", "sun.haloSize=4", "--set",
