@@ -52,9 +52,10 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     }
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
-    if (packet.demand.needs(prepare::Effect::DebugView))
+    const bool isDebugView = packet.demand.needs(prepare::Effect::DebugView);
+    if (isDebugView && !prepare::isOfPictureEffect(view.debugView))
         resources.debugView = debugView(view.debugView, isToneMapped);
-    else if (isToneMapped)
+    else if (isToneMapped && !isDebugView)
         resources.toneTable = toneTable(view, packet);
     resources.dirt = dirt(packet);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;

@@ -5,6 +5,7 @@
 #include "filament_core/passes/BloomPass.h"
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugDrawPass.h"
+#include "filament_core/passes/DebugEffectPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
@@ -124,7 +125,9 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addExposurePasses(graph, context, targets);
     addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);
-    if (showsDecisions(context))
+    if (showsDecisions(context) && prepare::isOfPictureEffect(context.view->debugView))
+        addDebugEffectPass(graph, context, targets, output.isSceneLinear());
+    else if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else
         addFinishPasses(graph, context, targets, output.isSceneLinear());

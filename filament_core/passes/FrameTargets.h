@@ -24,6 +24,8 @@ struct FrameTargets {
     framegraph::History lastPicture;    ///< the picture of the last frame, and of this one; none: not needed
     framegraph::TextureId spread;       ///< light that bloom scatters, half as large; none: not needed
     framegraph::TextureId flare;        ///< ghosts and halo of the lens, by blocks of pixels; none: not needed
+    framegraph::TextureId historyShare; ///< what is kept of the gathered picture (taa.mat); none: no debug view asks
+    framegraph::TextureId histogram;    ///< of luminance (histogram.mat); none: not needed
     framegraph::TextureId exposure;     ///< one texel: stops by which the picture becomes brighter; none: not needed
     framegraph::TextureId picture;      ///< as kBindingPicture says; none: not needed
 };

@@ -46,15 +46,28 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                              FullScreenValue{ "perSample", 1.0f / float2(context.packet.size) } };
     const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motion);
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
-    const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere }, EffectConstant{ "hasDepth", hasDepth },
+    const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
+                                EffectConstant{ "hasDepth", hasDepth },
                                 EffectConstant{ "isFixed", context.packet.gathering.isFixed },
-                                EffectConstant{ "hasMotion", hasMotion }, EffectConstant{ "isEnlarged", isEnlarged } };
-    addFullScreenPass(graph, context,
-                      { .name = "taa",
-                        .material = context.resources.effects->get("taa", constants, kInterface),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = history.current });
+                                EffectConstant{ "hasMotion", hasMotion },
+                                EffectConstant{ "isEnlarged", isEnlarged },
+                                EffectConstant{ "showsShares", false } };
+    const auto add = [&](std::string_view name, bool showsShares, framegraph::TextureId target) {
+        auto all = constants;
+        all.back().value = showsShares;
+        addFullScreenPass(graph, context,
+                          { .name = name,
+                            .material = context.resources.effects->get("taa", all, kInterface),
+                            .inputs = inputs,
+                            .values = values,
+                            .target = target });
+    };
+    add("taa", false, history.current);
+    if (context.view->debugView == DebugView::HistoryWeight) {
+        targets.historyShare = graph.createTexture(
+                { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "history share" });
+        add("taa shares", true, targets.historyShare);
+    }
     targets.color = history.current;
 }
 

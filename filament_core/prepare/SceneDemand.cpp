@@ -93,10 +93,11 @@ EffectDemand demandOfFog(DemandInput const& input) {
     return { true, DemandReason::LiesInBetween };
 }
 
-/// Of an effect of the picture.
-EffectDemand demandOfPictureEffect(DemandInput const& input, bool isOn, DemandReason reason) {
+/// Of an effect of the picture; `shown`: the debug view that shows it.
+EffectDemand demandOfPictureEffect(DemandInput const& input, bool isOn, DemandReason reason,
+                                   DebugView shown = DebugView::None) {
     if (!isOn) return { .reason = DemandReason::SwitchedOff };
-    if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
+    if (input.debugView != DebugView::None && input.debugView != shown) return { .reason = DemandReason::NothingAsks };
     const bool shines = input.counts.visible > 0 || input.hasSky || input.discsInView > 0;
     if (!shines) return { .reason = DemandReason::NothingShines };
     return { true, reason };
@@ -123,7 +124,8 @@ EffectDemand demandOfFlare(DemandInput const& input) {
 }
 
 EffectDemand demandOfTaa(DemandInput const& input) {
-    return demandOfPictureEffect(input, input.quality.antiAliasing == AntiAliasing::Taa, DemandReason::SmoothsEdges);
+    return demandOfPictureEffect(input, input.quality.antiAliasing == AntiAliasing::Taa, DemandReason::SmoothsEdges,
+                                 DebugView::HistoryWeight);
 }
 
 EffectDemand demandOfFxaa(DemandInput const& input) {
@@ -149,8 +151,8 @@ EffectDemand demandOfSharpening(DemandInput const& input) {
 
 EffectDemand demandOfFocus(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
-    const EffectDemand demand =
-            demandOfPictureEffect(input, input.effects.depthOfField.enabled, DemandReason::IsOutOfFocus);
+    const EffectDemand demand = demandOfPictureEffect(input, input.effects.depthOfField.enabled,
+                                                      DemandReason::IsOutOfFocus, DebugView::CircleOfConfusion);
     if (!demand.isNeeded) return demand;
     if (!(input.blurRadius > kSharp)) return { .reason = DemandReason::IsInFocus };
     return { true, demand.reason, static_cast<uint32_t>(std::ceil(input.blurRadius)) };
@@ -238,6 +240,12 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
         return showsEffect(Effect::Motion);
     case DebugView::Fog:
         return showsEffect(Effect::Fog);
+    case DebugView::CircleOfConfusion:
+        return showsEffect(Effect::DepthOfField);
+    case DebugView::HistoryWeight:
+        return showsEffect(Effect::Taa);
+    case DebugView::Histogram:
+        return showsEffect(Effect::AutoExposure);
     }
     return {};
 }
@@ -286,8 +294,8 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Taa, demandOfTaa(input));
     set(Effect::DepthOfField, demandOfFocus(input));
     set(Effect::MotionBlur, demandOfMotionBlur(input));
-    set(Effect::AutoExposure,
-        demandOfPictureEffect(input, input.effects.autoExposure.enabled, DemandReason::MeasuresPicture));
+    set(Effect::AutoExposure, demandOfPictureEffect(input, input.effects.autoExposure.enabled,
+                                                    DemandReason::MeasuresPicture, DebugView::Histogram));
     set(Effect::Bloom, demandOfBloom(input));
     set(Effect::LensFlare, demandOfFlare(input));
     setFinish(input, demand);

@@ -147,7 +147,14 @@ SceneDemand findDemand(DemandInput const& input);
 
 /// Whether the view gathers its picture over frames, if there is anything in it.
 inline bool gathersFrames(Quality const& quality, DebugView debugView) {
-    return quality.antiAliasing == AntiAliasing::Taa && debugView == DebugView::None;
+    return quality.antiAliasing == AntiAliasing::Taa &&
+           (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
+}
+
+/// Whether a debug view shows what an effect of the picture computes. Passes::DebugEffectPass draws it.
+inline bool isOfPictureEffect(DebugView debugView) {
+    return debugView == DebugView::CircleOfConfusion || debugView == DebugView::HistoryWeight ||
+           debugView == DebugView::Histogram;
 }
 
 /// Whether gathering makes the picture as large as it is shown.

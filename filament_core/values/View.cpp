@@ -8,9 +8,10 @@ namespace filament {
 namespace {
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, 11> kDebugViews{ "none",       "cascades",  "atlas",       "froxels",
-                                                        "lights",     "occlusion", "bentNormals", "reflections",
-                                                        "refraction", "fog",       "motion" };
+constexpr std::array<std::string_view, 14> kDebugViews{
+    "none",       "cascades", "atlas",  "froxels",           "lights",        "occlusion", "bentNormals", "reflections",
+    "refraction", "fog",      "motion", "circleOfConfusion", "historyWeight", "histogram"
+};
 
 } // namespace
 

@@ -126,9 +126,7 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
         member = *known;
         return {};
     };
-    if (name == "debugView")
-        return choose(options.debugView, debugViewFromName(value),
-                      "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction or fog");
+    if (name == "debugView") return choose(options.debugView, debugViewFromName(value), debugViewNames());
     if (name == "samples")
         return choose(options.samples,
                       value == "1"   ? std::optional<uint8_t>(1)

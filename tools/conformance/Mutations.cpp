@@ -757,6 +757,8 @@ constexpr Mutation kMutations[] = {
     { "stencilOff", "stencil test off", make<StencilOffEdit> },
     { "debugThrough", "surfaces do not hide debug drawing", make<DebugThroughEdit> },
     { "exposureOff", "no auto exposure", makeFinish<kAutoExposure> },
+    { "histogramOff", "the debug view of the histogram shows none",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("debug_histogram", 0); } },
     { "gradingOff", "no grading by formula", makeFinish<kGraded> },
     { "fringesOff", "no chromatic aberration", makeFinish<kAberration> },
     { "vignetteOff", "no vignette", makeFinish<kHasVignette> },

@@ -143,10 +143,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     readColorGrading(reader, view.colorGrading);
     readLook(reader, spec);
     reader.read("dither", view.colorGrading.dither);
-    reader.choice(
-            "debugView", view.debugView,
-            "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog or motion",
-            debugViewFromName);
+    reader.choice("debugView", view.debugView, debugViewNames(), debugViewFromName);
     reader.read("clear", view.clearColor);
     readBits(reader, "layers", view.visibleLayers);
     reader.read("linear", spec.linear);

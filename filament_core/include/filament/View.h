@@ -16,25 +16,33 @@ namespace filament {
 
 class DebugDraw;
 
-/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and
-/// docs/lights.md ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
+/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md, docs/lights.md
+/// and the page of each effect say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
     None,
-    Cascades,    ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
-    Atlas,       ///< the atlas of shadow maps: depths, and the outlines of its tiles
-    Froxels,     ///< how many lights the list of each pixel's froxel has
-    Lights,      ///< how many lights of the list reach each pixel: those whose range and cone contain it
-    Occlusion,   ///< the visibility that ambient occlusion computes
-    BentNormals, ///< the mean direction that is open, in the world
-    Reflections, ///< how far reflected rays go until they hit something in the picture
-    Refraction,  ///< the blurred level of the picture that is seen through each refracting pixel
-    Fog,         ///< the share of each pixel that is fog
-    Motion,      ///< from where the last frame showed each pixel to where it is now
+    Cascades,          ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
+    Atlas,             ///< the atlas of shadow maps: depths, and the outlines of its tiles
+    Froxels,           ///< how many lights the list of each pixel's froxel has
+    Lights,            ///< how many lights of the list reach each pixel: those whose range and cone contain it
+    Occlusion,         ///< the visibility that ambient occlusion computes
+    BentNormals,       ///< the mean direction that is open, in the world
+    Reflections,       ///< how far reflected rays go until they hit something in the picture
+    Refraction,        ///< the blurred level of the picture that is seen through each refracting pixel
+    Fog,               ///< the share of each pixel that is fog
+    Motion,            ///< from where the last frame showed each pixel to where it is now
+    CircleOfConfusion, ///< how blurred depth of field makes each pixel, before and behind the focus
+    HistoryWeight,     ///< how much of the gathered picture temporal anti-aliasing keeps in each pixel
+    Histogram,         ///< what auto exposure measures, and the exposure that it chooses
 };
-/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction", "fog"
-/// and "motion", as in filament-render --set debugView=froxels.
+/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction", "fog",
+/// "motion", "circleOfConfusion", "historyWeight" and "histogram", as in filament-render --set debugView=froxels.
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
+/// All of them with commas between them, for help texts and errors.
+constexpr const char* debugViewNames() {
+    return "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog, motion, "
+           "circleOfConfusion, historyWeight or histogram";
+}
 
 /// What becomes of the pixels that a target has already.
 enum class TargetContents : uint8_t {

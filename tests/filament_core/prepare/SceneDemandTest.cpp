@@ -333,6 +333,25 @@ TEST(SceneDemand, SaysWhatDebugViewsShow) {
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=lights: at most 0");
 }
 
+TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
+    DemandInput input{ .counts = { .visible = 1, .opaqueDraws = 1 }, .blurRadius = 3 };
+    input.quality.antiAliasing = AntiAliasing::Taa;
+    input.effects.depthOfField.enabled = input.effects.autoExposure.enabled = input.effects.bloom.enabled = true;
+    const std::array shown{ std::pair(DebugView::CircleOfConfusion, Effect::DepthOfField),
+                            std::pair(DebugView::HistoryWeight, Effect::Taa),
+                            std::pair(DebugView::Histogram, Effect::AutoExposure) };
+    for (auto const& [view, ofView] : shown) {
+        input.debugView = view;
+        const SceneDemand demand = findDemand(input);
+        for (auto const& [other, effect] : shown) EXPECT_EQ(demand.needs(effect), effect == ofView) << nameOf(effect);
+        EXPECT_FALSE(demand.needs(Effect::Bloom));
+        EXPECT_EQ(words(Effect::DebugView, input), std::string("debugView=") + toString(view));
+        EXPECT_EQ(drawnSize({ 100, 60 }, float2(0.5f), input.quality, view), uint2(100, 60)) << toString(view);
+    }
+    input = { .debugView = DebugView::Histogram };
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=histogram: its effect does not run (its line says why)");
+}
+
 TEST(SceneDemand, CountsTheDiscsOfSuns) {
     EXPECT_EQ(words(Effect::SunDisc, {}), "none in the scene");
     EXPECT_EQ(words(Effect::SunDisc, { .discsOutOfView = 2 }), "none of 2 is in view");

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/DebugEffectPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <array>
+
+namespace filament::passes {
+namespace {
+
+using framegraph::FrameGraph;
+using framegraph::TextureId;
+using prepare::Effect;
+
+constexpr std::string_view kDebugFocusInputs[] = { "depth" };
+constexpr FullScreenParameter kDebugFocusValues[] = { { "focus", ParameterType::Float3 } };
+constexpr FullScreenInterface kDebugFocus{ .pass = "debug view",
+                                           .inputs = kDebugFocusInputs,
+                                           .values = kDebugFocusValues };
+constexpr std::string_view kDebugHistoryInputs[] = { "shares" };
+constexpr FullScreenInterface kDebugHistory{ .pass = "debug view", .inputs = kDebugHistoryInputs };
+constexpr std::string_view kHistogramSumInputs[] = { "histogram" };
+constexpr FullScreenInterface kHistogramSum{ .pass = "histogram sum", .inputs = kHistogramSumInputs };
+constexpr std::string_view kDebugHistogramInputs[] = { "color", "counts", "exposure" };
+constexpr FullScreenParameter kDebugHistogramValues[] = { { "shares", ParameterType::Float2 } };
+constexpr FullScreenInterface kDebugHistogram{ .pass = "debug view",
+                                               .inputs = kDebugHistogramInputs,
+                                               .values = kDebugHistogramValues };
+
+void addFocusView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    prepare::Focus const& focus = context.packet.focus;
+    const bool isOn = context.packet.demand.needs(Effect::DepthOfField);
+    const float3 value = isOn ? float3(focus.radius, focus.radiusTimesFocus, focus.mostPixels) : float3(0);
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.prepassDepth } };
+    const std::array values{ FullScreenValue{ "focus", value } };
+    const std::array constants{ EffectConstant{ "hasDepth", static_cast<bool>(targets.prepassDepth) },
+                                EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_focus", constants, kDebugFocus),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = targets.output });
+}
+
+void addHistoryView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    const std::array inputs{ FullScreenInput{ .name = "shares", .texture = targets.historyShare } };
+    const std::array constants{ EffectConstant{ "hasShares", static_cast<bool>(targets.historyShare) },
+                                EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_history", constants, kDebugHistory),
+                        .inputs = inputs,
+                        .target = targets.output });
+}
+
+/// One texel for four bins, in numbers that count any picture.
+TextureId addHistogramSum(FrameGraph& graph, FrameContext const& context, TextureId histogram) {
+    const TextureId sum = graph.createTexture({ .width = graph.texture(histogram).desc.width,
+                                                .height = 1,
+                                                .format = backend::Format::RGBA32F,
+                                                .name = "histogram sum" });
+    const std::array inputs{ FullScreenInput{ .name = "histogram", .texture = histogram } };
+    addFullScreenPass(graph, context,
+                      { .name = "histogram sum",
+                        .material = context.resources.effects->get("histogram_sum", {}, kHistogramSum),
+                        .inputs = inputs,
+                        .target = sum });
+    return sum;
+}
+
+void addHistogramView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    TextureId counts;
+    if (targets.histogram) counts = addHistogramSum(graph, context, targets.histogram);
+    AutoExposure const& exposure = context.packet.effects.autoExposure;
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
+                             FullScreenInput{ .name = "counts", .texture = counts },
+                             FullScreenInput{ .name = "exposure", .texture = targets.exposure } };
+    const std::array values{ FullScreenValue{ "shares", float2(exposure.lowPercentile, exposure.highPercentile) } };
+    const std::array constants{ EffectConstant{ "hasHistogram", static_cast<bool>(counts) },
+                                EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_histogram", constants, kDebugHistogram),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = targets.output });
+}
+
+} // namespace
+
+void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
+                        bool isSceneLinear) {
+    switch (context.view->debugView) {
+    case DebugView::CircleOfConfusion:
+        return addFocusView(graph, context, targets, !isSceneLinear);
+    case DebugView::HistoryWeight:
+        return addHistoryView(graph, context, targets, !isSceneLinear);
+    default:
+        return addHistogramView(graph, context, targets, !isSceneLinear);
+    }
+}
+
+} // namespace filament::passes

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// addDebugEffectPass: the debug views of effects of the picture, in the place of the tone mapper: circles of confusion, the
+/// weight of gathered frames, the histogram of auto exposure.
+///   Reads   what these effects have put into FrameTargets. Nothing, where they do not run: black, or the picture alone.
+///   Draws   targets.output: what a display shows, or that as light, if `isSceneLinear`.
+///   Thread  the app thread.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
+
+namespace filament::passes {
+
+void addDebugEffectPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
+                        bool isSceneLinear);
+
+} // namespace filament::passes
