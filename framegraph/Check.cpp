@@ -221,8 +221,10 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
         attaches |= isAttachment(access.kind);
         reads |= access.kind == AccessKind::Input;
         transfers |= access.kind == AccessKind::TransferRead || access.kind == AccessKind::TransferWrite;
-        require(isAttachment(access.kind) || desc.samples == 1,
-                "pass '{}': reads multisampled texture '{}'; resolve it and read the target", pass.name, desc.name);
+        require(isAttachment(access.kind) || access.kind == AccessKind::Sampled || desc.samples == 1,
+                "pass '{}': reads multisampled texture '{}' otherwise than sample by sample; resolve it and read the "
+                "target",
+                pass.name, desc.name);
         checkNotPrevious(graph, pass, access);
         checkPairs(graph, pass, access, accesses);
     }

@@ -83,7 +83,7 @@ struct DeviceTextureDesc {
     TextureType type = TextureType::Texture2D;
     Format format = Format::RGBA8;
     TextureUsage usage = TextureUsage::Sampled;
-    uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level
+    uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level, which may be sampled, but not copied
     uint8_t levels = 1;  ///< 1..fullMipCount
     uint16_t layers = 1; ///< array layers; a cube has 6 (+x -x +y -y +z -z, the order of both APIs)
     uint32_t width = 1, height = 1;
@@ -120,6 +120,8 @@ struct BindingDesc {
     BindingType type = BindingType::UniformBuffer;
     ShaderStage stages = ShaderStage::Both;
     uint8_t inputAttachment = 0; ///< InputAttachment only: index of the colour attachment it reads
+    /// SampledTexture only: a texture of several samples a texel, which shaders fetch one by one (sampler2DMS).
+    bool isMultisampled = false;
     friend bool operator==(BindingDesc const&, BindingDesc const&) = default;
 };
 

@@ -16,8 +16,8 @@ bool isUniform(BindingType type) {
 
 constexpr TextureUsage kAttachmentUsage =
         TextureUsage::ColorAttachment | TextureUsage::DepthAttachment | TextureUsage::InputAttachment;
-constexpr TextureUsage kOutlivingUsage =
-        TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
+constexpr TextureUsage kTransferUsage = TextureUsage::TransferSource | TextureUsage::TransferTarget;
+constexpr TextureUsage kOutlivingUsage = TextureUsage::Sampled | kTransferUsage;
 
 bool beginsLikeSpirv(std::span<const std::byte> bytes) {
     uint32_t magic = 0;
@@ -99,8 +99,9 @@ void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
     }
     require(desc.samples == 1 || (desc.samples == 4 && mInfo.limits.maxSamples >= 4), Harm::Crash,
             "{} samples; this device does 1 or 4", desc.samples);
-    require(desc.samples == 1 || (is2D && desc.levels == 1 && !has(desc.usage, kOutlivingUsage)), Harm::Crash,
-            "samples > 1 only for 2D attachments with one level; resolve into another texture to sample or copy it");
+    const bool isDrawnAlone = is2D && desc.levels == 1 && has(desc.usage, kAttachmentUsage);
+    require(desc.samples == 1 || (isDrawnAlone && !has(desc.usage, kTransferUsage)), Harm::Crash,
+            "samples > 1 only for 2D attachments with one level; resolve into another texture to copy it");
     require(!isCompressed(desc.format) || mInfo.features.blockCompression, Harm::Crash,
             "format {} needs DeviceFeatures::blockCompression, which this device lacks", formatInfo(desc.format).name);
 }
@@ -152,6 +153,8 @@ bool Validator::checkBindGroupLayout(BindGroupLayout const& layout, std::string_
         BindingDesc const& binding = layout.bindings[i];
         require(binding.inputAttachment == 0 || binding.type == BindingType::InputAttachment, Harm::WrongResult,
                 "{}: binding {} names an input attachment and is none", where, binding.binding);
+        require(!binding.isMultisampled || binding.type == BindingType::SampledTexture, Harm::WrongResult,
+                "{}: binding {} is multisampled and no sampled texture", where, binding.binding);
     }
     return require(layout.dynamicCount() <= kMaxDynamicOffsets, Harm::Crash,
                    "{}: {} dynamic buffers; at most {} of one group", where, layout.dynamicCount(), kMaxDynamicOffsets);
@@ -377,6 +380,9 @@ void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry con
     }
     require(has(texture->desc.usage, TextureUsage::Sampled), Harm::Crash,
             "binding {}: texture '{}' lacks TextureUsage::Sampled", entry.binding, texture->name);
+    require(binding.isMultisampled == (texture->desc.samples > 1), Harm::Crash,
+            "binding {}: texture '{}' has {} samples, the layout says {}", entry.binding, texture->name,
+            texture->desc.samples, binding.isMultisampled ? "several" : "one");
     SamplerModel const* sampler = need(mSamplers, entry.sampler, "sampler");
     if (!sampler) return;
     const FormatKind kind = formatInfo(texture->desc.format).kind;

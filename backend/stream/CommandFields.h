@@ -109,7 +109,8 @@ FILAMENT_FIELDS(SamplerDesc, "SamplerDesc", FILAMENT_FIELD(SamplerDesc, magFilte
                 FILAMENT_FIELD(SamplerDesc, wrapW), FILAMENT_FIELD(SamplerDesc, compare),
                 FILAMENT_FIELD(SamplerDesc, anisotropy));
 FILAMENT_FIELDS(BindingDesc, "BindingDesc", FILAMENT_FIELD(BindingDesc, binding), FILAMENT_FIELD(BindingDesc, type),
-                FILAMENT_FIELD(BindingDesc, stages), FILAMENT_FIELD(BindingDesc, inputAttachment));
+                FILAMENT_FIELD(BindingDesc, stages), FILAMENT_FIELD(BindingDesc, inputAttachment),
+                FILAMENT_FIELD(BindingDesc, isMultisampled));
 FILAMENT_FIELDS(BindGroupLayout, "BindGroupLayout", FILAMENT_FIELD(BindGroupLayout, bindings),
                 FILAMENT_FIELD(BindGroupLayout, count));
 FILAMENT_FIELDS(ConstantValue, "ConstantValue", FILAMENT_FIELD(ConstantValue, id), FILAMENT_FIELD(ConstantValue, bits),

@@ -36,7 +36,8 @@ std::span<Input> boundInputs(Arena& arena, FullScreenPass const& pass) {
         const auto given = std::ranges::find(pass.inputs, parameter.name, &FullScreenInput::name);
         FILAMENT_ASSERT(given != pass.inputs.end(), "a full-screen pass gives every input that its check named");
         FILAMENT_ASSERT(!given->texture || !given->image, "an input is a texture of the graph or an image, not both");
-        FILAMENT_ASSERT(given->texture || !parameter.currentPixel, "a currentPixel input is a texture of the graph");
+        FILAMENT_ASSERT(given->texture || !(parameter.currentPixel || parameter.type == ParameterType::Sampler2DMS),
+                        "an input that is currentPixel or has several samples is a texture of the graph");
         inputs[count++] = { &parameter, *given };
     }
     return inputs.first(count);

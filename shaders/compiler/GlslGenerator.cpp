@@ -511,7 +511,8 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition, Mate
                                           .type = isInput ? BindingType::InputAttachment : BindingType::SampledTexture,
                                           .stages = needs.vertexTextures && !isInput ? ShaderStage::Both
                                                                                      : ShaderStage::Fragment,
-                                          .inputAttachment = isInput ? attachment++ : uint8_t{ 0 } };
+                                          .inputAttachment = isInput ? attachment++ : uint8_t{ 0 },
+                                          .isMultisampled = parameter.type == ParameterType::Sampler2DMS };
     }
     return layout;
 }

@@ -29,7 +29,8 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "mat3", ParameterType::Float3x3 }, { "float4x4", ParameterType::Float4x4 }, { "mat4", ParameterType::Float4x4 },
     { "sampler2d", ParameterType::Sampler2D }, { "sampler2dArray", ParameterType::Sampler2DArray },
     { "samplerCubemap", ParameterType::SamplerCube }, { "samplerExternal", ParameterType::Sampler2D },
-    { "samplerCubemapArray", ParameterType::SamplerCubeArray }, { "subpassInput", ParameterType::SubpassInput } };
+    { "samplerCubemapArray", ParameterType::SamplerCubeArray }, { "subpassInput", ParameterType::SubpassInput },
+    { "sampler2dMS", ParameterType::Sampler2DMS } };
 // clang-format on
 
 /// The guide's name for a vector type of GLSL: float3 for vec3. Empty for other names.
@@ -375,6 +376,9 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
         SourcePosition const& at = definition.parameterSources[i].at;
         if (parameter.type == ParameterType::SubpassInput && definition.package.domain != MaterialDomain::PostProcess) {
             return errorAt(at, "subpass inputs exist only in the domain postprocess");
+        }
+        if (parameter.type == ParameterType::Sampler2DMS && definition.package.domain != MaterialDomain::PostProcess) {
+            return errorAt(at, "a sampler2dMS exists only in the domain postprocess");
         }
         if (Result<void> read = checkCurrentPixel(definition.package, parameter, at); !read) return read;
         if (Result<void> known = resolveUsedIf(definition, i); !known) return known;

@@ -22,7 +22,9 @@ Result<void> insertBinding(BindGroupLayout& group, uint32_t set, BindingDesc con
     auto* const at = std::lower_bound(begin, end, added.binding,
                                       [](BindingDesc const& have, uint8_t binding) { return have.binding < binding; });
     if (at != end && at->binding == added.binding) {
-        if (at->type != added.type || at->inputAttachment != added.inputAttachment) {
+        const bool isSame = at->type == added.type && at->inputAttachment == added.inputAttachment &&
+                            at->isMultisampled == added.isMultisampled;
+        if (!isSame) {
             return fail(ErrorCode::InvalidArgument,
                         "set {} binding {} ('{}') is declared as two different things; "
                         "give one of them another binding",
@@ -112,6 +114,7 @@ private:
         if (type == BindingType::InputAttachment) {
             desc.inputAttachment = static_cast<uint8_t>(decoration(resource, spv::DecorationInputAttachmentIndex));
         }
+        if (type == BindingType::SampledTexture) desc.isMultisampled = mCompiler.get_type(resource.type_id).image.ms;
         return insertBinding(mOut.layout[set], set, desc, resource.name);
     }
 
@@ -130,7 +133,7 @@ private:
 bool covers(BindingDesc const& have, BindingDesc const& need) {
     const auto haveStages = static_cast<uint8_t>(have.stages), needStages = static_cast<uint8_t>(need.stages);
     return have.type == need.type && have.inputAttachment == need.inputAttachment &&
-           (haveStages & needStages) == needStages;
+           have.isMultisampled == need.isMultisampled && (haveStages & needStages) == needStages;
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Hash.h"
+#include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ByteReader.h"
 #include "shaders/package/Deflate.h"
 #include "shaders/package/Package.h"
@@ -121,7 +122,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
     for (uint32_t i = 0; i < count && !in.failed(); ++i) {
         Parameter parameter;
         parameter.name = in.text();
-        if (!readEnum(in, parameter.type, ParameterType::SamplerCubeArray)) return false;
+        if (!readEnum(in, parameter.type, ParameterType::Sampler2DMS)) return false;
         parameter.arraySize = in.u32();
         parameter.offset = in.u32();
         parameter.binding = in.u8();
@@ -251,6 +252,18 @@ bool fits(Parameter const& parameter, uint32_t uniformBytes) {
     return parameter.offset % alignment == 0 && parameter.offset + parameterBytes(parameter) <= uniformBytes;
 }
 
+/// Follows from the types, so the file does not have it.
+void markMultisampled(MaterialPackage& package) {
+    backend::BindGroupLayout& group = package.layout[kGroupMaterial];
+    for (backend::BindingDesc& binding : std::span(group.bindings).first(group.count)) {
+        const auto found = std::ranges::find_if(package.parameters, [&](Parameter const& parameter) {
+            return isTexture(parameter.type) && parameter.binding == binding.binding;
+        });
+        binding.isMultisampled = binding.type == backend::BindingType::SampledTexture &&
+                                 found != package.parameters.end() && found->type == ParameterType::Sampler2DMS;
+    }
+}
+
 bool isBoolConstant(MaterialPackage const& package, uint32_t id) {
     const auto found = std::ranges::find(package.constants, id, &Constant::id);
     return found != package.constants.end() && found->type == backend::ConstantValue::Type::Bool;
@@ -295,6 +308,7 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     if (!readVariants(section(kSectionVariants), pieces, package.variants))
         return corruptPackage("the variants are malformed");
     if (Result<void> consistent = checkConsistency(package); !consistent) return consistent.error();
+    markMultisampled(package);
     return package;
 }
 

@@ -124,14 +124,16 @@ TEST_F(GraphRulesDeathTest, ResolvingTwoAttachmentsToOneTexture) {
     EXPECT_DEATH(checkDeclarations(graph), "texture 'c' is a resolve target and something else");
 }
 
-TEST_F(GraphRulesDeathTest, ReadingAMultisampledTexture) {
+TEST_F(GraphRulesDeathTest, ReadingAMultisampledTextureOtherwiseThanSampleBySample) {
     const TextureId a = color("a", 64, 4), out = backbuffer();
     pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("read", [&](PassBuilder& p) {
+    pass("resolve", [&](PassBuilder& p) {
         p.readSampled(a);
         p.writeColor(0, out);
     });
-    EXPECT_DEATH(checkDeclarations(graph), "pass 'read': reads multisampled texture 'a'; resolve it");
+    checkDeclarations(graph);
+    pass("copy", [&](PassBuilder& p) { p.readTransfer(a); });
+    EXPECT_DEATH(checkDeclarations(graph), "pass 'copy': reads multisampled texture 'a' otherwise than sample by");
 }
 
 TEST_F(GraphRulesDeathTest, TransfersInsideOfAPass) {

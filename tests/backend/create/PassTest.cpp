@@ -121,6 +121,50 @@ DRIVER_TEST(Pass, ResolveAveragesTheCoveredSamplesOfTheStandardPattern) {
     }
 }
 
+/// A pass that fetches each sample: four targets, each of which shows one.
+DRIVER_TEST(Pass, SamplesAreFetchedOneByOne) {
+    using enum TextureUsage;
+    const TextureHandle samples = gpu.texture({ .format = Format::RGBA16F,
+                                                .usage = ColorAttachment | Sampled,
+                                                .samples = 4,
+                                                .width = 4,
+                                                .height = 2,
+                                                .debugName = "samples" });
+    PassDesc pass = passOver({ { samples, Format::RGBA16F } }, 4, 2);
+    pass.layout.samples = 4;
+    PipelineDesc desc = pipelineFor(gpu.program(kColorVertex, kColorFragment), pass.layout);
+    useColorVertices(desc);
+    const PipelineHandle pipeline = gpu.pipeline(desc);
+    // An edge from the lower left to the upper right: 1000 on one side, 0 on the other.
+    const Rgba light{ 1000, 0.5f, -1, 1 };
+    const BufferHandle vertices =
+            gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ { { -1, -1, 0, 1 }, light },
+                                                                      { { 1, -1, 0, 1 }, light },
+                                                                      { { -1, 1, 0, 1 }, light } });
+    gpu.record(CmdBeginPass{ pass });
+    gpu.record(CmdBindPipeline{ pipeline });
+    gpu.record(CmdBindVertexBuffers{ .buffers = { vertices }, .count = 1 });
+    gpu.record(CmdDraw{ .vertexCount = 3 });
+    gpu.record(CmdEndPass{});
+    // The standard pattern (Vulkan 1.3, 25.8): sixteenths of a pixel.
+    constexpr std::array<std::array<int, 2>, 4> kPattern{ { { 6, 2 }, { 14, 6 }, { 2, 10 }, { 10, 14 } } };
+    for (int i = 0; i < 4; ++i) {
+        const Program fetch = gpu.program(
+                kFullScreenVertex,
+                fragmentOf("layout(set = 1, binding = 0) uniform highp sampler2DMS samples;",
+                           "result = texelFetch(samples, ivec2(gl_FragCoord.xy), " + std::to_string(i) + ");"));
+        EXPECT_TRUE(fetch.layout[1].bindings[0].isMultisampled);
+        const TextureHandle shown =
+                gpu.paint(fetch, { .width = 4, .height = 2, .group = gpu.imageGroup(fetch, samples, gpu.sampler()) });
+        const std::vector<Rgba> texels = gpu.readAs<Rgba>(shown, { 0, 0, 4, 2 });
+        for (int at = 0; at < 8; ++at) {
+            const int x = at % 4 * 16 + kPattern[size_t(i)][0], y = at / 4 * 16 + kPattern[size_t(i)][1];
+            if (x + 2 * y == 64) continue; // on the edge
+            EXPECT_EQ(texels[size_t(at)], x + 2 * y < 64 ? light : Rgba{}) << "sample " << i << " of texel " << at;
+        }
+    }
+}
+
 DRIVER_TEST(Pass, MultisampledDepthIsTestedPerSample) {
     const TextureHandle samples = gpu.target(Format::RGBA8, 4, 4, 4), resolved = gpu.target(Format::RGBA8, 4, 4);
     const TextureHandle depth = gpu.target(Format::D32F, 4, 4, 4);

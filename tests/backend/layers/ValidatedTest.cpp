@@ -20,6 +20,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+void recordMultisampledGroup(CommandBuffer& to, std::function<void(BindGroupLayout&)> const& change);
+
 class Validated : public testing::Test {
 protected:
     Errors mErrors;
@@ -85,6 +87,12 @@ TEST_F(Validated, IsSilentAboutSrgbThatIsUploadedBlittedFromAndReadBack) {
                 .source = srgb, .target = kColor, .sourceRect = { 0, 0, 1, 1 }, .targetRect = { 0, 0, 1, 1 } });
         to.record(CmdReadTexture{ .texture = srgb, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } });
     });
+    EXPECT_THAT(mErrors.messages, IsEmpty());
+}
+
+TEST_F(Validated, IsSilentAboutTexturesOfSeveralSamplesThatAreSampledAsSuch) {
+    execute(recordObjects);
+    execute([](CommandBuffer& to) { recordMultisampledGroup(to, [](BindGroupLayout&) {}); });
     EXPECT_THAT(mErrors.messages, IsEmpty());
 }
 
@@ -165,6 +173,21 @@ void recordGroupWith(CommandBuffer& to, std::function<void(std::vector<BindGroup
     std::vector<BindGroupEntry> entries = groupEntries();
     change(entries);
     to.record(CmdCreateBindGroup{ BindGroupHandle::make(20, 1), { .layout = groupLayout(), .entries = entries } });
+}
+
+/// A group with a texture of four samples.
+void recordMultisampledGroup(CommandBuffer& to, std::function<void(BindGroupLayout&)> const& change) {
+    const TextureHandle samples = TextureHandle::make(20, 1);
+    using enum TextureUsage;
+    to.record(CmdCreateTexture{
+            samples,
+            { .usage = ColorAttachment | Sampled, .samples = 4, .width = 8, .height = 8, .debugName = "samples" } });
+    BindGroupLayout layout = groupLayout();
+    layout.bindings[1].isMultisampled = true;
+    change(layout);
+    std::vector<BindGroupEntry> entries = groupEntries();
+    entries[1].texture = samples;
+    to.record(CmdCreateBindGroup{ BindGroupHandle::make(20, 1), { .layout = layout, .entries = entries } });
 }
 
 CmdUploadTexture uploadWith(std::vector<std::byte> const& data, std::function<void(CmdUploadTexture&)> const& change) {
@@ -256,8 +279,33 @@ std::vector<Case> objectCases() {
               to.record(textureWith([](auto& d) { d.samples = 2, d.usage = TextureUsage::ColorAttachment; }));
           },
           "2 samples" },
-        { "SampledMultisample", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 4; })); },
+        { "CopiedMultisample",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.samples = 4, d.usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource;
+              }));
+          },
           "resolve into another" },
+        { "MultisampledUniforms",
+          [](C& to) {
+              recordMultisampledGroup(to, [](BindGroupLayout& layout) { layout.bindings[0].isMultisampled = true; });
+          },
+          "binding 0 is multisampled and no sampled texture", Outcome::Forwarded },
+        { "MultisampleBoundAsOne",
+          [](C& to) {
+              recordMultisampledGroup(to, [](BindGroupLayout& layout) { layout.bindings[1].isMultisampled = false; });
+          },
+          "'samples' has 4 samples, the layout says one" },
+        { "OneBoundAsMultisample",
+          [](C& to) {
+              BindGroupLayout layout = groupLayout();
+              layout.bindings[1].isMultisampled = true;
+              const std::vector<BindGroupEntry> entries = groupEntries();
+              to.record(CmdCreateBindGroup{ BindGroupHandle::make(20, 1), { .layout = layout, .entries = entries } });
+          },
+          "has 1 samples, the layout says several" },
+        { "MultisampleThatIsNotDrawn", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 4; })); },
+          "only for 2D attachments" },
         { "OnNoTexture",
           [](C& to) { to.record(textureWith([](auto& d) { d.placedOn = TextureHandle::make(99, 1); })); },
           "placed on texture 99, which does not exist" },

@@ -143,6 +143,8 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: only a sampler2d of format float can have currentPixel, and 'x' is not one" },
     { "material {\n parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }" GOOD_FRAGMENT,
       "a.mat:2: currentPixel exists only in the domain postprocess" },
+    { "material {\n parameters : [ { name : x, type : sampler2dMS } ] }" GOOD_FRAGMENT,
+      "a.mat:2: a sampler2dMS exists only in the domain postprocess" },
     { "material { domain : postprocess,\n parameters : [ { name : x, type : sampler2d, currentPixel : true },\n"
       "{ name : y, type : subpassInput } ] }\nfragment { void postProcess(inout PostProcessInputs inputs) {} }",
       "a.mat:2: 'y' is a subpassInput, so every pass of this material is merged and 'x' cannot be a texture; make both "

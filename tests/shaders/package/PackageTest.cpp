@@ -2,6 +2,7 @@
 #include "shaders/package/Package.h"
 
 #include "base/Hash.h"
+#include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ParameterLayout.h"
 #include "tests/shaders/package/PackageFuzzBody.h"
 #include "tools/paths/Paths.h"
@@ -71,6 +72,18 @@ MaterialPackage fullPackage() {
 
 TEST(Package, ReadsBackWhatWasWritten) {
     const MaterialPackage package = fullPackage();
+    const Result<MaterialPackage> read = readPackage(writePackage(package));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, package);
+}
+
+TEST(Package, KnowsByItsTypeThatATextureHasSeveralSamples) {
+    MaterialPackage package = fullPackage();
+    package.parameters.push_back({ .name = "samples", .type = ParameterType::Sampler2DMS, .binding = 2 });
+    backend::BindGroupLayout& group = package.layout[kGroupMaterial];
+    group.count = 2;
+    group.bindings[0] = { .binding = 1, .type = backend::BindingType::SampledTexture };
+    group.bindings[1] = { .binding = 2, .type = backend::BindingType::SampledTexture, .isMultisampled = true };
     const Result<MaterialPackage> read = readPackage(writePackage(package));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(*read, package);
