@@ -41,6 +41,7 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
     return { .camera = view.camera,
              .size = drawn,
              .shownSize = view.size,
+             .samples = view.samples,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,

@@ -5,6 +5,7 @@
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/PicturePass.h"
+#include "filament_core/passes/ResolvePass.h"
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -142,6 +143,7 @@ struct ColorAttachments {
     TextureId color, samples, depth;
     TextureId depthOfPicture{}; ///< the depth with one sample a pixel, if the picture is copied
     bool hasDepth = false;      ///< the prepass left it
+    bool isWeighted = false;    ///< a pass of its own resolves the last samples
 };
 
 TextureId createLike(FrameGraph& graph, TextureId color, Format format, uint8_t samples, std::string_view name) {
@@ -152,7 +154,8 @@ TextureId createLike(FrameGraph& graph, TextureId color, Format format, uint8_t 
 
 ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     const uint8_t samples = context.settings.samples;
-    ColorAttachments made{ .color = targets.color };
+    ColorAttachments made{ .color = targets.color,
+                           .isWeighted = context.packet.demand.needs(prepare::Effect::MsaaResolve) };
     const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
     const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
     made.hasDepth =
@@ -171,7 +174,8 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
 
 void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachments const& to, ColorPart const& part) {
     PassSettings const& settings = context.settings;
-    framegraph::ColorTarget color{ .resolve = settings.samples == 1 ? TextureId{} : to.color };
+    const bool isResolved = settings.samples > 1 && !(part.isLast && to.isWeighted);
+    framegraph::ColorTarget color{ .resolve = isResolved ? to.color : TextureId{} };
     const float4 clear = settings.clearColor;
     if (part.isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
     pass.writeColor(0, to.samples, color);
@@ -275,6 +279,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
         blocks.part = partOf(view, i + 1);
         add("refraction");
     }
+    if (to.isWeighted) addResolvePass(graph, context, to.samples, to.color);
 }
 
 } // namespace filament::passes

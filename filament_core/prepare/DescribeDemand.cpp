@@ -76,6 +76,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: upscale=off";
     case Effect::Sharpening:
         return "switched off: sharpening=off";
+    case Effect::MsaaResolve:
+        return "switched off: msaaResolve=average";
     default:
         return "switched off: shadows=off";
     }
@@ -106,6 +108,8 @@ const char* describeNobody(Effect effect) {
         return "no effect looks at the last picture";
     case Effect::Stencil:
         return "nothing in view has a stencil state";
+    case Effect::MsaaResolve:
+        return "pixels have one sample";
     default:
         return "no light in view asks for them";
     }
@@ -177,6 +181,8 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
                              : fmt::format("{} in view may overlap", demand.count);
     case DemandReason::EnlargesPicture:
         return fmt::format("{} x {} pixels are drawn", demand.count, demand.others);
+    case DemandReason::ResolvesSamples:
+        return fmt::format("{} samples a pixel, weighted by what they display", demand.count);
     default:
         return {};
     }
@@ -267,6 +273,7 @@ const char* nameOf(Effect effect) {
                                                                "upscaling",
                                                                "sharpening",
                                                                "lens flare",
+                                                               "msaa resolve",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }

@@ -57,6 +57,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .blurRadius = blurRadius,
                         .size = packet.size,
                         .shownSize = packet.shownSize,
+                        .samples = view.samples,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,

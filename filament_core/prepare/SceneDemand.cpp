@@ -149,6 +149,13 @@ EffectDemand demandOfSharpening(DemandInput const& input) {
     return demandOfPictureEffect(input, sharpening.enabled, DemandReason::ChangesPicture);
 }
 
+EffectDemand demandOfResolve(DemandInput const& input) {
+    if (input.quality.msaaResolve == MsaaResolve::Average) return { .reason = DemandReason::SwitchedOff };
+    if (input.samples == 1 || input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
+    if (input.counts.visible == 0) return { .reason = DemandReason::NothingHasEdges };
+    return { true, DemandReason::ResolvesSamples, input.samples };
+}
+
 EffectDemand demandOfFocus(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
     const EffectDemand demand = demandOfPictureEffect(input, input.effects.depthOfField.enabled,
@@ -302,6 +309,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Fxaa, demandOfFxaa(input));
     set(Effect::Upscaling, demandOfUpscaling(input));
     set(Effect::Sharpening, demandOfSharpening(input));
+    set(Effect::MsaaResolve, demandOfResolve(input));
     set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;

@@ -53,9 +53,10 @@ enum class Effect : uint8_t {
     Upscaling, ///< by a filter, or by gathering frames
     Sharpening,
     LensFlare,
-    DebugView, ///< instead of the picture
+    MsaaResolve, ///< by what is displayed
+    DebugView,   ///< instead of the picture
 };
-inline constexpr size_t kEffects = 34;
+inline constexpr size_t kEffects = 35;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -86,6 +87,7 @@ enum class DemandReason : uint8_t {
     MeasuresPicture,
     EnlargesPicture, ///< of `count` by `others` pixels
     MayOverlap,      ///< `count` objects do; `others`: layers that are peeled, 0: none are
+    ResolvesSamples, ///< `count` a pixel
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -138,6 +140,7 @@ struct DemandInput {
     Effects effects{};                     ///< within their ranges
     float blurRadius = 0;                  ///< in pixels: the largest of what is visible, of the lens
     uint2 size{ 1, 1 }, shownSize{ 1, 1 }; ///< pixels that are drawn, and those of the picture that is made of them
+    uint8_t samples = 1;                   ///< a pixel
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs

@@ -34,6 +34,7 @@ struct ViewInput {
     uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
     uint2 shownSize{ 0, 0 };  ///< of the picture that is made of them; 0: the same
     float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
+    uint8_t samples = 1;      ///< a pixel
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};

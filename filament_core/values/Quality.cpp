@@ -31,6 +31,7 @@ constexpr std::string_view kTangentStorages[] = { "snorm16", "snorm8", "float" }
 constexpr std::string_view kShadingPrecisions[] = { "full", "half" };
 constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
 constexpr std::string_view kAntiAliasings[] = { "off", "fxaa", "taa" };
+constexpr std::string_view kMsaaResolves[] = { "average", "toneAware" };
 constexpr std::string_view kUpscalings[] = { "off", "bilinear", "catmullRom", "edgeAdaptive" };
 constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
 constexpr std::string_view kShadowFilters[] = {
@@ -117,6 +118,7 @@ constexpr std::array kFields{
     enumField<&Quality::shadingPrecision>("shadingPrecision", kShadingPrecisions),
     enumField<&Quality::textureFilter>("textureFilter", kTextureFilters),
     enumField<&Quality::antiAliasing>("antiAliasing", kAntiAliasings),
+    enumField<&Quality::msaaResolve>("msaaResolve", kMsaaResolves),
     enumField<&Quality::upscale>("upscale", kUpscalings),
     enumField<&Quality::toneMapping>("toneMapping", kToneMappings),
     enumField<&Quality::shadows>("shadows", kShadowFilters),
@@ -214,6 +216,7 @@ const char* toString(TangentStorage value) { return wordOf(kTangentStorages, val
 const char* toString(ShadingPrecision value) { return wordOf(kShadingPrecisions, value); }
 const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
 const char* toString(AntiAliasing value) { return wordOf(kAntiAliasings, value); }
+const char* toString(MsaaResolve value) { return wordOf(kMsaaResolves, value); }
 const char* toString(Upscaling value) { return wordOf(kUpscalings, value); }
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
 const char* toString(ShadowFilter value) { return wordOf(kShadowFilters, value); }
@@ -268,6 +271,9 @@ std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name) {
 }
 std::optional<AntiAliasing> antiAliasingFromName(std::string_view name) {
     return valueOf<AntiAliasing>(kAntiAliasings, name);
+}
+std::optional<MsaaResolve> msaaResolveFromName(std::string_view name) {
+    return valueOf<MsaaResolve>(kMsaaResolves, name);
 }
 std::optional<Upscaling> upscalingFromName(std::string_view name) { return valueOf<Upscaling>(kUpscalings, name); }
 std::optional<ToneMapping> toneMappingFromName(std::string_view name) {

@@ -38,6 +38,34 @@ inline float4 shaderToneCurve(ToneCurve const& curve) {
     return { c, 1 + b / white, b, static_cast<double>(curve.maximum) };
 }
 
+/// The light that the tone mapper displays at half of white, of grey: where displayWeight() of tone.glsl bends. False
+/// colours have none; middle grey is in their middle.
+inline float halfWhiteLight(ColorGrading const& grading) {
+    switch (grading.toneMapper) {
+    case ToneMapper::Linear:
+        return 0.5f;
+    case ToneMapper::Aces:
+        return 0.7085f;
+    case ToneMapper::Filmic:
+        return 0.356f;
+    case ToneMapper::Mobile:
+        return 0.402f;
+    case ToneMapper::Agx:
+        return grading.agxLook == AgxLook::Base ? 0.686f : grading.agxLook == AgxLook::Golden ? 0.681f : 1.036f;
+    case ToneMapper::PbrNeutral:
+        return 0.54f;
+    case ToneMapper::AcesReference:
+        return 0.691f;
+    case ToneMapper::Generic: {
+        const float4 curve = shaderToneCurve(grading.toneCurve);
+        return std::pow(0.5f * curve.z / (curve.y - 0.5f), 1 / curve.x);
+    }
+    case ToneMapper::DisplayRange:
+        return 0.18f;
+    }
+    return 0.5f;
+}
+
 /// The factor of light before nightVision(): rods see what is exposed. Without them exposure is part of the matrix.
 inline float exposureBeforeNight(Grading const& grading) {
     return grading.nightAdaptation > 0 ? std::exp2(grading.exposure) : 1;

@@ -12,6 +12,14 @@ const int kToneMapDisplayRange = 8; // false colours
 const int kToneMapAgxGolden = 9;
 const int kToneMapAgxPunchy = 10;
 
+// How much a sample counts in its pixel, so that what is displayed of the weighted mean is about the mean of what is
+// displayed of the samples: exactly so for grey and the curve x / (x + h), where h is the light that is displayed at half
+// of white. Karis 2013, "Tone Mapping"; by the brightest component as in Lottes 2016, "Optimized Reversible Tonemapper
+// for Resolve". brightest: multiplied by alpha; alpha: (0, 1], 0 gives 0.
+float displayWeight(float brightest, float alpha, float perHalfWhite) {
+    return alpha / max(alpha + max(brightest, 0.0f) * perHalfWhite, 1e-20f);
+}
+
 // In the order of OutputSpace.
 const int kOutputSrgb = 0;
 const int kOutputLinearRec709 = 1;

@@ -609,6 +609,24 @@ private:
     std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
+/// The tone-aware resolve looks at two of four samples.
+class ResolveSamplesEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void inspect(CommandView) override { mChanged.clear(); }
+    void edit(CmdCreateProgram& command) override {
+        if (!command.desc.debugName.starts_with("msaa_resolve")) return;
+        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
+        for (ConstantValue& constant : constants) {
+            if (constant.type == ConstantValue::Type::Int) constant.bits = 2;
+        }
+        command.desc.constants = constants;
+    }
+
+private:
+    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
+};
+
 /// Those of finish.mat.
 enum FinishConstant : uint32_t {
     kAutoExposure = 4,
@@ -752,6 +770,7 @@ constexpr Mutation kMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("upscale", 0); } },
     { "sharpenedLight", "sharpening takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
+    { "resolveSamples", "two of four samples become the pixel where displays weigh them", make<ResolveSamplesEdit> },
     { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },
     { "stencilOff", "stencil test off", make<StencilOffEdit> },

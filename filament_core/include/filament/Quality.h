@@ -185,6 +185,14 @@ enum class AntiAliasing : uint8_t {
     Taa,
 };
 
+/// How the samples of a pixel become its colour, with four samples a pixel.
+enum class MsaaResolve : uint8_t {
+    Average, ///< of light: before a wall, an edge of a lamp is as jagged as with one sample
+    /// Weighted so that what is displayed is nearly the average of what each sample alone would display: Karis 2013,
+    /// "Tone Mapping". One more pass.
+    ToneAware,
+};
+
 /// How a picture of which Resolution::scale draws a share becomes as large as the view, after the tone mapper. With
 /// AntiAliasing::Taa and Off, gathering frames does it.
 enum class Upscaling : uint8_t {
@@ -253,6 +261,7 @@ struct Quality {
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     AntiAliasing antiAliasing = AntiAliasing::Off;
+    MsaaResolve msaaResolve = MsaaResolve::Average;
     Upscaling upscale = Upscaling::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
@@ -275,6 +284,7 @@ const char* toString(TangentStorage value);
 const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
 const char* toString(AntiAliasing value);
+const char* toString(MsaaResolve value);
 const char* toString(Upscaling value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
@@ -299,6 +309,7 @@ std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
+std::optional<MsaaResolve> msaaResolveFromName(std::string_view name);
 std::optional<Upscaling> upscalingFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);

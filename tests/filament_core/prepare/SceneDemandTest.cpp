@@ -259,6 +259,18 @@ TEST(SceneDemand, NeedsSharpeningOnlyOfSomething) {
     EXPECT_EQ(words(Effect::Sharpening, input), "its intensity is 0");
 }
 
+TEST(SceneDemand, ResolvesSamplesByWhatTheyDisplayOnlyWhereThereAreEdges) {
+    DemandInput input{ .samples = 4 };
+    EXPECT_EQ(words(Effect::MsaaResolve, input), "switched off: msaaResolve=average");
+    input.quality.msaaResolve = MsaaResolve::ToneAware;
+    EXPECT_EQ(words(Effect::MsaaResolve, input), "no surface is visible");
+    input.counts.visible = 1;
+    EXPECT_EQ(words(Effect::MsaaResolve, input), "4 samples a pixel, weighted by what they display");
+    EXPECT_TRUE(findDemand(input).needs(Effect::MsaaResolve));
+    input.samples = 1;
+    EXPECT_EQ(words(Effect::MsaaResolve, input), "pixels have one sample");
+}
+
 TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
     const uint2 size(101, 3);
     Quality quality;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "filament_core/values/AcesReference.h"
 #include "filament_core/values/ToneShader.h"
 #include "tests/shaders/lib/Numeric.h"
 
@@ -30,6 +31,52 @@ TEST(Tone, EveryMapperStaysInRange) {
             }
         }
     }
+}
+
+ToneMapper mapperOf(int number) {
+    if (number == kToneMapAgxGolden || number == kToneMapAgxPunchy) return ToneMapper::Agx;
+    return static_cast<ToneMapper>(number);
+}
+
+TEST(Tone, HalfWhiteLightIsDisplayedAtHalfOfWhite) {
+    for (int mapper = kToneMapLinear; mapper <= kToneMapAgxPunchy; ++mapper) {
+        if (mapper == kToneMapDisplayRange || mapper == kToneMapAcesReference) continue;
+        const float half = halfWhiteLight({ .toneMapper = mapperOf(mapper),
+                                            .agxLook = mapper == kToneMapAgxGolden   ? AgxLook::Golden
+                                                       : mapper == kToneMapAgxPunchy ? AgxLook::Punchy
+                                                                                     : AgxLook::Base });
+        const vec3 shown = mapped(vec3(half), mapper);
+        EXPECT_NEAR(luminance(toneMappedIncludesTransfer(mapper) ? linearFromSrgb(shown) : shown), 0.5f, 2e-3f)
+                << mapper;
+    }
+    EXPECT_NEAR(acesReference(double3(halfWhiteLight({ .toneMapper = ToneMapper::AcesReference }))).y, 0.5, 2e-3);
+    for (const float contrast : { 0.8f, 1.0f, 2.0f }) {
+        const ToneCurve curve{ .contrast = contrast };
+        const float half = halfWhiteLight({ .toneMapper = ToneMapper::Generic, .toneCurve = curve });
+        EXPECT_NEAR(toneMapGeneric(vec3(half), shaderToneCurve(curve)).x, 0.5f, 1e-4f) << contrast;
+    }
+}
+
+/// The curve for which the weights are exact: of their weighted mean it shows the mean of what it shows of each.
+TEST(Tone, DisplayWeightsMakeTheMeanOfWhatIsDisplayed) {
+    const float half = 0.4f;
+    const auto curve = [&](float x) { return x / (x + half); };
+    for (const float lamp : { 0.01f, 1.0f, 1e2f, 65504.0f }) {
+        for (const float alpha : { 0.25f, 1.0f }) {
+            for (int covered = 0; covered <= 4; ++covered) {
+                float light = 0, weight = 0, shown = 0;
+                for (int i = 0; i < 4; ++i) {
+                    const float straight = i < covered ? lamp : 0.05f;
+                    const float w = displayWeight(straight * alpha, alpha, 1 / half);
+                    light += straight * alpha * w, weight += alpha * w, shown += curve(straight) / 4;
+                }
+                EXPECT_NEAR(curve(light / weight), shown, 1e-5f) << lamp << " " << alpha << " " << covered;
+            }
+        }
+    }
+    EXPECT_EQ(displayWeight(0, 0, 1), 0) << "nothing";
+    EXPECT_EQ(displayWeight(7, 0, 1), 0) << "light without alpha";
+    EXPECT_EQ(displayWeight(-1, 1, 1), 1) << "no light";
 }
 
 TEST(Tone, GreysStayGreyAndRise) {

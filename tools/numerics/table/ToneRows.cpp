@@ -69,6 +69,13 @@ std::vector<Row> agxRows() {
 std::vector<Row> curveRows() {
     return {
         { .file = "tone",
+          .function = "displayWeight(float, float, float)",
+          .call = NUMERICS_CALL(displayWeight(s.x, s.y, s.z)),
+          .s = { number("brightest", 0, 65504), number("alpha", 6e-8, 1), number("perHalfWhite", 0.01, 100) },
+          .range = { 0, 1 },
+          .limits = relative(1e-6, 0, "a sum and a division"),
+          .fp32Only = kStops },
+        { .file = "tone",
           .function = "toneMapPbrNeutral(vec3)",
           .call = NUMERICS_CALL(toneMapPbrNeutral(u)),
           .u = colour("x", 1e4),

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/ResolvePass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/PlacePass.h"
+#include "filament_core/values/ToneShader.h"
+
+#include <array>
+#include <cmath>
+
+namespace filament::passes {
+namespace {
+
+constexpr std::string_view kResolveInputs[] = { "samples" };
+constexpr FullScreenParameter kResolveValues[] = { { "perHalfWhite", ParameterType::Float } };
+constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResolveInputs, .values = kResolveValues };
+
+/// Of the light before the grading, which scales it. What auto exposure will make of it is not known yet.
+float halfWhiteOf(FrameContext const& context) {
+    const float half = halfWhiteLight(clamped(context.view->colorGrading));
+    const bool isGraded = context.packet.demand.needs(prepare::Effect::Grading);
+    return isGraded ? half * std::exp2(-context.packet.effects.grading.exposure) : half;
+}
+
+} // namespace
+
+void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId samples,
+                    framegraph::TextureId color) {
+    const std::array constants{ EffectConstant{ "sampleCount", int32_t{ context.settings.samples } },
+                                EffectConstant{ "isTranslucent", isTranslucent(*context.view) } };
+    const std::array inputs{ FullScreenInput{ .name = "samples", .texture = samples } };
+    const std::array values{ FullScreenValue{ "perHalfWhite", 1 / halfWhiteOf(context) } };
+    addFullScreenPass(graph, context,
+                      { .name = "msaa resolve",
+                        .material = context.resources.effects->get("msaa_resolve", constants, kResolve),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = color });
+}
+
+} // namespace filament::passes
