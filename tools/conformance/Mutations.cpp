@@ -627,6 +627,12 @@ private:
     std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
+class CoverageOffEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override { command.desc.raster.alphaToCoverage = false; }
+};
+
 /// Those of finish.mat.
 enum FinishConstant : uint32_t {
     kAutoExposure = 4,
@@ -771,6 +777,7 @@ constexpr Mutation kMutations[] = {
     { "sharpenedLight", "sharpening takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
     { "resolveSamples", "two of four samples become the pixel where displays weigh them", make<ResolveSamplesEdit> },
+    { "coverageOff", "alpha does not reach the coverage", make<CoverageOffEdit> },
     { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },
     { "stencilOff", "stencil test off", make<StencilOffEdit> },
