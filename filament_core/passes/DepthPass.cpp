@@ -18,7 +18,7 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 
 ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
-    const PassSlot at = depthSlot(context.settings.depthRange);
+    const PassSlot at = depthSlot(context.settings.depthRange, depthOfViewKey(context.settings.shading));
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
     return chooseDraws(pass, context, at, target, context.packet.mainView().opaque);
 }
@@ -74,8 +74,10 @@ uint8_t pyramidLevels(uint2 view) {
     return static_cast<uint8_t>(std::clamp<uint32_t>(std::bit_width(std::min(view.x, view.y)), 2, kMost + 1) - 1);
 }
 
-PassSlot depthSlot(DepthRange range) {
-    PassSlot slot{ .layout = { .depthFormat = Format::D32F }, .depthRange = range, .depthOnly = true };
+PassSlot depthSlot(DepthRange range, ShadingKey shading) {
+    PassSlot slot{
+        .layout = { .depthFormat = Format::D32F }, .shading = shading, .depthRange = range, .depthOnly = true
+    };
     slot.layout.subpasses[0].colorMask = 0;
     return slot;
 }

@@ -15,7 +15,8 @@
 
 namespace filament::passes {
 
-PassSlot depthSlot(DepthRange range);
+/// `shading`: depthOfViewKey().
+PassSlot depthSlot(DepthRange range, ShadingKey shading);
 
 /// Levels of the pyramid of distances for a view of this size; at most 7, and the smallest is two texels high or more,
 /// if there are several.

@@ -57,7 +57,8 @@ ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
              .hasReflections = demand.needs(prepare::Effect::Reflections),
              .showsLevels = view.debugView == DebugView::Refraction,
              .showsHits = view.debugView == DebugView::Reflections,
-             .fogTerms = fogTermsOf(packet) };
+             .fogTerms = fogTermsOf(packet),
+             .hasMipBias = demand.needs(prepare::Effect::MipBias) };
 }
 
 PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
@@ -68,7 +69,8 @@ PassSettings settingsOf(View const& view, FrameResources const& resources, prepa
              .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet), screenOf(view, packet)),
              .depthRange = view.quality.depthRange,
              .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
-             .textureFilter = view.quality.textureFilter };
+             .textureFilter = view.quality.textureFilter,
+             .mipBias = prepare::mipBias(packet.size, packet.shownSize, view.quality, view.debugView) };
 }
 
 bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }

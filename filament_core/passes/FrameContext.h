@@ -24,6 +24,7 @@ struct PassSettings {
     DepthRange depthRange = DepthRange::Reversed;
     ShadingPrecision precision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the materials' textures
+    float mipBias = 0;                                       ///< of these textures, in levels
     bool keepsDepth = false;                                 ///< somebody reads FrameTargets::solidDepth
 };
 

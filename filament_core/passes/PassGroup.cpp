@@ -17,7 +17,7 @@ namespace {
 shader::PassUniforms uniformsOf(FrameContext const& context, float2 size) {
     prepare::LastView const& last = context.packet.last;
     return { .target = { size, 1.0f / size },
-             .raster = { 1, 0, 0, context.packet.mainView().anyOrder.nearestMeters },
+             .raster = { 1, 0, 0, 0 },
              .picture = float4(0),
              .reflection = float4(0),
              .lastClipFromWorld = last.clipFromWorld,
@@ -31,6 +31,7 @@ shader::PassUniforms uniformsOf(FrameContext const& context, framegraph::GraphTe
     const auto height = static_cast<float>(std::max(1u, texture.height >> level));
     shader::PassUniforms block = uniformsOf(context, float2(width, height));
     block.raster.x = samples;
+    block.raster.w = context.settings.mipBias;
     return block;
 }
 

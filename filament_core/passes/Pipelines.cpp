@@ -40,6 +40,11 @@ uint16_t withPrecision(scene::Material const& material, uint8_t variant, Shading
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
+bool hasTextures(shader::MaterialPackage const& package) {
+    return std::ranges::any_of(package.parameters,
+                               [](shader::Parameter const& parameter) { return shader::isTexture(parameter.type); });
+}
+
 // Everything except cullingDisabled.
 uint64_t rasterBits(scene::InstanceRaster const& raster) {
     return static_cast<uint64_t>(raster.culling) | static_cast<uint64_t>(raster.colorWrite) << 2 |
@@ -72,7 +77,7 @@ uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& 
 // Skies have fog; what processes pictures has not.
 ShadingKey fullscreenShading(PassSlot const& slot, shader::MaterialPackage const& package) {
     const bool isSurface = package.domain == shader::MaterialDomain::Surface && !slot.depthOnly;
-    return isSurface ? ofUnlit(slot.shading) : ShadingKey{ 0 };
+    return isSurface ? withoutMipBias(ofUnlit(slot.shading)) : ShadingKey{ 0 };
 }
 
 uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
@@ -314,10 +319,17 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material co
 
 PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Material const& material,
                                                    uint8_t variant) const {
+    ProgramChoice choice = chooseWithTextures(slot, material, variant);
+    if (!hasTextures(material.package)) choice.shading = withoutMipBias(choice.shading);
+    return choice;
+}
+
+PipelineCache::ProgramChoice PipelineCache::chooseWithTextures(uint32_t slot, scene::Material const& material,
+                                                               uint8_t variant) const {
     PassSlot const& at = mSlots[slot];
     if (at.depthOnly) {
         const auto depth = static_cast<uint16_t>(shader::kVariantDepth | (variant & shader::kVariantSkinning));
-        return { depth, shader::transmitsLight(material.package) ? at.shading : ShadingKey{ 0 } };
+        return { depth, shader::transmitsLight(material.package) ? at.shading : depthOfViewKey(at.shading) };
     }
     if (at.motionOnly)
         return { static_cast<uint16_t>(shader::kVariantMotion | (variant & shader::kVariantSkinning)), 0 };

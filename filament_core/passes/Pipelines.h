@@ -107,6 +107,7 @@ private:
         ShadingKey shading = 0;
     };
     ProgramChoice choose(uint32_t slot, scene::Material const& material, uint8_t variant) const;
+    ProgramChoice chooseWithTextures(uint32_t slot, scene::Material const& material, uint8_t variant) const;
     backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material const& material, uint16_t variant,
                                       ShadingKey shading);
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,

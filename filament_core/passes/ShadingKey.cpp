@@ -10,7 +10,7 @@ namespace {
 
 // In the order of shader::kQualityConstants.
 constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
-                                                                        2, 2, 2, 1, 4, 2, 1, 1, 4, 3 };
+                                                                        2, 2, 2, 1, 4, 2, 1, 1, 4, 3, 1 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -55,7 +55,8 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              lights.hasProfiles ? 1u : 0u,
              lights.hasColoredShadows ? 1u : 0u,
              static_cast<uint32_t>(quality.shadows),
-             0u }; // withTransparency()
+             0u, // withTransparency()
+             screen.hasMipBias ? 1u : 0u };
 }
 
 } // namespace
@@ -77,13 +78,17 @@ ShadingKey depthShadingKey(bool coloredShadows) {
     return coloredShadows ? ShadingKey{ 1 } << shiftOf(shader::kQualityColoredShadows) : ShadingKey{ 0 };
 }
 
+ShadingKey depthOfViewKey(ShadingKey key) { return key & maskOf(shader::kQualityMipBias); }
+
 ShadingKey withoutOcclusion(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenOcclusion); }
 
 ShadingKey withoutRefraction(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenRefraction); }
 
 ShadingKey withoutReflections(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenReflections); }
 
-ShadingKey ofUnlit(ShadingKey key) { return key & maskOf(shader::kQualityFog); }
+ShadingKey ofUnlit(ShadingKey key) { return key & (maskOf(shader::kQualityFog) | maskOf(shader::kQualityMipBias)); }
+
+ShadingKey withoutMipBias(ShadingKey key) { return key & ~maskOf(shader::kQualityMipBias); }
 
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term) {
     return (key & ~maskOf(shader::kQualityTransparency)) | ShadingKey{ term } << shiftOf(shader::kQualityTransparency);

@@ -32,6 +32,7 @@ struct ShadedScreen {
     bool showsLevels = false; ///< of the refracted picture, instead of it
     bool showsHits = false;   ///< how far mirrored rays go, instead of what they hit
     uint8_t fogTerms = 0;     ///< shader::FogTerms
+    bool hasMipBias = false;  ///< Effect::MipBias
 };
 
 /// `light`: how the environment of the scene is stored, which selects programs as well.
@@ -39,6 +40,8 @@ ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& l
                       ShadedScreen screen = {});
 /// Of variants that leave depth in shadow maps: whether what transmits light does so there.
 ShadingKey depthShadingKey(bool coloredShadows);
+/// Of variants that leave the depth of a view which is shaded with `key`: holes are cut where they are seen.
+ShadingKey depthOfViewKey(ShadingKey key);
 
 /// For what leaves no depth: ambient occlusion is that of the surfaces behind it.
 ShadingKey withoutOcclusion(ShadingKey key);
@@ -48,6 +51,8 @@ ShadingKey withoutRefraction(ShadingKey key);
 ShadingKey withoutReflections(ShadingKey key);
 /// For what blends in any order.
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);
+/// For what has no textures.
+ShadingKey withoutMipBias(ShadingKey key);
 /// The choices of materials that are not lit.
 ShadingKey ofUnlit(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.

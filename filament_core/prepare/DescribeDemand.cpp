@@ -78,6 +78,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: sharpening=off";
     case Effect::MsaaResolve:
         return "switched off: msaaResolve=average";
+    case Effect::MipBias:
+        return "switched off: mipBias=off";
     default:
         return "switched off: shadows=off";
     }
@@ -110,6 +112,8 @@ const char* describeNobody(Effect effect) {
         return "nothing in view has a stencil state";
     case Effect::MsaaResolve:
         return "pixels have one sample";
+    case Effect::MipBias:
+        return "no frames are gathered into more pixels than they have";
     default:
         return "no light in view asks for them";
     }
@@ -183,6 +187,8 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} x {} pixels are drawn", demand.count, demand.others);
     case DemandReason::ResolvesSamples:
         return fmt::format("{} samples a pixel, weighted by what they display", demand.count);
+    case DemandReason::SharpensTextures:
+        return fmt::format("textures are read {:.2f} mip levels sharper", demand.count * 0.01);
     default:
         return {};
     }
@@ -274,6 +280,7 @@ const char* nameOf(Effect effect) {
                                                                "sharpening",
                                                                "lens flare",
                                                                "msaa resolve",
+                                                               "mip bias",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }

@@ -129,6 +129,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     if (composes) packet.anyOrder = anyOrderDraws(order, packet.blended, any.nearest);
+    packet.uniforms.jitter.z = packet.anyOrder.nearestMeters;
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
     if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
         packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,

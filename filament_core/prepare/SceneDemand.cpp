@@ -156,6 +156,13 @@ EffectDemand demandOfResolve(DemandInput const& input) {
     return { true, DemandReason::ResolvesSamples, input.samples };
 }
 
+EffectDemand demandOfMipBias(DemandInput const& input) {
+    const float bias = mipBias(input.size, input.shownSize, input.quality, input.debugView);
+    if (input.quality.mipBias == MipBias::Off) return { .reason = DemandReason::SwitchedOff };
+    if (bias == 0) return { .reason = DemandReason::NothingAsks };
+    return { true, DemandReason::SharpensTextures, static_cast<uint32_t>(std::lround(-100 * bias)) };
+}
+
 EffectDemand demandOfFocus(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
     const EffectDemand demand = demandOfPictureEffect(input, input.effects.depthOfField.enabled,
@@ -264,6 +271,13 @@ bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const
            (quality.ssr && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
 }
 
+float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView) {
+    if (quality.mipBias == MipBias::Off || !gathersFrames(quality, debugView)) return 0;
+    const float2 scale = float2(size) / float2(shownSize);
+    const float sharper = quality.mipBias == MipBias::Sharp ? 1.0f : 0.0f;
+    return std::min(0.5f * std::log2(scale.x * scale.y), 0.0f) - sharper;
+}
+
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView) {
     const bool isEnlarged = quality.upscale != Upscaling::Off || gathersFrames(quality, debugView);
     if (!isEnlarged || debugView != DebugView::None) return size;
@@ -310,6 +324,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Upscaling, demandOfUpscaling(input));
     set(Effect::Sharpening, demandOfSharpening(input));
     set(Effect::MsaaResolve, demandOfResolve(input));
+    set(Effect::MipBias, demandOfMipBias(input));
     set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;

@@ -54,9 +54,10 @@ enum class Effect : uint8_t {
     Sharpening,
     LensFlare,
     MsaaResolve, ///< by what is displayed
+    MipBias,     ///< of materials' textures
     DebugView,   ///< instead of the picture
 };
-inline constexpr size_t kEffects = 35;
+inline constexpr size_t kEffects = 36;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -85,9 +86,10 @@ enum class DemandReason : uint8_t {
     ChangesPicture,       ///< as a whole
     IsOutOfFocus,         ///< something visible is, by `count` pixels at most
     MeasuresPicture,
-    EnlargesPicture, ///< of `count` by `others` pixels
-    MayOverlap,      ///< `count` objects do; `others`: layers that are peeled, 0: none are
-    ResolvesSamples, ///< `count` a pixel
+    EnlargesPicture,  ///< of `count` by `others` pixels
+    MayOverlap,       ///< `count` objects do; `others`: layers that are peeled, 0: none are
+    ResolvesSamples,  ///< `count` a pixel
+    SharpensTextures, ///< by `count` hundredths of a mip level
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -174,6 +176,10 @@ inline bool asksForAnyOrder(Quality const& quality, DebugView debugView) {
 
 /// Whether so many objects need an order.
 constexpr bool overlaps(uint32_t objects) { return objects > 1; }
+
+/// How many mip levels further down materials' textures are read, for `size` pixels that are drawn and those of the
+/// picture that is made of them; at most 0.
+float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView);
 
 /// The pixels that a view draws of `size`.
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);

@@ -32,6 +32,7 @@ constexpr std::string_view kShadingPrecisions[] = { "full", "half" };
 constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
 constexpr std::string_view kAntiAliasings[] = { "off", "fxaa", "taa" };
 constexpr std::string_view kMsaaResolves[] = { "average", "toneAware" };
+constexpr std::string_view kMipBiases[] = { "output", "off", "sharp" };
 constexpr std::string_view kUpscalings[] = { "off", "bilinear", "catmullRom", "edgeAdaptive" };
 constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
 constexpr std::string_view kShadowFilters[] = {
@@ -119,6 +120,7 @@ constexpr std::array kFields{
     enumField<&Quality::textureFilter>("textureFilter", kTextureFilters),
     enumField<&Quality::antiAliasing>("antiAliasing", kAntiAliasings),
     enumField<&Quality::msaaResolve>("msaaResolve", kMsaaResolves),
+    enumField<&Quality::mipBias>("mipBias", kMipBiases),
     enumField<&Quality::upscale>("upscale", kUpscalings),
     enumField<&Quality::toneMapping>("toneMapping", kToneMappings),
     enumField<&Quality::shadows>("shadows", kShadowFilters),
@@ -217,6 +219,7 @@ const char* toString(ShadingPrecision value) { return wordOf(kShadingPrecisions,
 const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
 const char* toString(AntiAliasing value) { return wordOf(kAntiAliasings, value); }
 const char* toString(MsaaResolve value) { return wordOf(kMsaaResolves, value); }
+const char* toString(MipBias value) { return wordOf(kMipBiases, value); }
 const char* toString(Upscaling value) { return wordOf(kUpscalings, value); }
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
 const char* toString(ShadowFilter value) { return wordOf(kShadowFilters, value); }
@@ -275,6 +278,7 @@ std::optional<AntiAliasing> antiAliasingFromName(std::string_view name) {
 std::optional<MsaaResolve> msaaResolveFromName(std::string_view name) {
     return valueOf<MsaaResolve>(kMsaaResolves, name);
 }
+std::optional<MipBias> mipBiasFromName(std::string_view name) { return valueOf<MipBias>(kMipBiases, name); }
 std::optional<Upscaling> upscalingFromName(std::string_view name) { return valueOf<Upscaling>(kUpscalings, name); }
 std::optional<ToneMapping> toneMappingFromName(std::string_view name) {
     return valueOf<ToneMapping>(kToneMappings, name);

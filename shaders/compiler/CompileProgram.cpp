@@ -2,6 +2,7 @@
 #include "shaders/compiler/CompileProgram.h"
 
 #include "base/Assert.h"
+#include "shaders/compiler/BiasTextures.h"
 #include "shaders/compiler/CanonicalOrder.h"
 #include "shaders/compiler/ClampIndices.h"
 #include "shaders/compiler/DefineValues.h"
@@ -34,6 +35,7 @@ Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& opt
 Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
                          ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
+    if (spirv && stage == backend::ShaderStage::Fragment) spirv = biasTextures(*spirv);
     if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
     if (spirv && options.exact) spirv = clampIndices(initializeVariables(*spirv));
     const Optimization goal = goalOf(stage, options);

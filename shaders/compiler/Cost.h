@@ -19,7 +19,7 @@ struct InstructionCounts {
     uint32_t transcendental = 0; ///< includes roots and functions that contain them: normalize, length
     uint32_t control = 0;        ///< branches, calls, discards
     uint32_t memory = 0;         ///< loads and stores: uniforms, interpolants, outputs
-    uint32_t fetches = 0;        ///< of textures
+    uint32_t fetches = 0;        ///< of textures; those of surfaces are there twice (BiasTextures.h), and one is run
 
     uint32_t sum() const { return arithmetic + transcendental + control + memory + fetches; }
     friend bool operator==(InstructionCounts const&, InstructionCounts const&) = default;

@@ -107,7 +107,9 @@ void declareConstant(StageText& out, QualityConstant const& constant) {
 } // namespace
 
 void declareQuality(StageText& out) {
-    for (QualityConstant const& constant : kQualityConstants) declareConstant(out, constant);
+    for (QualityConstant const& constant : kQualityConstants) {
+        if (constant.id != kQualityMipBias) declareConstant(out, constant); // which texture_bias.glsl declares
+    }
 }
 
 void declareUnlitQuality(StageText& out) {

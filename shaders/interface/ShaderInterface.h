@@ -80,13 +80,13 @@ struct FrameUniforms {
     float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed, towards the sun; w: exponent of the cosine
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has them
-    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; zw: unused
+    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; z: metres from which on transparencyWeight() falls; w: unused
 };
 
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: metres from which on transparencyWeight() falls
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: mip levels that are added to those of materials' textures
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they hit, metres; w: last level of the pyramid of distances
     float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none
@@ -218,6 +218,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
     kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
+    kQualityMipBias = 1021, ///< 1: materials' textures are read at other mip levels than pixels ask for; all surfaces have this one
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -262,6 +263,7 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "coloredShadows", kQualityColoredShadows },
     QualityConstant{ "shadowFilter", kQualityShadowFilter },
     QualityConstant{ "transparency", kQualityTransparency },
+    QualityConstant{ "mipBias", kQualityMipBias },
 };
 
 // clang-format on

@@ -240,6 +240,13 @@ class LightOffEdit final : public FrameEdit {
     }
 };
 
+/// What blends in any order weighs the same at any distance.
+class OneWeightEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        writeFloat(copy(command.bytes), offsetof(shader::FrameUniforms, jitter) + 2 * sizeof(float), 0);
+    }
+};
+
 class IrradianceEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
         Bytes& bytes = copy(command.bytes);
@@ -508,20 +515,6 @@ class ReflectionReachEdit final : public PassBlocksEdit {
     }
 };
 
-/// What blends in any order weighs the same at any distance.
-class OneWeightEdit final : public PassBlocksEdit {
-    void editBlocks(Bytes& bytes) override {
-        constexpr size_t kNearest = offsetof(shader::PassUniforms, raster) + 3 * sizeof(float);
-        for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
-            const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
-            const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
-            const bool isPass = number(0) >= 1 && number(1) >= 1 && isReciprocal(0) && isReciprocal(1) &&
-                                (number(4) == 1 || number(4) == 4) && number(7) > 0;
-            if (isPass) writeFloat(bytes, at + kNearest, 0);
-        }
-    }
-};
-
 /// The second peeled layer is the first once more, and so are all after it.
 class LayerAgainEdit final : public StreamEdit {
 public:
@@ -619,6 +612,23 @@ public:
         auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
         for (ConstantValue& constant : constants) {
             if (constant.type == ConstantValue::Type::Int) constant.bits = 2;
+        }
+        command.desc.constants = constants;
+    }
+
+private:
+    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
+};
+
+/// Textures are read at the mip levels of the pixels that are drawn.
+class DrawnLevelsEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void inspect(CommandView) override { mChanged.clear(); }
+    void edit(CmdCreateProgram& command) override {
+        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
+        for (ConstantValue& constant : constants) {
+            if (constant.id == shader::kQualityMipBias) constant.bits = 0;
         }
         command.desc.constants = constants;
     }
@@ -777,6 +787,7 @@ constexpr Mutation kMutations[] = {
     { "sharpenedLight", "sharpening takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("sharpen", 0); } },
     { "resolveSamples", "two of four samples become the pixel where displays weigh them", make<ResolveSamplesEdit> },
+    { "drawnLevels", "textures at the mip levels of the pixels that are drawn", make<DrawnLevelsEdit> },
     { "coverageOff", "alpha does not reach the coverage", make<CoverageOffEdit> },
     { "alphaSwapped", "colours multiplied by alpha where they are to be divided by it, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("alpha", 0); } },

@@ -193,6 +193,13 @@ enum class MsaaResolve : uint8_t {
     ToneAware,
 };
 
+/// Which mip levels of materials' textures are read while frames are gathered (AntiAliasing::Taa).
+enum class MipBias : uint8_t {
+    Output, ///< those of the picture that is shown, also if fewer pixels are drawn
+    Off,    ///< those of the pixels that are drawn
+    Sharp,  ///< one sharper than Output: many frames have many samples a pixel
+};
+
 /// How a picture of which Resolution::scale draws a share becomes as large as the view, after the tone mapper. With
 /// AntiAliasing::Taa and Off, gathering frames does it.
 enum class Upscaling : uint8_t {
@@ -262,6 +269,7 @@ struct Quality {
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     AntiAliasing antiAliasing = AntiAliasing::Off;
     MsaaResolve msaaResolve = MsaaResolve::Average;
+    MipBias mipBias = MipBias::Output;
     Upscaling upscale = Upscaling::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
@@ -285,6 +293,7 @@ const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
 const char* toString(AntiAliasing value);
 const char* toString(MsaaResolve value);
+const char* toString(MipBias value);
 const char* toString(Upscaling value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
@@ -310,6 +319,7 @@ std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
 std::optional<MsaaResolve> msaaResolveFromName(std::string_view name);
+std::optional<MipBias> mipBiasFromName(std::string_view name);
 std::optional<Upscaling> upscalingFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);

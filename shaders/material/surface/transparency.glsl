@@ -38,7 +38,7 @@ vec4 composedColor(vec4 color) {
         mat4 clip = frameUniforms.clipFromView;
         highp float meters =
                 distanceFromDepth(gl_FragCoord.z, vec2(clip[2].z, clip[3].z), vec2(clip[2].w, clip[3].w));
-        composed = weightedSurface(color, transparencyWeight(meters, passUniforms.raster.w));
+        composed = weightedSurface(color, transparencyWeight(meters, frameUniforms.jitter.z));
     } else if (quality_transparency == kTransparencyCover) {
         composed = vec4(countedAlpha(color.a));
     } else if (quality_transparency == kTransparencyDepth || quality_transparency == kTransparencyNextDepth) {

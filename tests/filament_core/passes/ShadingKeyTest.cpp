@@ -91,6 +91,15 @@ TEST(ShadingKey, EveryTermOfTransparencyIsAKeyAndNoViewHasOne) {
     EXPECT_EQ(keys.size(), 7u);
 }
 
+TEST(ShadingKey, MipBiasIsAKeyOfAllSurfacesAndOfTheirDepths) {
+    const ShadingKey key = shadingKey({}, {}, {}, { .fogTerms = 3, .hasMipBias = true });
+    EXPECT_EQ(bitsOf(key, shader::kQualityMipBias), 1u);
+    EXPECT_EQ(bitsOf(ofUnlit(key), shader::kQualityMipBias), 1u);
+    EXPECT_EQ(withoutMipBias(key), shadingKey({}, {}, {}, { .fogTerms = 3 }));
+    EXPECT_EQ(depthOfViewKey(key), shadingKey({}, {}, {}, { .hasMipBias = true }));
+    EXPECT_EQ(shadingKey({ .mipBias = MipBias::Off }), shadingKey({})) << "a number, not a program";
+}
+
 TEST(ShadingKey, ColoursOfShadowsAreAKeyOnlyWhereAMapHasThem) {
     const Quality colored{ .coloredShadows = true };
     EXPECT_EQ(shadingKey(colored), shadingKey({})) << "no map with colours, no program of its own";

@@ -271,6 +271,22 @@ TEST(SceneDemand, ResolvesSamplesByWhatTheyDisplayOnlyWhereThereAreEdges) {
     EXPECT_EQ(words(Effect::MsaaResolve, input), "pixels have one sample");
 }
 
+TEST(SceneDemand, SharpensTexturesByTheShareOfPixelsThatFramesHave) {
+    DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
+    EXPECT_EQ(words(Effect::MipBias, input), "no frames are gathered into more pixels than they have");
+    input.quality.antiAliasing = AntiAliasing::Taa;
+    EXPECT_EQ(words(Effect::MipBias, input), "textures are read 1.00 mip levels sharper");
+    EXPECT_EQ(mipBias(input.size, input.shownSize, input.quality, DebugView::None), -1);
+    EXPECT_EQ(mipBias({ 400, 150 }, { 400, 300 }, input.quality, DebugView::None), -0.5f) << "of the area";
+    EXPECT_EQ(mipBias({ 400, 300 }, { 400, 300 }, input.quality, DebugView::None), 0);
+    EXPECT_EQ(mipBias({ 200, 150 }, { 400, 300 }, input.quality, DebugView::Motion), 0);
+    input.quality.mipBias = MipBias::Sharp;
+    EXPECT_EQ(mipBias({ 400, 300 }, { 400, 300 }, input.quality, DebugView::None), -1);
+    EXPECT_EQ(words(Effect::MipBias, input), "textures are read 2.00 mip levels sharper");
+    input.quality.mipBias = MipBias::Off;
+    EXPECT_EQ(words(Effect::MipBias, input), "switched off: mipBias=off");
+}
+
 TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
     const uint2 size(101, 3);
     Quality quality;
