@@ -38,9 +38,11 @@ using passes::PipelineSource;
 /// `contents`: see ViewInput. `effects`: those of the view, within their ranges.
 prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t contents) {
     const uint2 drawn = prepare::drawnSize(view.size, effects.resolution.scale, view.quality, view.debugView);
+    const uint32_t band = prepare::guardBand(drawn, view.size, effects, view.quality, view.debugView);
     return { .camera = view.camera,
-             .size = drawn,
+             .size = drawn + 2u * band,
              .shownSize = view.size,
+             .band = band,
              .samples = view.samples,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
@@ -51,10 +53,11 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .contents = contents };
 }
 
-/// As if all of the view's pixels were drawn.
+/// As if all of the view's pixels were drawn, and no others.
 prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
     Effects effects = clamped(view.effects);
     effects.resolution.scale = float2(1);
+    effects.guardBand.enabled = false;
     return inputOf(view, effects, contents);
 }
 
@@ -132,11 +135,13 @@ struct Renderer::Impl {
     /// Both only ever grow.
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
-    /// As the view asks for it, at the share of its pixels that there is time for.
-    prepare::ViewInput inputFor(Scene const& scene, View const& view) const {
+    /// As the view asks for it, at the share of its pixels that there is time for. Depths are not cut.
+    prepare::ViewInput inputFor(Scene const& scene, View const& view, bool hasDepthTarget) const {
         Effects effects = clamped(view.effects);
         effects.resolution.scale = shares.scale(effects.resolution);
-        return inputOf(view, effects, contentsOf(scene));
+        prepare::ViewInput input = inputOf(view, effects, contentsOf(scene));
+        if (hasDepthTarget) input.size = input.inside(), input.band = 0;
+        return input;
     }
 
     /// What finished frames took decides how large the next one is.
@@ -154,7 +159,7 @@ struct Renderer::Impl {
         arena.reset();
         graph.reset();
         plan = {};
-        const std::array views{ inputFor(scene, view) };
+        const std::array views{ inputFor(scene, view, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet =
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
@@ -177,9 +182,9 @@ struct Renderer::Impl {
     }
 
     /// Without memory for it, the next frame is as a first one.
-    void keepLast(Scene const& scene, View const& view, prepare::FramePacket const& packet) {
+    void keepLast(Scene const& scene, View const& view, Target const& target, prepare::FramePacket const& packet) {
         try {
-            last.keep(scene.impl().upToDate(), inputFor(scene, view), packet);
+            last.keep(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr), packet);
         } catch (std::bad_alloc const&) {
             last.forget();
         }
@@ -221,7 +226,7 @@ struct Renderer::Impl {
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
         stamps.recorded = clock();
-        keepLast(scene, view, context.packet);
+        keepLast(scene, view, target, context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);

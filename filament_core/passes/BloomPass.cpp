@@ -81,7 +81,8 @@ uint8_t bloomLevels(uint2 view, float radiusPixels) {
 void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
     const uint2 size = sizeOf(graph, targets.color);
-    const uint8_t levels = bloomLevels(size, context.packet.effects.bloom.radius * static_cast<float>(size.y));
+    const uint2 inside = size - 2u * context.packet.band;
+    const uint8_t levels = bloomLevels(inside, context.packet.effects.bloom.radius * static_cast<float>(inside.y));
     const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x / 2),
                                                    .height = std::max(1u, size.y / 2),
                                                    .format = Format::RGBA16F,

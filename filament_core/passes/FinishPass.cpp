@@ -38,6 +38,7 @@ constexpr FullScreenParameter kFinishValues[] = {
     { "shadowGamma", ParameterType::Float3 },    { "midPoint", ParameterType::Float3 },
     { "highlightScale", ParameterType::Float3 }, { "night", ParameterType::Float2 },
     { "toneCurve", ParameterType::Float4 },      { "whiteShare", ParameterType::Float },
+    { "spreadPlace", ParameterType::Float4 },
 };
 constexpr FullScreenInterface kFinish{ .pass = "finish", .inputs = kFinishInputs, .values = kFinishValues };
 constexpr std::string_view kFxaaInputs[] = { "picture" };
@@ -132,6 +133,12 @@ float4 flareShareOf(FrameContext const& context, uint2 size) {
     return { flare.threshold, flareShare(flare), float2(size) / covered };
 }
 
+/// Where the picture lies in what is drawn around it, by factor (xy) and offset (zw).
+float4 placeInBand(prepare::FramePacket const& packet) {
+    const float2 whole(packet.size);
+    return { float2(packet.insideSize()) / whole, static_cast<float>(packet.band) / whole };
+}
+
 auto valuesOf(FrameContext const& context, uint2 drawn) {
     Effects const& effects = context.packet.effects;
     Grading const& grading = effects.grading;
@@ -165,6 +172,7 @@ auto valuesOf(FrameContext const& context, uint2 drawn) {
         FullScreenValue{ "night", float2(grading.nightAdaptation, exposureBeforeNight(grading)) },
         FullScreenValue{ "toneCurve", shaderToneCurve(tone.toneCurve) },
         FullScreenValue{ "whiteShare", whiteShareOf(tone) },
+        FullScreenValue{ "spreadPlace", placeInBand(context.packet) },
     };
 }
 

@@ -70,7 +70,7 @@ PassSettings settingsOf(View const& view, FrameResources const& resources, prepa
              .depthRange = view.quality.depthRange,
              .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
              .textureFilter = view.quality.textureFilter,
-             .mipBias = prepare::mipBias(packet.size, packet.shownSize, view.quality, view.debugView) };
+             .mipBias = prepare::mipBias(packet.insideSize(), packet.shownSize, view.quality, view.debugView) };
 }
 
 bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }
@@ -81,7 +81,8 @@ bool changesPicture(FrameContext const& context) {
     constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,        Effect::ChromaticAberration,
                                             Effect::Vignette,     Effect::Grading,      Effect::Fxaa,
                                             Effect::DepthOfField, Effect::AutoExposure, Effect::Upscaling,
-                                            Effect::Sharpening,   Effect::MotionBlur,   Effect::LensFlare };
+                                            Effect::Sharpening,   Effect::MotionBlur,   Effect::LensFlare,
+                                            Effect::GuardBand };
     return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
 }
 
@@ -124,8 +125,12 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addFocusPasses(graph, context, targets);
     addMotionBlurPasses(graph, context, targets);
     if (isEnlarged) addTemporalPass(graph, context, targets);
+    if (context.packet.band > 0) {
+        addBloomPasses(graph, context, targets); // of what lies beside the picture, too
+        addCutPass(graph, context, targets);
+    }
     addExposurePasses(graph, context, targets);
-    addBloomPasses(graph, context, targets);
+    if (context.packet.band == 0) addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);
     if (showsDecisions(context) && prepare::isOfPictureEffect(context.view->debugView))
         addDebugEffectPass(graph, context, targets, output.isSceneLinear());

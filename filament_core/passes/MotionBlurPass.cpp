@@ -31,7 +31,7 @@ class MotionBlurPasses {
 public:
     MotionBlurPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets)
             : mGraph(graph), mContext(context), mTargets(targets), mSize(context.settings.size),
-              mMost(std::max(1.0f, effect().maxRadius * static_cast<float>(mSize.y))),
+              mMost(std::max(1.0f, effect().maxRadius * static_cast<float>(context.packet.insideSize().y))),
               // Blur reaches into the next tile, never beyond.
               mTile(std::max(8, static_cast<int32_t>(std::ceil(mMost)))) {}
 

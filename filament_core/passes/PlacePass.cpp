@@ -78,6 +78,21 @@ void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput co
           { isCleared(*view.viewport, output), view.viewport->clearColor });
 }
 
+void addCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const uint2 size = context.packet.insideSize();
+    const framegraph::TextureId inside = graph.createTexture(
+            { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "without its band" });
+    const std::array inputs{ FullScreenInput{ .name = "picture", .texture = targets.color } };
+    const std::array values{ FullScreenValue{ "offset", -int2(static_cast<int32_t>(context.packet.band)) } };
+    addFullScreenPass(graph, context,
+                      { .name = "guard band",
+                        .material = context.resources.effects->get("place", {}, kPlace),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = inside });
+    targets.color = inside;
+}
+
 void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets) {
     if (!output.depth) return;

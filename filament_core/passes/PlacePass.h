@@ -16,6 +16,9 @@ void beginPlace(framegraph::FrameGraph& graph, FrameContext const& context, Fram
 void addPlacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                   FrameTargets const& targets);
 
+/// targets.color without the band of Effects::guardBand around it. What comes later works on the picture alone.
+void addCutPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+
 /// What a render target wants to know of depths: FrameTargets::solidDepth as distances, in their place.
 void addTargetDepth(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets);

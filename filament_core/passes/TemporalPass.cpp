@@ -22,7 +22,7 @@ constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .val
 
 bool gathersLarger(FrameContext const& context) {
     prepare::FramePacket const& packet = context.packet;
-    return packet.demand.needs(prepare::Effect::Taa) && packet.size != packet.shownSize &&
+    return packet.demand.needs(prepare::Effect::Taa) && packet.insideSize() != packet.shownSize &&
            prepare::gathersLarger(context.view->quality, context.view->debugView);
 }
 

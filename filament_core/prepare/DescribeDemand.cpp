@@ -80,6 +80,8 @@ const char* describeSwitch(Effect effect) {
         return "switched off: msaaResolve=average";
     case Effect::MipBias:
         return "switched off: mipBias=off";
+    case Effect::GuardBand:
+        return "switched off: guardBand=off";
     default:
         return "switched off: shadows=off";
     }
@@ -114,6 +116,8 @@ const char* describeNobody(Effect effect) {
         return "pixels have one sample";
     case Effect::MipBias:
         return "no frames are gathered into more pixels than they have";
+    case Effect::GuardBand:
+        return "a debug view is shown, the target has depth, or gathering enlarges the picture";
     default:
         return "no light in view asks for them";
     }
@@ -187,6 +191,8 @@ std::string describeNeed(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} x {} pixels are drawn", demand.count, demand.others);
     case DemandReason::ResolvesSamples:
         return fmt::format("{} samples a pixel, weighted by what they display", demand.count);
+    case DemandReason::SurroundsPicture:
+        return fmt::format("{} pixels on each side are drawn and cut off", demand.count);
     case DemandReason::SharpensTextures:
         return fmt::format("textures are read {:.2f} mip levels sharper", demand.count * 0.01);
     default:
@@ -221,7 +227,7 @@ std::string describeLack(Effect effect, EffectDemand const& demand) {
     case DemandReason::HasNoDensity:
         return "its density or opacity is 0";
     case DemandReason::HasNoIntensity:
-        return "its intensity is 0";
+        return effect == Effect::GuardBand ? "its width is 0" : "its intensity is 0";
     case DemandReason::SwitchedOff:
         return describeSwitch(effect);
     case DemandReason::NothingReceives:
@@ -281,6 +287,7 @@ const char* nameOf(Effect effect) {
                                                                "lens flare",
                                                                "msaa resolve",
                                                                "mip bias",
+                                                               "guard band",
                                                                "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }

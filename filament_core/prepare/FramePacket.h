@@ -177,6 +177,7 @@ struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
     uint2 size{ 1, 1 };                ///< pixels that the main view draws
     uint2 shownSize{ 1, 1 };           ///< of the picture that is made of them
+    uint32_t band = 0;                 ///< of `size`, on each side, that the picture does not show
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
     Gathering gathering;               ///< the same
@@ -189,6 +190,7 @@ struct FramePacket {
     SceneDemand demand; ///< of the main view
     Effects effects;    ///< of the main view
 
+    uint2 insideSize() const { return size - 2u * band; } ///< pixels of the picture that are drawn
     /// Of the picture that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }
 };

@@ -53,7 +53,7 @@ uint64_t hashGrading(Grading const& grading, uint64_t seed) {
 // Fog and contact shadows are in the uniforms of the views, but for two switches.
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     auto const& [ao, reflections, fog, contact, bloom, focus, motion, exposure, grading, vignette, grain, aberration,
-                 resolution, sharpening, flare] = effects;
+                 resolution, sharpening, flare, guardBand] = effects;
     seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold, bloom.dirtStrength);
     seed = hashValues(seed, flare.threshold, flare.ghostStrength, flare.ghostCount, flare.ghostSpacing,
                       flare.ghostRadius, flare.haloStrength, flare.haloRadius, flare.haloThickness, flare.dispersion);
@@ -65,9 +65,9 @@ uint64_t hashEffects(Effects const& effects, uint64_t seed) {
                       grain.size, aberration.strength);
     seed = hashWords(seed, bloom.enabled, bloom.dirt.bits, flare.enabled, focus.enabled, motion.enabled,
                      exposure.enabled, vignette.enabled, grain.enabled, aberration.enabled, resolution.dynamic,
-                     resolution.uniform, sharpening.enabled);
+                     resolution.uniform, sharpening.enabled, guardBand.enabled);
     seed = hashValues(seed, resolution.scale, resolution.targetMilliseconds, resolution.leastScale, resolution.headroom,
-                      resolution.history, sharpening.strength);
+                      resolution.history, sharpening.strength, guardBand.width);
     return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));
 }
 
@@ -82,8 +82,8 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashEffects(packet.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed);
-    hash = hashValues(hash, packet.size, packet.shownSize, packet.gathering.jitterPixels, packet.gathering.weight,
-                      packet.gathering.ramp, packet.focus, packet.last.secondsSince);
+    hash = hashValues(hash, packet.size, packet.shownSize, packet.band, packet.gathering.jitterPixels,
+                      packet.gathering.weight, packet.gathering.ramp, packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

@@ -48,7 +48,8 @@ float2 LastFrame::jitterPixels(scene::SceneData const& scene, ViewInput const& v
 
 /// By a frame of the same scene and size of what it shows.
 bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const {
-    return mSeen && mSeen->scene == scene.serial && mSeen->view.shown() == view.shown();
+    return mSeen && mSeen->scene == scene.serial && mSeen->view.shown() == view.shown() &&
+           (mSeen->view.band > 0) == (view.band > 0);
 }
 
 /// By one whose gathered picture has the same size, too.
@@ -76,7 +77,7 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
 
 Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
     Gathering gathering{ .jitterPixels = jitterPixels(scene, view) };
-    const bool isEnlarged = view.size != view.shown() && gathersLarger(view.quality, view.debugView);
+    const bool isEnlarged = view.inside() != view.shown() && gathersLarger(view.quality, view.debugView);
     if (isEnlarged) gathering.ramp = kWidestRamp;
     if (!isGatheredBy(scene, view)) return gathering;
     gathering.isFixed = isFixed(view, packet);

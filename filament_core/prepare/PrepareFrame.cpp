@@ -55,8 +55,9 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .quality = view.quality,
                         .effects = packet.effects,
                         .blurRadius = blurRadius,
-                        .size = packet.size,
+                        .size = packet.insideSize(),
                         .shownSize = packet.shownSize,
+                        .band = packet.band,
                         .samples = view.samples,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
@@ -140,13 +141,14 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.effects = main.effects;
     packet.size = main.size;
     packet.shownSize = main.shown();
+    packet.band = main.band;
     packet.last = last.seenFrom(scene, makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (readsMotion(packet.mainView().counts, main.quality, main.effects, main.debugView))
         addMotion(arena, scene, last, packet);
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
-    packet.focus = focusOf(main.camera, main.effects.depthOfField, main.size.y);
+    packet.focus = focusOf(main.camera, main.effects.depthOfField, main.inside().y);
     packet.demand = demandOf(packet, shadows.counts, main, largestBlur(jobs, arena, scene, main, packet));
     if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);
     return packet;

@@ -163,6 +163,13 @@ EffectDemand demandOfMipBias(DemandInput const& input) {
     return { true, DemandReason::SharpensTextures, static_cast<uint32_t>(std::lround(-100 * bias)) };
 }
 
+EffectDemand demandOfBand(DemandInput const& input) {
+    if (!input.effects.guardBand.enabled) return { .reason = DemandReason::SwitchedOff };
+    if (input.effects.guardBand.width == 0) return { .reason = DemandReason::HasNoIntensity };
+    if (input.band == 0) return { .reason = DemandReason::NothingAsks };
+    return { true, DemandReason::SurroundsPicture, input.band };
+}
+
 EffectDemand demandOfFocus(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
     const EffectDemand demand = demandOfPictureEffect(input, input.effects.depthOfField.enabled,
@@ -284,6 +291,12 @@ uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debu
     return min(max(uint2(float2(size) * scale + 0.5f), 1u), size);
 }
 
+uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView) {
+    const bool isGatheredLarger = drawn != size && gathersLarger(quality, debugView);
+    if (!effects.guardBand.enabled || debugView != DebugView::None || isGatheredLarger) return 0;
+    return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
+}
+
 SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;
@@ -325,6 +338,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Sharpening, demandOfSharpening(input));
     set(Effect::MsaaResolve, demandOfResolve(input));
     set(Effect::MipBias, demandOfMipBias(input));
+    set(Effect::GuardBand, demandOfBand(input));
     set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;

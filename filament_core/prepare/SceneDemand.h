@@ -55,9 +55,10 @@ enum class Effect : uint8_t {
     LensFlare,
     MsaaResolve, ///< by what is displayed
     MipBias,     ///< of materials' textures
+    GuardBand,   ///< pixels around the picture
     DebugView,   ///< instead of the picture
 };
-inline constexpr size_t kEffects = 36;
+inline constexpr size_t kEffects = 37;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -90,6 +91,7 @@ enum class DemandReason : uint8_t {
     MayOverlap,       ///< `count` objects do; `others`: layers that are peeled, 0: none are
     ResolvesSamples,  ///< `count` a pixel
     SharpensTextures, ///< by `count` hundredths of a mip level
+    SurroundsPicture, ///< by `count` pixels on each side
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -142,6 +144,7 @@ struct DemandInput {
     Effects effects{};                     ///< within their ranges
     float blurRadius = 0;                  ///< in pixels: the largest of what is visible, of the lens
     uint2 size{ 1, 1 }, shownSize{ 1, 1 }; ///< pixels that are drawn, and those of the picture that is made of them
+    uint32_t band = 0;                     ///< pixels on each side that are drawn besides
     uint8_t samples = 1;                   ///< a pixel
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
@@ -183,6 +186,9 @@ float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView deb
 
 /// The pixels that a view draws of `size`.
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);
+
+/// How many pixels are drawn besides on each side, if `drawn` are those of the picture and `size` those that it shows.
+uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView);
 
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
 bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView);

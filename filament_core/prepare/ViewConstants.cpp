@@ -34,6 +34,13 @@ float4x4 withJitter(float4x4 clip, float2 pixels, uint2 size) {
     return clip;
 }
 
+/// A lens that shows so many more pixels on each side.
+float4x4 withBand(float4x4 clip, uint2 inside, uint2 size) {
+    const float2 share = float2(inside) / float2(size);
+    for (int column = 0; column < 4; ++column) clip[column].x *= share.x, clip[column].y *= share.y;
+    return clip;
+}
+
 // FrameUniforms::time. The fraction of a time just below a whole second must not round up to 1.
 float4 shaderTime(double seconds) {
     const auto rounded = static_cast<float>(seconds);
@@ -73,6 +80,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     const float2 shown(view.shown()); // rounding of the drawn size changes no proportions
     const float aspect = shown.x / shown.y;
     space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
+    if (view.band > 0) space.clipFromView = withBand(space.clipFromView, view.inside(), view.size);
     if (view.jitterPixels != float2(0))
         space.clipFromView = withJitter(space.clipFromView, view.jitterPixels, view.size);
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;

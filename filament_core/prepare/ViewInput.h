@@ -33,6 +33,7 @@ struct ViewInput {
     std::optional<float4x4> clipFromView{};
     uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
     uint2 shownSize{ 0, 0 };  ///< of the picture that is made of them; 0: the same
+    uint32_t band = 0;        ///< of `size`, on each side, that the picture does not show
     float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
     uint8_t samples = 1;      ///< a pixel
     double timeSeconds = 0;
@@ -43,7 +44,8 @@ struct ViewInput {
     Layers visibleLayers = kAllLayers;     ///< of renderables
     uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
 
-    uint2 shown() const { return shownSize.x > 0 ? shownSize : size; }
+    uint2 inside() const { return size - 2u * band; } ///< pixels of the picture that are drawn
+    uint2 shown() const { return shownSize.x > 0 ? shownSize : inside(); }
 };
 
 } // namespace filament::prepare

@@ -121,6 +121,7 @@ constexpr auto kAberration = &Effects::chromaticAberration;
 constexpr auto kResolution = &Effects::resolution;
 constexpr auto kSharpening = &Effects::sharpening;
 constexpr auto kFlare = &Effects::lensFlare;
+constexpr auto kGuardBand = &Effects::guardBand;
 
 constexpr std::string_view kFactors = "R,G,B, each from 0 to 4", kShares = "R,G,B, each from -2 to 2",
                            kGammas = "R,G,B, each from 0.1 to 10", kStops = "stops from -16 to 16",
@@ -225,6 +226,8 @@ constexpr std::array kEffectFields{
     switchField<kResolution, &Resolution::uniform>("resolution.uniform"),
     switchField<kSharpening, &Sharpening::enabled>("sharpening"),
     numberField<kSharpening, &Sharpening::strength>("sharpening.strength", 0.0f, 1.0f, kShare),
+    switchField<kGuardBand, &GuardBand::enabled>("guardBand"),
+    numberField<kGuardBand, &GuardBand::width>("guardBand.width", 0.0f, 0.5f, "a number from 0 to 0.5"),
 };
 
 EffectField const* findEffect(std::string_view name) {

@@ -188,6 +188,15 @@ struct Sharpening {
     friend bool operator==(Sharpening const&, Sharpening const&) = default;
 };
 
+/// Pixels around the picture that are drawn and cut off in the end, so that what lies beside the picture is seen by
+/// occlusion, reflections, refraction, bloom and blurs. Not while gathering frames enlarges the picture, and not of
+/// render targets with depth.
+struct GuardBand {
+    bool enabled = false;
+    float width = 0.1f; ///< on each side, as a share of the height of the picture, [0, 0.5]
+    friend bool operator==(GuardBand const&, GuardBand const&) = default;
+};
+
 struct Effects {
     AmbientOcclusion ambientOcclusion{};
     ScreenReflections reflections{};
@@ -204,6 +213,7 @@ struct Effects {
     Resolution resolution{};
     Sharpening sharpening{};
     LensFlare lensFlare{};
+    GuardBand guardBand{};
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 

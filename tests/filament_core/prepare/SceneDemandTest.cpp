@@ -287,6 +287,31 @@ TEST(SceneDemand, SharpensTexturesByTheShareOfPixelsThatFramesHave) {
     EXPECT_EQ(words(Effect::MipBias, input), "switched off: mipBias=off");
 }
 
+TEST(SceneDemand, DrawsAGuardBandOnlyWhereItIsCutOff) {
+    Effects effects;
+    Quality quality;
+    const uint2 size(200, 105);
+    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 0u);
+    effects.guardBand.enabled = true;
+    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 11u) << "a tenth of the height, rounded up";
+    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::Fog), 0u);
+    quality.antiAliasing = AntiAliasing::Taa;
+    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 11u);
+    EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 0u) << "gathering enlarges";
+    quality.upscale = Upscaling::Bilinear;
+    EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 6u);
+
+    DemandInput input;
+    EXPECT_EQ(words(Effect::GuardBand, input), "switched off: guardBand=off");
+    input.effects = effects;
+    EXPECT_EQ(words(Effect::GuardBand, input),
+              "a debug view is shown, the target has depth, or gathering enlarges the picture");
+    input.band = 11;
+    EXPECT_EQ(words(Effect::GuardBand, input), "11 pixels on each side are drawn and cut off");
+    input.effects.guardBand.width = 0;
+    EXPECT_EQ(words(Effect::GuardBand, input), "its width is 0");
+}
+
 TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
     const uint2 size(101, 3);
     Quality quality;
