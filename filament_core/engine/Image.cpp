@@ -7,7 +7,10 @@
 namespace filament {
 
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space) {
-    FILAMENT_ASSERT(image.format == Format::RGBA8, "a PNG is written from RGBA8 pixels");
+    FILAMENT_ASSERT(image.format == Format::RGBA8 || image.format == Format::RGB10A2,
+                    "a PNG is written from RGBA8 or RGB10A2 pixels");
+    if (image.format == Format::RGB10A2)
+        return assets::writePng16(path, image.width, image.height, image.pixels, space);
     return assets::writePng(path, image.width, image.height, image.pixels, space);
 }
 

@@ -250,8 +250,9 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
                  RenderTargetDesc const& desc) {
     FILAMENT_ASSERT(desc.color, "a render target has a colour");
     DeviceTextureDesc const& color = textures.get(desc.color).desc;
-    FILAMENT_ASSERT(isPicture(color) && (color.format == Format::RGBA8 || color.format == Format::RGBA16F),
-                    "the colour of a render target is a renderable 2D texture of RGBA8 or RGBA16F");
+    const bool isShown = color.format == Format::RGBA8 || color.format == Format::RGB10A2;
+    FILAMENT_ASSERT(isPicture(color) && (isShown || color.format == Format::RGBA16F),
+                    "the colour of a render target is a renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
     FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
                     "the colour of a render target that generates mips has several levels");
     if (!desc.depth) return;

@@ -52,8 +52,9 @@ struct Finish {
     bool smoothsEdges = false, enlarges = false, sharpens = false; // in this order, after the others
     bool hasBloom = false, isDirty = false, hasFlare = false, isExposed = false, isGraded = false, hasVignette = false,
          hasFringes = false;
-    bool hasToneValues = false;             // of a formula with numbers, or for a display other than sRGB
-    bool hasGrain = false, dithers = false; // by the last pass, because the others take noise for edges
+    bool hasToneValues = false;               // of a formula with numbers, or for a display other than sRGB
+    bool hasGrain = false;                    // by the last pass, because the others take noise for edges
+    bool hasTenBits = false, dithers = false; // dither: as grain
 
     bool goesOn() const { return smoothsEdges || changesPixels(); }
     bool changesPixels() const { return enlarges || sharpens; }
@@ -68,7 +69,8 @@ bool needsValues(ColorGrading const& grading) {
     return grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb;
 }
 
-Finish finishOf(FrameContext const& context, bool isSceneLinear, bool enlarges) {
+/// Steps of ten bits need no dither.
+Finish finishOf(FrameContext const& context, Format target, bool isSceneLinear, bool enlarges) {
     prepare::SceneDemand const& demand = context.packet.demand;
     return { .isSceneLinear = isSceneLinear,
              .smoothsEdges = demand.needs(Effect::Fxaa),
@@ -83,7 +85,8 @@ Finish finishOf(FrameContext const& context, bool isSceneLinear, bool enlarges) 
              .hasFringes = demand.needs(Effect::ChromaticAberration),
              .hasToneValues = !isSceneLinear && !context.resources.toneTable && needsValues(context.view->colorGrading),
              .hasGrain = demand.needs(Effect::Grain) && !isSceneLinear,
-             .dithers = context.view->colorGrading.dither && !isSceneLinear };
+             .hasTenBits = target == Format::RGB10A2,
+             .dithers = context.view->colorGrading.dither && target == Format::RGBA8 };
 }
 
 int32_t toneMapperOf(FrameContext const& context) {
@@ -249,7 +252,8 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& f
 
 /// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their steps.
 TextureId createUnfinished(FrameGraph& graph, Finish const& finish, uint2 size, std::string_view name) {
-    const bool isEightBit = !finish.isSceneLinear && !finish.dithers && !finish.hasGrain && !finish.sharpens;
+    const bool isEightBit =
+            !finish.isSceneLinear && !finish.dithers && !finish.hasGrain && !finish.sharpens && !finish.hasTenBits;
     return graph.createTexture({ .width = size.x,
                                  .height = size.y,
                                  .format = isEightBit ? Format::RGBA8 : Format::RGBA16F,
@@ -286,9 +290,10 @@ void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, Finis
     straight.color = graph.createTexture(
             { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "straight light" });
     addAlphaPass(graph, context, false, targets.color, straight.color);
+    const Format format = graph.texture(target).desc.format;
     const TextureId picture = graph.createTexture({ .width = size.x,
                                                     .height = size.y,
-                                                    .format = graph.texture(target).desc.format,
+                                                    .format = finish.hasTenBits ? Format::RGBA16F : format, // for alpha
                                                     .name = "straight picture" });
     addPicture(graph, context, finish, straight, picture);
     addAlphaPass(graph, context, true, picture, target);
@@ -309,7 +314,7 @@ void addPictureOfView(FrameGraph& graph, FrameContext const& context, Finish con
 void addFinishPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isSceneLinear) {
     if (targets.color == targets.output) return;
     const uint2 size = sizeOf(graph, targets.color), shown = sizeOf(graph, targets.output);
-    const Finish finish = finishOf(context, isSceneLinear, size != shown);
+    const Finish finish = finishOf(context, graph.texture(targets.target).desc.format, isSceneLinear, size != shown);
     if (!finish.goesOn()) return addPictureOfView(graph, context, finish, targets, targets.output);
     TextureId picture = targets.color;
     if (finish.hasLens() || !finish.isSceneLinear) {

@@ -52,6 +52,11 @@ bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
     return viewport.contents == TargetContents::Clear || !output.hasContents;
 }
 
+/// Of a view in a part of its target. Two bits are not enough for the alpha of one that is translucent.
+Format formatOfView(View const& view, Format target) {
+    return target == Format::RGB10A2 && isTranslucent(view) ? Format::RGBA16F : target;
+}
+
 } // namespace
 
 bool isTranslucent(View const& view) { return view.viewport && view.viewport->blending == ViewBlending::Translucent; }
@@ -64,10 +69,11 @@ void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput cons
             output.texture,
             { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
             isKept ? InitialContents::Keep : InitialContents::Undefined);
-    targets.output =
-            fills ? targets.target
-                  : graph.createTexture(
-                            { .width = view.size.x, .height = view.size.y, .format = output.format, .name = "view" });
+    targets.output = fills ? targets.target
+                           : graph.createTexture({ .width = view.size.x,
+                                                   .height = view.size.y,
+                                                   .format = formatOfView(view, output.format),
+                                                   .name = "view" });
 }
 
 void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,

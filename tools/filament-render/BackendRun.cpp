@@ -45,6 +45,12 @@ LoadProgress progressOf(Backend backend, const char* what) {
     };
 }
 
+Format formatOf(PictureFormat picture) {
+    return picture == PictureFormat::Exr     ? Format::RGBA16F
+           : picture == PictureFormat::Png16 ? Format::RGB10A2
+                                             : Format::RGBA8;
+}
+
 View viewOf(Options const& options) {
     return { .camera = cameraOf(options),
              .size = options.size,
@@ -198,7 +204,7 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     run.start.environment = watch.lap();
 
     if (mOptions.sun) mScene.add(*mOptions.sun);
-    const Format format = mOptions.format == PictureFormat::Exr ? Format::RGBA16F : Format::RGBA8;
+    const Format format = formatOf(mOptions.format);
     mPixels = mEngine.own(mEngine.create(TextureDesc{ .format = format,
                                                       .width = mOptions.size.x,
                                                       .height = mOptions.size.y,

@@ -31,8 +31,10 @@ Result<void> convertChoices(Words const& words, Options& options) {
 
     if (words.format == "exr")
         options.format = PictureFormat::Exr;
+    else if (words.format == "png16")
+        options.format = PictureFormat::Png16;
     else if (words.format != "png")
-        return invalidOption("--format", words.format, "png or exr");
+        return invalidOption("--format", words.format, "png, png16 or exr");
     return {};
 }
 
@@ -118,7 +120,10 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--time", words.time, "SECONDS: the time of the animation and of materials (0)");
     app.add_option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
-    app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
+    app.add_option(
+            "--format", words.format,
+            "png; png16: ten bits a channel, stored in 16; or exr: scene-linear half floats before the tone mapper "
+            "(png)");
     app.add_option("--save-look", words.saveLook,
                    "FILE.cube: write grading, tone mapper and look as a cube for other programs");
     app.add_flag("--timing", options.timing, "print the time taken by start-up and frames");

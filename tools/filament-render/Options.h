@@ -15,7 +15,7 @@
 
 namespace filament::tools {
 
-enum class PictureFormat : uint8_t { Png, Exr };
+enum class PictureFormat : uint8_t { Png, Png16, Exr };
 
 struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };

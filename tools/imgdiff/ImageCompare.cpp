@@ -11,7 +11,18 @@
 namespace filament::tools {
 namespace {
 
-size_t bytesPerPixel(Format format) { return format == Format::RGBA8 ? 4 : format == Format::RGBA16F ? 8 : 0; }
+size_t bytesPerPixel(Format format) {
+    const bool isFour = format == Format::RGBA8 || format == Format::RGB10A2;
+    return isFour ? 4 : format == Format::RGBA16F ? 8 : 0;
+}
+
+/// In [0, 1].
+float componentOf10Bits(const std::byte* pixel, int component) {
+    uint32_t word = 0;
+    std::memcpy(&word, pixel, sizeof word);
+    return component == 3 ? static_cast<float>(word >> 30) / 3.0f
+                          : static_cast<float>(word >> 10 * component & 1023) / 1023.0f;
+}
 
 uint32_t componentDifference8(std::byte a, std::byte b) {
     const int difference = std::to_integer<int>(a) - std::to_integer<int>(b);
@@ -32,6 +43,13 @@ uint32_t pixelDifference(Format format, const std::byte* a, const std::byte* b) 
         for (int c = 0; c < 4; ++c) largest = std::max(largest, componentDifference8(a[c], b[c]));
         return largest;
     }
+    if (format == Format::RGB10A2) {
+        for (int c = 0; c < 4; ++c) {
+            const float difference = std::abs(componentOf10Bits(a, c) - componentOf10Bits(b, c)) * 255.0f;
+            largest = std::max(largest, static_cast<uint32_t>(std::ceil(difference)));
+        }
+        return largest;
+    }
     uint16_t halvesA[4], halvesB[4];
     std::memcpy(halvesA, a, sizeof halvesA);
     std::memcpy(halvesB, b, sizeof halvesB);
@@ -41,6 +59,7 @@ uint32_t pixelDifference(Format format, const std::byte* a, const std::byte* b) 
 
 uint8_t displayByte(Format format, const std::byte* pixel, int component) {
     if (format == Format::RGBA8) return std::to_integer<uint8_t>(pixel[component]);
+    if (format == Format::RGB10A2) return static_cast<uint8_t>(componentOf10Bits(pixel, component) * 255.0f + 0.5f);
     uint16_t half = 0;
     std::memcpy(&half, pixel + 2 * component, sizeof half);
     const float value = floatFromHalf(half);
@@ -64,7 +83,7 @@ Result<ImageComparison> compareImages(Image const& a, Image const& b) {
     const size_t stride = bytesPerPixel(a.format);
     if (a.format != b.format || stride == 0) {
         return fail(ErrorCode::InvalidArgument,
-                    "cannot compare images of different formats: both RGBA8 or both RGBA16F");
+                    "cannot compare images of different formats: both RGBA8, RGB10A2 or RGBA16F");
     }
     const size_t pixels = size_t(a.width) * a.height;
     if (pixels == 0 || a.pixels.size() != pixels * stride || b.pixels.size() != pixels * stride) {

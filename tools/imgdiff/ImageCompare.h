@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// compareImages: how many pixels of two pictures are identical, and how far the others differ.
-///   In      two images of one size and format: RGBA8 or RGBA16F, tightly packed.
-///   Out     counts, and the largest difference of a component in steps of 1/255 (half floats are rounded up, so that 0
+///   In      two images of one size and format: RGBA8, RGB10A2 or RGBA16F, tightly packed.
+///   Out     counts, and the largest difference of a component in steps of 1/255 (finer ones are rounded up, so that 0
 ///           means identical; NaN against anything else is 255).
 ///   Thread  any; no shared state.  Cost: about 2 ms per megapixel.
 ///   Fails   InvalidArgument if sizes, formats or byte counts do not match.

@@ -4,6 +4,7 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/Png16.h"
 #include "filament_core/assets/image/PngColor.h"
 
 #include <glm/common.hpp>
@@ -162,6 +163,13 @@ Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_
     }
     bytes.resize(size);
     return replaceFile(path, withColorSpace(std::move(bytes), space));
+}
+
+Result<void> writePng16(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                        std::span<const std::byte> rgb10a2, OutputSpace space) {
+    FILAMENT_ASSERT(width > 0 && height > 0 && rgb10a2.size() == size_t(width) * height * 4,
+                    "writePng16 takes width * height * 4 bytes, more than none");
+    return replaceFile(path, withColorSpace(encodePng16(width, height, rgb10a2), space));
 }
 
 Result<Image> readPng(std::filesystem::path const& path) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Writes pictures: PNG for display, OpenEXR and Radiance .hdr for scene-linear light. Also reads PNG.
 ///   In      tightly packed pixels, row 0 is the top row; the span's size is checked against width and height.
-///   Out     a complete file or none: written under another name and renamed. PNG pixels are stored unconverted.
+///   Out     a complete file or none: written under another name and renamed. PNG codes are those of the pixels.
 ///           EXR pixels are linear Rec. 709, and say so.
 ///   Thread  any; no shared state.
 ///   Memory  at most a second copy of the picture.
@@ -24,6 +24,11 @@ namespace filament::assets {
 /// RGBA8, 4 bytes per pixel. The file says that they are codes of `space`.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba8, OutputSpace space = OutputSpace::Srgb);
+
+/// RGB10A2, 4 bytes per pixel, as 16 bits of red, green and blue: a code c becomes round(c * 65535 / 1023), of which the file
+/// says that ten bits are significant (sBIT). Alpha is left out: a display has none.
+Result<void> writePng16(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                        std::span<const std::byte> rgb10a2, OutputSpace space = OutputSpace::Srgb);
 
 /// Any PNG as RGBA8, one level.
 Result<Image> readPng(std::filesystem::path const& path);

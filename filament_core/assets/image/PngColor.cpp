@@ -2,7 +2,7 @@
 // W3C, "Portable Network Graphics (PNG) Specification (Third Edition)", section 11.3.2: colour space information.
 #include "filament_core/assets/image/PngColor.h"
 
-#include <zlib.h>
+#include "filament_core/assets/image/PngChunks.h"
 
 #include <algorithm>
 #include <array>
@@ -17,44 +17,31 @@ using Bytes = std::vector<std::byte>;
 
 constexpr size_t kSignature = 8, kFrame = 12; // a chunk's length, name and checksum
 
-void appendWord(Bytes& bytes, uint32_t value) {
-    for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFF));
-}
-
 uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
     uint32_t value = 0;
     for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint32_t>(bytes[at + i]);
     return value;
 }
 
-void appendChunk(Bytes& bytes, std::string_view name, std::span<const std::byte> data) {
-    appendWord(bytes, static_cast<uint32_t>(data.size()));
-    const size_t first = bytes.size();
-    for (const char c : name) bytes.push_back(static_cast<std::byte>(c));
-    bytes.insert(bytes.end(), data.begin(), data.end());
-    const auto* checked = reinterpret_cast<const Bytef*>(bytes.data() + first);
-    appendWord(bytes, static_cast<uint32_t>(crc32(0, checked, static_cast<uInt>(bytes.size() - first))));
-}
-
 /// Code points of ITU-T H.273: primaries, transfer function, no matrix, full range.
 void appendCicp(Bytes& bytes, uint8_t primaries, uint8_t transfer) {
     const std::array data{ std::byte{ primaries }, std::byte{ transfer }, std::byte{ 0 }, std::byte{ 1 } };
-    appendChunk(bytes, "cICP", data);
+    appendPngChunk(bytes, "cICP", data);
 }
 
 /// The encoding exponent times 100 000.
 void appendGamma(Bytes& bytes, uint32_t gamma) {
     Bytes data;
-    appendWord(data, gamma);
-    appendChunk(bytes, "gAMA", data);
+    appendPngWord(data, gamma);
+    appendPngChunk(bytes, "gAMA", data);
 }
 
 /// x and y of D65 and of the primaries, times 100 000.
 void appendChromaticities(Bytes& bytes, std::array<uint32_t, 6> const& primaries) {
     Bytes data;
-    for (const uint32_t value : { 31270u, 32900u }) appendWord(data, value);
-    for (const uint32_t value : primaries) appendWord(data, value);
-    appendChunk(bytes, "cHRM", data);
+    for (const uint32_t value : { 31270u, 32900u }) appendPngWord(data, value);
+    for (const uint32_t value : primaries) appendPngWord(data, value);
+    appendPngChunk(bytes, "cHRM", data);
 }
 
 /// cICP first; the others are for decoders that do not know it. PQ has no gamma.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// withColorSpace: a PNG whose chunks say which colour space its codes belong to.
-///   In      a complete PNG as libpng writes it.
+///   In      a complete PNG as libpng or encodePng16() writes it.
 ///   Out     the same with its colour chunks (sRGB, gAMA, cHRM, iCCP, cICP) replaced. sRGB: the PNG as it is.
 ///   Fails   never.   Memory: a second copy of the file.
 #pragma once

@@ -223,7 +223,7 @@ struct LightProfileDescription {
 /// What a view is drawn to. Materials may sample its textures in every render() but those that draw to it.
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
-    Texture color{}; ///< renderable 2D RGBA8, or RGBA16F (then scene-linear, without tone mapping)
+    Texture color{}; ///< renderable 2D RGBA8, RGB10A2, or RGBA16F (then scene-linear, without tone mapping)
     /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where nothing
     /// is. What blends leaves none. None: nobody asks.
     Texture depth{};
@@ -235,7 +235,7 @@ struct RenderTargetDesc {
 struct SwapChainDesc {
     uint2 size{ 1280, 720 };       ///< pixels, >= 1
     uint32_t imageCount = 2;       ///< [1, 4]
-    Format format = Format::RGBA8; ///< RGBA8 (display) or RGBA16F (scene-linear, without tone mapping)
+    Format format = Format::RGBA8; ///< RGBA8, RGB10A2 (display) or RGBA16F (scene-linear, without tone mapping)
     std::string name{};
 };
 

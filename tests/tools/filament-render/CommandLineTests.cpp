@@ -291,6 +291,18 @@ TEST_F(CommandLine, WithoutAnyDriverTheOneLineNamesBoth) {
     expectRefused("--list-devices", { "no device" }, none);
 }
 
+TEST_F(CommandLine, PicturesOfTenBitsArePngsOf16WithTheSameBitsAsWell) {
+    const Outcome outcome = run("triangle.gltf --size 64x64 --sun 100000 0 -1 -1 --format png16 --set "
+                                "outputSpace=rec2020Pq --tone-mapper linear --out ten");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 %"));
+    for (const char* file : { "vulkan.png", "gles.png" }) {
+        const auto bytes = assets::readFileBytes(sFolder / "ten" / file);
+        ASSERT_TRUE(bytes.ok());
+        EXPECT_EQ((*bytes)[24], std::byte{ 16 }) << file; // bits of a channel, PNG 11.2.2
+    }
+}
+
 TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
     const Outcome outcome = run("triangle.gltf --size 64x64 --sun 100000 0 -1 -1 --format exr --out exr");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;

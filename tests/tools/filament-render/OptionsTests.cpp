@@ -274,7 +274,7 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
         { { "--skybox", "maybe" }, "--skybox", "maybe", "on or off" },
         { { "--dither", "2" }, "--dither", "2", "on or off" },
         { { "--tone-mapper", "reinhard" }, "--tone-mapper", "reinhard", "aces" },
-        { { "--format", "jpg" }, "--format", "jpg", "png or exr" },
+        { { "--format", "jpg" }, "--format", "jpg", "png, png16 or exr" },
         { { "--tolerance", "256" }, "--tolerance", "256", "255" },
         { { "--out", "" }, "--out", "''", "folder" },
     };

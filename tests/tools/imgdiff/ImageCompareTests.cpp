@@ -73,6 +73,19 @@ TEST(ImageCompare, HalfFloatsThatDifferByOneBitAreNotIdentical) {
     EXPECT_EQ(comparison->maxDifference, 1u); // rounded up
 }
 
+TEST(ImageCompare, TenBitsAreComparedByTheirChannels) {
+    const auto pixel = [](uint32_t red, uint32_t blue) {
+        const std::array words{ red | blue << 20 | 3u << 30 };
+        const auto bytes = std::as_bytes(std::span(words));
+        return Image{ .width = 1, .height = 1, .format = Format::RGB10A2, .pixels = { bytes.begin(), bytes.end() } };
+    };
+    const auto difference = [&](Image const& a, Image const& b) { return compareImages(a, b)->maxDifference; };
+    EXPECT_EQ(difference(pixel(500, 7), pixel(500, 7)), 0u);
+    EXPECT_EQ(difference(pixel(500, 7), pixel(501, 7)), 1u); // rounded up
+    EXPECT_EQ(difference(pixel(500, 0), pixel(500, 1023)), 255u);
+    EXPECT_EQ(rgbAt(differenceImage(pixel(1023, 512), pixel(1023, 512)), 0), (std::array{ 63, 0, 32 }));
+}
+
 TEST(ImageCompare, NotANumberIsAsFarAsItGets) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto comparison = compareImages(half16({ nan, 0, 0, 1 }), half16({ 0, 0, 0, 1 }));

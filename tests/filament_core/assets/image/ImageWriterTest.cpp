@@ -4,10 +4,15 @@
 #include "filament_core/assets/image/HdrReader.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 
+#include <zlib.h>
+
+#include <cmath>
 #include <cstring>
 
 namespace filament::assets {
 namespace {
+
+using Bytes = std::vector<uint8_t>;
 
 std::vector<std::byte> noise(size_t count) {
     std::mt19937 random(7);
@@ -161,6 +166,72 @@ TEST(ImageWriter, PngsNameTheirColourSpace) {
     EXPECT_EQ(dataOf(OutputSpace::DisplayP3), (std::vector{ 12, 13, 0, 1 }));
     EXPECT_EQ(dataOf(OutputSpace::Rec2020Pq), (std::vector{ 9, 16, 0, 1 }));
     EXPECT_EQ(chunksOf(written(OutputSpace::DisplayP3))[2].second, (std::vector{ 0, 0, 177, 143 })) << "45 455";
+}
+
+/// The rows of a PNG that writePng16() wrote, as codes of 16 bits: inflated, and filter 1 undone.
+std::vector<uint32_t> codesOf16(std::filesystem::path const& path, uint32_t width, uint32_t height) {
+    Bytes packed;
+    for (auto const& [name, data] : chunksOf(path)) {
+        if (name != "IDAT") continue;
+        for (const int byte : data) packed.push_back(static_cast<uint8_t>(byte));
+    }
+    const size_t rowBytes = size_t{ width } * 6 + 1;
+    Bytes rows(rowBytes * height);
+    uLongf size = static_cast<uLongf>(rows.size());
+    EXPECT_EQ(uncompress(rows.data(), &size, packed.data(), static_cast<uLong>(packed.size())), Z_OK);
+    EXPECT_EQ(size, rows.size());
+    std::vector<uint32_t> codes;
+    for (size_t y = 0; y < height; ++y) {
+        uint8_t* const row = rows.data() + y * rowBytes;
+        EXPECT_EQ(row[0], 1);
+        for (size_t i = 7; i < rowBytes; ++i) row[i] = static_cast<uint8_t>(row[i] + row[i - 6]);
+        for (size_t i = 1; i < rowBytes; i += 2) codes.push_back(static_cast<uint32_t>(row[i] << 8 | row[i + 1]));
+    }
+    return codes;
+}
+
+/// Every code of ten bits in every channel, in rows of 33: the last row is not full.
+TEST(ImageWriter, PngsOf16BitsHoldAllCodesOfTen) {
+    constexpr uint32_t kWidth = 33, kHeight = 32;
+    const TemporaryFolder folder;
+    std::vector<uint32_t> words(kWidth * kHeight);
+    for (uint32_t i = 0; i < words.size(); ++i)
+        words[i] = i % 1024 | (i * 7 + 3) % 1024 << 10 | (1023 - i % 1024) << 20 | i % 4 << 30;
+    const auto bytes = std::as_bytes(std::span(words));
+    ASSERT_TRUE(writePng16(folder / "ten.png", kWidth, kHeight, bytes));
+    const std::vector<uint32_t> codes = codesOf16(folder / "ten.png", kWidth, kHeight);
+    const auto read = readPng(folder / "ten.png"); // in eight bits
+    ASSERT_TRUE(read);
+    ASSERT_EQ(codes.size(), words.size() * 3);
+    for (size_t i = 0; i < words.size(); ++i) {
+        for (uint32_t c = 0; c < 3; ++c) {
+            const uint32_t ten = words[i] >> 10 * c & 1023, wide = codes[3 * i + c];
+            ASSERT_EQ(wide, static_cast<uint32_t>(std::lround(ten * 65535.0 / 1023))) << ten;
+            ASSERT_EQ((wide * 1023 + 32767) / 65535, ten) << "and back";
+            ASSERT_EQ(std::to_integer<uint32_t>(read->data[4 * i + c]),
+                      static_cast<uint32_t>(std::lround(wide * 255.0 / 65535)))
+                    << ten;
+        }
+        ASSERT_EQ(read->data[4 * i + 3], std::byte{ 255 });
+    }
+}
+
+TEST(ImageWriter, PngsOf16BitsNameTheirColourSpaceAndTheirBits) {
+    const TemporaryFolder folder;
+    const auto written = [&](OutputSpace space) {
+        const std::filesystem::path path = folder / (std::string(toString(space)) + ".png");
+        EXPECT_TRUE(writePng16(path, 3, 2, noise(24), space));
+        return path;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(namesOf(written(OutputSpace::Srgb)), (Names{ "IHDR", "sRGB", "sBIT", "IDAT", "IEND" }));
+    EXPECT_EQ(namesOf(written(OutputSpace::DisplayP3)),
+              (Names{ "IHDR", "cICP", "gAMA", "cHRM", "sBIT", "IDAT", "IEND" }));
+    EXPECT_EQ(namesOf(written(OutputSpace::Rec2020Pq)), (Names{ "IHDR", "cICP", "cHRM", "sBIT", "IDAT", "IEND" }));
+    const auto chunks = chunksOf(written(OutputSpace::Rec2020Pq));
+    EXPECT_EQ(chunks[0].second, (std::vector{ 0, 0, 0, 3, 0, 0, 0, 2, 16, 2, 0, 0, 0 })) << "16 bits of RGB";
+    EXPECT_EQ(chunks[1].second, (std::vector{ 9, 16, 0, 1 }));
+    EXPECT_EQ(chunks[3].second, (std::vector{ 10, 10, 10 }));
 }
 
 TEST(ImageWriter, EveryExrSaysThatItIsRec709) {
