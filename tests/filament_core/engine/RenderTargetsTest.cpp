@@ -202,8 +202,10 @@ TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
                   small = stage.texture(Format::R32F, 1, kFilmSide / 2);
     const Owned<Texture> plain = engine.own(engine.create(TextureDesc{ .width = kFilmSide, .height = kFilmSide }));
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{}), "a render target has a colour");
-    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }), "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
-    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }), "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }),
+                 "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }),
+                 "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = color }), "texture of R32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as its colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .generateMips = true }), "has several levels");
