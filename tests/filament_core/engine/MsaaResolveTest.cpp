@@ -16,7 +16,7 @@ namespace {
 using test::halfPixel;
 using test::kBothApis;
 
-constexpr uint2 kSize(48, 40);
+constexpr uint2 kLampSize(48, 40);
 constexpr const char* kLamp = R"(material { name : lamp, shadingModel : unlit, culling : none,
     parameters : [ { type : float, name : nits } ] }
 fragment { void material(inout MaterialInputs material) {
@@ -26,9 +26,9 @@ fragment { void material(inout MaterialInputs material) {
 } })";
 
 /// A slanted lamp before a dark wall, at an exposure for rooms: EV 7.
-class Lamp {
+class LampEdge {
 public:
-    explicit Lamp(Backend backend, float nits = 1e4f)
+    explicit LampEdge(Backend backend, float nits = 1e4f)
             : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
               renderer(engine), mSquare(engine), mMaterial(test::loadMaterial(engine, kLamp)), mLamp(instanceOf(nits)),
               mWall(instanceOf(8)), scene(engine) {
@@ -37,10 +37,10 @@ public:
         mSquare.add(scene, mWall, double3(0, 0, -0.5), 3);
         view.camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 60 },
                                      { .aperture = 2.8f, .shutterSeconds = 1.0f / 16, .iso = 100 });
-        view.size = kSize;
+        view.size = kLampSize;
         view.samples = 4;
     }
-    ~Lamp() { test::expectNoErrors(engine); }
+    ~LampEdge() { test::expectNoErrors(engine); }
 
     Owned<MaterialInstance> instanceOf(float nits) {
         Owned<MaterialInstance> instance = engine.own(engine.createInstance(mMaterial));
@@ -82,7 +82,7 @@ uint8_t codeAt(Image const& image, uint32_t x, uint32_t y) {
 }
 
 /// Of each pixel: the mean of what 8 x 8 samples display.
-std::vector<double> supersampled(Lamp& lamp) {
+std::vector<double> supersampled(LampEdge& lamp) {
     constexpr uint32_t kSide = 8;
     const View seen = lamp.view;
     lamp.view.size = seen.size * kSide;
@@ -114,7 +114,7 @@ TEST(MsaaResolve, EdgesOfLampsAreAsSmoothAsSupersamplingOfWhatIsDisplayed) {
     for (const float nits : { 200.0f, 1e4f, 1e6f }) {
         std::vector<Image> images;
         for (const Backend backend : kBothApis) {
-            Lamp lamp(backend, nits);
+            LampEdge lamp(backend, nits);
             const std::vector<double> exact = supersampled(lamp);
             const double average = rmsBeside(exact, lamp.draw(MsaaResolve::Average));
             images.push_back(lamp.draw(MsaaResolve::ToneAware));
@@ -130,11 +130,11 @@ TEST(MsaaResolve, EdgesOfLampsAreAsSmoothAsSupersamplingOfWhatIsDisplayed) {
 /// The lamp enters each row of pixels a little further to the right, and displays rise from the wall to it.
 TEST(MsaaResolve, StepsOfAnEdgeAreMonotonicAndThoseOfFourSamples) {
     for (const float nits : { 1e4f, 1e6f }) {
-        Lamp lamp(Backend::Vulkan, nits);
+        LampEdge lamp(Backend::Vulkan, nits);
         const Image aware = lamp.draw(MsaaResolve::ToneAware), average = lamp.draw(MsaaResolve::Average);
         std::map<uint8_t, uint32_t> steps, stepsOfAverage;
-        for (uint32_t y = 0; y < kSize.y; ++y) {
-            for (uint32_t x = 0; x < kSize.x; ++x) {
+        for (uint32_t y = 0; y < kLampSize.y; ++y) {
+            for (uint32_t x = 0; x < kLampSize.x; ++x) {
                 ++steps[codeAt(aware, x, y)];
                 ++stepsOfAverage[codeAt(average, x, y)];
                 EXPECT_GE(codeAt(aware, x, y), codeAt(aware, x > 0 ? x - 1 : x, y)) << x << " " << y;
@@ -158,7 +158,7 @@ TEST(MsaaResolve, FollowsTheToneMapperAndTheGrading) {
     for (const ToneMapper mapper : { ToneMapper::Aces, ToneMapper::Filmic, ToneMapper::Mobile, ToneMapper::Agx,
                                      ToneMapper::PbrNeutral, ToneMapper::AcesReference, ToneMapper::Generic }) {
         for (const float stops : { 0.0f, -3.0f }) {
-            Lamp lamp(Backend::Vulkan, 2e3f);
+            LampEdge lamp(Backend::Vulkan, 2e3f);
             lamp.view.colorGrading.toneMapper = mapper;
             lamp.view.effects.grading = { .enabled = stops != 0, .exposure = stops };
             const std::vector<double> exact = supersampled(lamp);
@@ -173,7 +173,7 @@ TEST(MsaaResolve, FollowsTheToneMapperAndTheGrading) {
 }
 
 TEST(MsaaResolve, LeavesEvenSurfacesAlone) {
-    Lamp lamp(Backend::Gles);
+    LampEdge lamp(Backend::Gles);
     const Image average = lamp.drawLight(MsaaResolve::Average), aware = lamp.drawLight(MsaaResolve::ToneAware);
     for (const uint2 at : { uint2(2, 3), uint2(45, 20) }) {
         const float4 light = halfPixel(average, at.x, at.y);
@@ -187,7 +187,7 @@ TEST(MsaaResolve, KeepsNanAndInfinityInTheirPixels) {
     for (const char* value : { "1.0 / materialParams.zero", "materialParams.zero / materialParams.zero" }) {
         std::vector<Image> images;
         for (const Backend backend : kBothApis) {
-            Lamp lamp(backend);
+            LampEdge lamp(backend);
             const Image without = lamp.drawLight(MsaaResolve::ToneAware);
             const Owned<Material> material = test::loadMaterial(
                     lamp.engine,
@@ -200,8 +200,8 @@ TEST(MsaaResolve, KeepsNanAndInfinityInTheirPixels) {
             const Renderable square = lamp.add(instance, { -0.5, 0.1, 0.1 }, 0.05);
             images.push_back(lamp.drawLight(MsaaResolve::ToneAware));
             uint32_t changed = 0;
-            for (uint32_t y = 0; y < kSize.y; ++y) {
-                for (uint32_t x = 0; x < kSize.x; ++x)
+            for (uint32_t y = 0; y < kLampSize.y; ++y) {
+                for (uint32_t x = 0; x < kLampSize.x; ++x)
                     changed += halfPixel(images.back(), x, y) == halfPixel(without, x, y) ? 0 : 1;
             }
             EXPECT_GE(changed, 4u);
@@ -217,7 +217,7 @@ TEST(MsaaResolve, KeepsNanAndInfinityInTheirPixels) {
 TEST(MsaaResolve, OfTranslucentViewsWeighsTheColoursThatAreDisplayed) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {
-        Lamp lamp(backend, 1e6f);
+        LampEdge lamp(backend, 1e6f);
         Scene alone(lamp.engine);
         const test::SquareMesh square(lamp.engine);
         const Owned<MaterialInstance> bright = lamp.instanceOf(1e6f);
@@ -229,7 +229,7 @@ TEST(MsaaResolve, OfTranslucentViewsWeighsTheColoursThatAreDisplayed) {
                                        .clearColor = float4(0) };
         lamp.view.quality.msaaResolve = MsaaResolve::ToneAware;
         const Owned<SwapChain> target = lamp.engine.own(
-                lamp.engine.create(SwapChainDesc{ .size = kSize, .imageCount = 1, .format = Format::RGBA8 }));
+                lamp.engine.create(SwapChainDesc{ .size = kLampSize, .imageCount = 1, .format = Format::RGBA8 }));
         lamp.renderer.render(alone, lamp.view, target);
         images.push_back(std::move(*lamp.renderer.waitPixels(lamp.renderer.readPixels(target))));
         uint32_t edges = 0;
@@ -245,7 +245,7 @@ TEST(MsaaResolve, OfTranslucentViewsWeighsTheColoursThatAreDisplayed) {
 
 TEST(MsaaResolve, CostsNothingWithoutSamplesOrSurfaces) {
     for (const Backend backend : kBothApis) {
-        Lamp lamp(backend);
+        LampEdge lamp(backend);
         const Scene empty(lamp.engine);
         const auto expectNothing = [&](Scene const& scene, const char* reason) {
             lamp.view.quality.msaaResolve = MsaaResolve::Average;
@@ -287,7 +287,7 @@ TEST(MsaaResolve, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
     for (auto const& [name, set] : effects) {
         std::vector<Image> images;
         for (const Backend backend : kBothApis) {
-            Lamp lamp(backend);
+            LampEdge lamp(backend);
             set(lamp.view);
             (void)lamp.draw(MsaaResolve::ToneAware);
             images.push_back(lamp.draw(MsaaResolve::ToneAware));
@@ -309,7 +309,7 @@ fragment { void material(inout MaterialInputs material) {
 TEST(MsaaResolve, ResolvesWhatRefractsThePictureWithIt) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {
-        Lamp lamp(backend);
+        LampEdge lamp(backend);
         const Owned<Material> material = test::loadMaterial(lamp.engine, kGlass);
         const Owned<MaterialInstance> glass = lamp.engine.own(lamp.engine.createInstance(material));
         const Renderable square = lamp.add(glass, { 0, 0, 0.2 }, 0.2);
