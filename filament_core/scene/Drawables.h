@@ -60,9 +60,9 @@ struct Drawable {
 /// Smaller: drawn first. 19 bits.
 constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
 
-/// Whether Quality::transparency may compose what this material draws without sorting it: it covers what is behind it,
-/// tests depth and leaves none, has no stencil state, draws no depth of its own first, and shows no copy of the
-/// picture.
+/// Whether Quality::transparency may compose what this material draws without sorting it: it stands in the scene,
+/// covers what is behind it, tests depth and leaves none, has no stencil state, draws no depth of its own first, and
+/// shows no copy of the picture.
 bool blendsInAnyOrder(MaterialInstance const& instance);
 
 class Drawables {

@@ -144,10 +144,11 @@ inline bool transmitsLight(MaterialPackage const& package) {
 }
 
 /// Whether Quality::transparency may compose its surfaces without sorting them, if they test depth and leave none: they
-/// cover what is behind them, draw no depth of their own first, and show no copy of the picture.
+/// stand in the scene, cover what is behind them, draw no depth of their own first, and show no copy of the picture.
 inline bool blendsInAnyOrder(MaterialPackage const& package) {
     const bool covers = package.blending == Blending::Transparent || package.blending == Blending::Fade;
-    return covers && package.transparency != TransparencyMode::TwoPassesOneSide &&
+    const bool stands = package.vertexDomain == VertexDomain::Object || package.vertexDomain == VertexDomain::World;
+    return covers && stands && package.transparency != TransparencyMode::TwoPassesOneSide &&
            package.refractionMode != RefractionMode::ScreenSpace;
 }
 

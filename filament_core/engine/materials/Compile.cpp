@@ -93,6 +93,7 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
 /// Whether surfaces are drawn by a variant there.
 bool selects(passes::PassSlot const& slot, shader::MaterialPackage const& package, uint8_t variant) {
     if (slot.isFullScreen || slot.stencil) return false; // those with stencil follow from the others
+    if (slot.transparency != shader::kTransparencyInOrder && !shader::blendsInAnyOrder(package)) return false;
     if (slot.depthOnly)
         return package.findVariant(shader::kVariantDepth) && (variant & ~bitsOf(VariantSet::Skinning)) == 0;
     return passes::shadowFilterOf(slot.shading) != ShadowFilter::Off || (variant & shader::kVariantShadowReceiver) == 0;

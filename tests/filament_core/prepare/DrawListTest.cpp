@@ -216,6 +216,8 @@ TEST_F(AnyOrderTest, OnlyWhatCoversTestsDepthLeavesNoneAndHasTheDefaultPlace) {
         at(7, pane(other));
     at(7, unlike([](auto& look) { look.material->package.transparency = shader::TransparencyMode::TwoPassesOneSide; }));
     at(7, unlike([](auto& look) { look.material->package.refractionMode = shader::RefractionMode::ScreenSpace; }));
+    for (const shader::VertexDomain domain : { shader::VertexDomain::View, shader::VertexDomain::Device })
+        at(7, unlike([&](auto& look) { look.material->package.vertexDomain = domain; }));
     at(7, unlike([](auto& look) { look.raster.depthWrite = true; }));
     at(7, unlike([](auto& look) { look.raster.depthCulling = false; }));
     at(7, unlike([](auto& look) { look.raster.colorWrite = false; }));
@@ -225,7 +227,7 @@ TEST_F(AnyOrderTest, OnlyWhatCoversTestsDepthLeavesNoneAndHasTheDefaultPlace) {
     EXPECT_EQ(composed(packet), (std::vector<uint32_t>{ 1, 2, 2, 0 })) << "one of them in two passes";
     EXPECT_EQ(packet.counts.anyOrderObjects, 3u);
     EXPECT_EQ(packet.anyOrder.nearestMeters, 5);
-    EXPECT_EQ(packet.blended.size() - packet.anyOrder.end, 4 + 2 + 4 + 1u) << "and one of the others";
+    EXPECT_EQ(packet.blended.size() - packet.anyOrder.end, 4 + 2 + 6 + 1u) << "and one of the others";
 }
 
 TEST_F(AnyOrderTest, OthersKeepTheirPlaceBehindAndComeAfterWhereTheyLieInBetween) {

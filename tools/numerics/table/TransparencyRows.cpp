@@ -4,7 +4,7 @@
 namespace filament::shader::numerics {
 namespace {
 
-constexpr std::string_view kSums = "weights are powers of distances, and sums of them reach the ends of 16 bits";
+constexpr std::string_view kSums = "weights are ratios of distances, and sums of them reach the ends of 16 bits";
 
 } // namespace
 
@@ -16,7 +16,7 @@ std::vector<Row> transparencyRows() {
           .s = { number("distance", 1e-3, 1e6), number("nearest", 1e-3, 1e6) },
           .range = { 0.000244140625, 1 },
           .monotone = Monotone::Falling,
-          .limits = relative(6e-7, 0, "a division and its cube"),
+          .limits = relative(2e-7, 0, "a division"),
           .fp32Only = kSums },
         { .file = "transparency",
           .function = "countedAlpha(float)",
@@ -56,7 +56,7 @@ std::vector<Row> transparencyRows() {
         { .file = "transparency",
           .function = "weightedMean(vec4, float)",
           .call = NUMERICS_CALL(vec3(weightedMean(vec4(u, s.x), s.y))),
-          .s = { number("alphas", 0x1p-24, 65504), unit("cover") },
+          .s = { number("alphas", 0x1p-24, 65504), number("cover", 0.0009765625, 1) },
           .u = colour("light", 65504),
           .range = { 0, 65504 },
           .limits = relative(4e-7, 0, "a division and two products"),

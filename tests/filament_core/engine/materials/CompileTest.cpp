@@ -125,6 +125,33 @@ TEST_P(Compile, AnExpectedFrameAsksForThePipelinesOfEveryPassOfItsOwn) {
     EXPECT_THAT(mEngine->takeErrors(), IsEmpty());
 }
 
+TEST_P(Compile, WhatBlendsInAnyOrderIsPreparedForEveryPassOfThatAndOthersForTheColourPassAlone) {
+    const Owned<Material> glass = test::loadMaterial(*mEngine, kGlassPane);
+    const Owned<Material> plaster = test::loadMaterial(*mEngine, kPlaster);
+    const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(glass));
+    const auto wishesOf = [&](Material material) {
+        return finish(*mEngine->compile(material, { .vertices = { mSquare->vertices() } })).total;
+    };
+    Scene scene(*mEngine);
+    for (const double z : { 0.0, -1.0 }) mSquare->add(scene, instance, { 0, 0, z });
+    mRenderer->expect(scene, mView, mTarget);
+    const uint32_t ofSortedGlass = wishesOf(glass), ofPlaster = wishesOf(plaster);
+    for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
+        mView.quality.transparency = order;
+        mRenderer->expect(scene, mView, mTarget);
+    }
+    EXPECT_GT(wishesOf(glass), ofSortedGlass);
+    EXPECT_LT(wishesOf(plaster), ofPlaster) << "the tone mapper is no longer merged with it";
+    const uint64_t pipelinesBefore = pipelines(), programsBefore = programs();
+    for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
+        mView.quality.transparency = order;
+        draw(scene);
+    }
+    EXPECT_EQ(pipelines(), pipelinesBefore);
+    EXPECT_EQ(programs(), programsBefore);
+    EXPECT_THAT(mEngine->takeErrors(), IsEmpty());
+}
+
 TEST_P(Compile, WithoutItTheFirstDrawMakesThem) {
     Scene scene(*mEngine);
     draw(scene);
