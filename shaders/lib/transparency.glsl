@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weighted blended order-independent transparency: McGuire and Bavoil 2013, JCGT 2 (2), "Weighted Blended
-// Order-Independent Transparency". All colours are multiplied by their alpha. Sums are kept in half floats:
+// Order-Independent Transparency". All colours are multiplied by their alpha. fp32 only: in 16 bits the steps of weights
+// and shares show. Sums are kept in half floats:
 //   Weights end at 1, so that no colour that a half float holds leaves its range, and sums beyond it count as its end.
 //   Weights begin at 2^-12, so that the least half float, 2^-24, is 2^-12 of a colour at most.
 //   Sums of alpha are kept sixteen times as large: 4095 opaque layers fit, and alpha 1/1024 of weight 2^-12 has two bits.
