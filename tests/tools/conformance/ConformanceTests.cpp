@@ -154,7 +154,12 @@ TEST(SceneFiles, SayWhichValuesTheEngineCannotTake) {
     expect(R"("spots": [ { "direction": [ 0, 0, 1 ], "focused": true } ])", "focused: belongs to 'lumens' or 'watts'");
     expect(R"("spots": [ { "direction": [ 0, 0, 1 ], "innerDegrees": 50, "lumens": 1, "focused": true } ])",
            "innerDegrees: expected less than the 35 of outerDegrees");
-    expect(R"("copies": [ { "values": { "roughness": "0.5" } } ])", "'values' belong to a model that is a material");
+    for (const char* field : { R"("values": { "roughness": "0.5" })", R"("depthWrite": false)", R"("stencil": {})" })
+        expect(fmt::format(R"("copies": [ {{ {} }} ])", field),
+               "'values' and raster states belong to a model that is a material");
+    expect(R"("copies": [ { "stencil": { "onPass": "add" } } ])", "incrementClamp");
+    expect(R"("copies": [ { "stencil": { "test": "below" } } ])", "greaterEqual");
+    expect(R"("copies": [ { "stencil": { "reference": 256 } } ])", "255");
     expect(R"("copies": [ { "values": { "roughness": 0.5 } } ])", "copies[0]: values: 'roughness': expected a text");
     expect(R"("view": { "size": [ -1, 4 ] })", "view: size: expected 2 numbers from 0 to 4294967295");
     expect(R"("origin": [ 1e999, 0, 0 ])", "out_of_range");
