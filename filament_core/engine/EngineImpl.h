@@ -188,6 +188,8 @@ struct Engine::Impl {
     void destroyGroups(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
     void markDirty(MaterialInstance instance);
     template <class Write>
+    void changeRaster(MaterialInstance instance, Write&& write);
+    template <class Write>
     Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
     /// The texture of a sampler that the app has not set: opaque white (integers: 1), of the sampler's kind. Created at
     /// its first use.
@@ -227,7 +229,7 @@ struct Engine::Impl {
     MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
     std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
     std::map<std::string, Material> engineMaterials; ///< by package and constants
-    uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
+    uint64_t rasterChanges = 0;                      ///< of instances; they change the order in which scenes draw
     uint64_t instanceChanges = 0;                    ///< by the app: parameters, textures, raster states
     std::vector<MaterialInstance> dirtyInstances;
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far

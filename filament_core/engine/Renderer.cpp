@@ -233,24 +233,25 @@ struct Renderer::Impl {
         return {};
     }
 
-    Error samplesTarget(scene::MaterialInstance const& material, Target const& target) {
+    Error leaveOut(Error error) {
         plan = {};
-        Error error = fail(ErrorCode::InvalidArgument,
-                           "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another "
-                           "render target, or hide what has the material by View::visibleLayers",
-                           material.name.empty() ? material.material->name : material.name, target.color.name);
         engine.report(error.message);
         return error;
     }
 
+    Error samplesTarget(scene::MaterialInstance const& material, Target const& target) {
+        return leaveOut(fail(
+                ErrorCode::InvalidArgument,
+                "a frame is left out: material '{}' samples '{}', which the frame draws to; draw to another render "
+                "target, or hide what has the material by View::visibleLayers",
+                material.name.empty() ? material.material->name : material.name, target.color.name));
+    }
+
     Error dirtIsTarget(Target const& target) {
-        plan = {};
-        Error error = fail(ErrorCode::InvalidArgument,
-                           "a frame is left out: the dirt of bloom is '{}', which the frame draws to; draw to another "
-                           "render target",
-                           target.color.name);
-        engine.report(error.message);
-        return error;
+        return leaveOut(fail(ErrorCode::InvalidArgument,
+                             "a frame is left out: the dirt of bloom is '{}', which the frame draws to; draw to "
+                             "another render target",
+                             target.color.name));
     }
 
     /// On an error the frame was left out, because memory or a target was missing. Whatever was created on the way
@@ -265,10 +266,7 @@ struct Renderer::Impl {
             if (target.depth) target.depth->hasContents = true;
             return {};
         } catch (std::bad_alloc const&) {
-            plan = {};
-            Error error = outOfMemory("a frame is left out");
-            engine.report(error.message);
-            return error;
+            return leaveOut(outOfMemory("a frame is left out"));
         }
     }
 

@@ -22,7 +22,7 @@ struct Scene::Impl {
 
     /// The data after all changes of nodes and material instances, from which frames and bounds are computed.
     scene::SceneData const& upToDate() const {
-        if (std::exchange(depthStateChanges, engine.depthStateChanges) != engine.depthStateChanges) {
+        if (std::exchange(rasterChanges, engine.rasterChanges) != engine.rasterChanges) {
             data.renderables.drawables.updateOrders();
         }
         prepare::updateTransforms(engine.jobs, data);
@@ -37,7 +37,7 @@ struct Scene::Impl {
 
     Engine::Impl& engine;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
-    mutable uint64_t depthStateChanges = 0;
+    mutable uint64_t rasterChanges = 0;
     uint64_t changes = 0; ///< by the app
     std::vector<ModelCopy> copies;
 };

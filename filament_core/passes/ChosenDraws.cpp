@@ -10,4 +10,15 @@ ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& conte
              choosePipelines(pass, *context.arena, pipelines, pipelines.slot(slot), draws, 0) };
 }
 
+DrawContext shadedDraws(FrameContext const& context,
+                        std::array<backend::BindGroupHandle, shader::kSurfaceKinds> const& passGroups) {
+    const FrameView view = viewOf(context, 0);
+    return { view.group,
+             passGroups,
+             context.resources.instanceIds,
+             context.deformations,
+             context.settings.textureFilter,
+             view.packet.channels };
+}
+
 } // namespace filament::passes

@@ -20,4 +20,8 @@ struct ChosenDraws {
 ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
                         PassBlock target, std::span<const prepare::DrawCall> draws);
 
+/// In `execute`: how the main view's surfaces are drawn with their light.
+DrawContext shadedDraws(FrameContext const& context,
+                        std::array<backend::BindGroupHandle, shader::kSurfaceKinds> const& passGroups);
+
 } // namespace filament::passes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ColorPass.h"
 
-#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/PicturePass.h"
@@ -124,17 +124,12 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, Chosen const& chosen) {
-    const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group,
-                             chosen.passGroups,
-                             context.resources.instanceIds,
-                             context.deformations,
-                             context.settings.textureFilter,
-                             view.packet.channels };
+    const ViewGroup view = viewOf(context, 0).group;
+    const DrawContext draws = shadedDraws(context, chosen.passGroups);
     recordDrawRanges(pass, draws, chosen.opaqueDraws, chosen.opaque);
     const BindGroupHandle unlit = chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)];
-    if (chosen.sky) recordFullScreen(pass.commands(), chosen.sky, view.group, unlit, std::span(&chosen.skyGroup, 1));
-    if (chosen.disc) recordFullScreen(pass.commands(), chosen.disc, view.group, unlit, chosen.discGroups);
+    if (chosen.sky) recordFullScreen(pass.commands(), chosen.sky, view, unlit, std::span(&chosen.skyGroup, 1));
+    if (chosen.disc) recordFullScreen(pass.commands(), chosen.disc, view, unlit, chosen.discGroups);
     recordDrawRanges(pass, draws, chosen.blendedDraws, chosen.blended);
 }
 
@@ -145,12 +140,6 @@ struct ColorAttachments {
     bool hasDepth = false;      ///< the prepass left it
     bool isWeighted = false;    ///< a pass of its own resolves the last samples
 };
-
-TextureId createLike(FrameGraph& graph, TextureId color, Format format, uint8_t samples, std::string_view name) {
-    framegraph::GraphTextureDesc desc = graph.texture(color).desc;
-    return graph.createTexture(
-            { .width = desc.width, .height = desc.height, .format = format, .samples = samples, .name = name });
-}
 
 ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     const uint8_t samples = context.settings.samples;
@@ -243,7 +232,7 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
         beyond.textures.occlusion = layers.depth;
         beyond.part = { .isFirst = false,
                         .isLast = false,
-                        .blended = view.blended.subspan(view.anyOrder.first, view.anyOrder.end - view.anyOrder.first),
+                        .blended = view.anyOrderDraws(),
                         .transparency = shader::kTransparencyBeyond };
         addPart(graph, context, to, "beyond layers", beyond);
         addPeeledOver(graph, context, targets, layers);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Auto exposure: how bright the picture is, and the exposure that follows from it.
 ///   Reads   targets.color, at one pixel of each block of the picture.
-///   Draws   targets.histogram, and targets.exposure: one texel: the correction in stops. The next frame finds it as its history.
+///   Draws   targets.histogram, and targets.exposure: one texel: the correction in stops. The next frame finds it as
+///           its history.
 ///   How     a histogram of the logarithm of luminance, of which the darkest and the brightest shares do not count; the
 ///           mean of the rest becomes middle grey. The correction moves there by so many stops a second.
 ///   Skips   all of it, unless the frame's demand needs it.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Flare passes: ghosts and halo of what is bright, as the surfaces of a lens reflect them.
-///   Draws   targets.flare: what each block of pixels of targets.color gets of them. The finish pass adds it, and takes the
-///           same light from where it was.
-///   How     the mean of what is brighter than the threshold, in blocks, and halves of that down to one texel; each ghost and the halo gather from the level that is as coarse as their own blur.
+///   Draws   targets.flare: what each block of pixels of targets.color gets of them. The finish pass adds it, and takes
+///           the same light from where it was.
+///   How     the mean of what is brighter than the threshold, in blocks, and halves of that down to one texel; each
+///           ghost and the halo gather from the level that is as coarse as their own blur.
 ///   Skips   all of it, unless the frame's demand needs it; on the device, the gathering, if nothing is bright enough.
 #pragma once
 
@@ -13,8 +14,8 @@
 
 namespace filament::passes {
 
-/// Pixels of a side that become one texel: a power of two. Pictures of any size have 90 to 180 rows of blocks, if they have
-/// so many pixels.
+/// Pixels of a side that become one texel: a power of two. Pictures of any size have 90 to 180 rows of blocks, if they
+/// have so many pixels.
 uint32_t flareBlock(uint32_t height);
 
 inline constexpr size_t kMostGhosts = 8;

@@ -34,6 +34,14 @@ inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId t
     return { desc.width, desc.height };
 }
 
+/// A texture of the size of `like`.
+inline framegraph::TextureId createLike(framegraph::FrameGraph& graph, framegraph::TextureId like,
+                                        backend::Format format, uint8_t samples, std::string_view name) {
+    const uint2 size = sizeOf(graph, like);
+    return graph.createTexture(
+            { .width = size.x, .height = size.y, .format = format, .samples = samples, .name = name });
+}
+
 struct DebugDrawBuffers {
     backend::BufferHandle vertices, indices;
 };

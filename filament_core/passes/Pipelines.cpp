@@ -40,11 +40,6 @@ uint16_t withPrecision(scene::Material const& material, uint8_t variant, Shading
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
-bool hasTextures(shader::MaterialPackage const& package) {
-    return std::ranges::any_of(package.parameters,
-                               [](shader::Parameter const& parameter) { return shader::isTexture(parameter.type); });
-}
-
 // Everything except cullingDisabled.
 uint64_t rasterBits(scene::InstanceRaster const& raster) {
     return static_cast<uint64_t>(raster.culling) | static_cast<uint64_t>(raster.colorWrite) << 2 |
@@ -320,7 +315,7 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material co
 PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Material const& material,
                                                    uint8_t variant) const {
     ProgramChoice choice = chooseWithTextures(slot, material, variant);
-    if (!hasTextures(material.package)) choice.shading = withoutMipBias(choice.shading);
+    if (!material.package.hasTextures()) choice.shading = withoutMipBias(choice.shading);
     return choice;
 }
 

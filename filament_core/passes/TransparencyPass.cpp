@@ -12,7 +12,6 @@ namespace {
 
 using backend::Format;
 using framegraph::FrameGraph;
-using framegraph::GraphTextureDesc;
 using framegraph::PassBuilder;
 using framegraph::PassContext;
 using framegraph::TextureId;
@@ -24,8 +23,7 @@ constexpr FullScreenInterface kOver{ .pass = "transparency", .inputs = kOverInpu
 
 /// What lies under what is there is drawn front to back, so that of two surfaces of one depth the same is on top.
 std::span<const prepare::DrawCall> anyOrderDraws(FrameContext const& context, shader::TransparencyTerm term) {
-    prepare::ViewPacket const& view = context.packet.mainView();
-    const auto draws = view.blended.subspan(view.anyOrder.first, view.anyOrder.end - view.anyOrder.first);
+    const auto draws = context.packet.mainView().anyOrderDraws();
     if (term != shader::kTransparencyLayer) return draws;
     const std::span<prepare::DrawCall> reversed = context.arena->copy(draws);
     std::ranges::reverse(reversed);
@@ -46,14 +44,7 @@ ChosenDraws chooseSurfaces(PassContext& pass, FrameContext const& context, Trans
 }
 
 void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
-    const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group,
-                             chosen.passGroups,
-                             context.resources.instanceIds,
-                             context.deformations,
-                             context.settings.textureFilter,
-                             view.packet.channels };
-    recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
+    recordDrawRanges(pass, shadedDraws(context, chosen.passGroups), chosen.draws, chosen.pipelines);
 }
 
 /// `attach` declares the attachments.
@@ -70,18 +61,12 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, std::string_vie
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordSurfaces(pass, *of, chosen); });
 }
 
-TextureId createPart(FrameGraph& graph, TextureId color, Format format, uint8_t samples, std::string_view name) {
-    GraphTextureDesc const desc = graph.texture(color).desc;
-    return graph.createTexture(
-            { .width = desc.width, .height = desc.height, .format = format, .samples = samples, .name = name });
-}
-
 /// Drawn with the samples of the view, before the depth of what is opaque. Returns their mean.
 TextureId addSums(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets, Format format,
                   std::string_view name, shader::TransparencyTerm term) {
     const uint8_t samples = context.settings.samples;
-    const TextureId mean = createPart(graph, targets.color, format, 1, name);
-    const TextureId drawn = samples == 1 ? mean : createPart(graph, targets.color, format, samples, name);
+    const TextureId mean = createLike(graph, targets.color, format, 1, name);
+    const TextureId drawn = samples == 1 ? mean : createLike(graph, targets.color, format, samples, name);
     addSurfaces(graph, context, name, targets, term, [&](PassBuilder& pass) {
         pass.writeColor(0, drawn, { .clear = kNothing, .resolve = samples == 1 ? TextureId{} : mean });
         pass.testDepth(targets.depth);
@@ -114,14 +99,14 @@ void addWeightedPasses(FrameGraph& graph, FrameContext const& context, Transpare
 
 PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets) {
     const float farthest = context.settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-    PeeledLayers layers{ .light = createPart(graph, targets.color, Format::RGBA16F, 1, "layers") };
+    PeeledLayers layers{ .light = createLike(graph, targets.color, Format::RGBA16F, 1, "layers") };
     const uint32_t count = context.view->quality.transparencyLayers - 1u;
     TransparencyTargets with = targets;
     for (uint32_t i = 0; i < count; ++i) {
         const framegraph::ColorTarget light =
                 i == 0 ? framegraph::ColorTarget{ .clear = kNothing } : framegraph::ColorTarget{};
         with.textures.occlusion = layers.depth;
-        layers.depth = createPart(graph, targets.color, Format::D32F, 1, "layer depth");
+        layers.depth = createLike(graph, targets.color, Format::D32F, 1, "layer depth");
         addSurfaces(graph, context, "layer depth", with,
                     i == 0 ? shader::kTransparencyDepth : shader::kTransparencyNextDepth, [&](PassBuilder& pass) {
                         pass.writeColor(0, layers.light, light);

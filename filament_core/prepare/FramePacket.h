@@ -127,8 +127,12 @@ struct ViewPacket {
     std::span<const DrawCall> opaque;      ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended;     ///< back to front; none where nothing is shaded
     std::span<const PictureCopy> pictures; ///< for what of `blended` refracts what is drawn before it; none: nothing
-    AnyOrderDraws anyOrder;
+    AnyOrderDraws anyOrder;                ///< where of `blended`
     ViewCounts counts;
+
+    std::span<const DrawCall> anyOrderDraws() const {
+        return blended.subspan(anyOrder.first, anyOrder.end - anyOrder.first);
+    }
 };
 
 /// The environment of the scene, the same for all views; values that depend on a camera's exposure are in the uniforms.

@@ -104,9 +104,8 @@ EffectDemand demandOfPictureEffect(DemandInput const& input, bool isOn, DemandRe
 }
 
 EffectDemand demandOfBloom(DemandInput const& input) {
-    if (input.effects.bloom.enabled && input.effects.bloom.strength == 0)
-        return { .reason = DemandReason::HasNoIntensity };
     Bloom const& bloom = input.effects.bloom;
+    if (bloom.enabled && bloom.strength == 0) return { .reason = DemandReason::HasNoIntensity };
     EffectDemand demand = demandOfPictureEffect(input, bloom.enabled, DemandReason::SpreadsLight);
     if (demand.isNeeded && bloom.dirt && bloom.dirtStrength > 0) demand.count = 1;
     return demand;

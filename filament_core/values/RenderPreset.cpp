@@ -9,6 +9,12 @@ namespace {
 
 constexpr std::array<const char*, 4> kRenderPresets{ "fast", "balanced", "fine", "cinematic" };
 
+Quality fastQuality() {
+    Quality quality = qualityPreset(QualityPreset::Low);
+    quality.antiAliasing = AntiAliasing::Fxaa;
+    return quality;
+}
+
 Quality balancedQuality() {
     Quality quality = qualityPreset(QualityPreset::Medium);
     quality.ao = AmbientOcclusionTerm::Sao;
@@ -42,7 +48,7 @@ Quality cinematicQuality() {
 Quality qualityOf(RenderPreset preset) {
     switch (preset) {
     case RenderPreset::Fast:
-        break;
+        return fastQuality();
     case RenderPreset::Balanced:
         return balancedQuality();
     case RenderPreset::Fine:
@@ -50,9 +56,7 @@ Quality qualityOf(RenderPreset preset) {
     case RenderPreset::Cinematic:
         return cinematicQuality();
     }
-    Quality quality = qualityPreset(QualityPreset::Low);
-    quality.antiAliasing = AntiAliasing::Fxaa;
-    return quality;
+    return {};
 }
 
 } // namespace

@@ -349,9 +349,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     if (needs.colors) done = out.include("shaders/lib/color.glsl");
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
     if (done) done = out.include("shaders/material/surface/fragment_api.glsl");
-    const bool hasTextures = std::ranges::any_of(definition.package.parameters,
-                                                 [](Parameter const& parameter) { return isTexture(parameter.type); });
-    if (done && hasTextures) done = out.include("shaders/material/surface/texture_bias.glsl");
+    if (done && definition.package.hasTextures()) done = out.include("shaders/material/surface/texture_bias.glsl");
     return done;
 }
 

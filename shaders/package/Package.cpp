@@ -24,4 +24,8 @@ Constant const* MaterialPackage::findConstant(std::string_view wanted) const {
     return find(constants, wanted, &Constant::name);
 }
 
+bool MaterialPackage::hasTextures() const {
+    return std::ranges::any_of(parameters, [](Parameter const& parameter) { return isTexture(parameter.type); });
+}
+
 } // namespace filament::shader

@@ -135,6 +135,7 @@ struct MaterialPackage {
     Variant const* findVariant(uint32_t key) const;
     Parameter const* findParameter(std::string_view name) const;
     Constant const* findConstant(std::string_view name) const;
+    bool hasTextures() const; ///< among its parameters
 };
 
 /// Whether light passes through its surfaces: with Quality::coloredShadows its shadows have colours.

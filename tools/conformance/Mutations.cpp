@@ -49,6 +49,25 @@ private:
     std::deque<Bytes> mPayloads; // grows without moving its elements
 };
 
+/// Changes values of specialization constants.
+class ConstantEdit : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void inspect(CommandView) override { mChanged.clear(); }
+    void edit(CmdCreateProgram& command) override {
+        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
+        for (ConstantValue& constant : constants) editConstant(command.desc.debugName, constant);
+        command.desc.constants = constants;
+    }
+
+protected:
+    /// `program`: its name, with the values of the constants in full-screen materials: "fxaa/0/0/0".
+    virtual void editConstant(std::string_view program, ConstantValue& constant) const = 0;
+
+private:
+    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
+};
+
 /// The lit glTF materials: their parameter blocks, and the layouts that identify their bind groups.
 std::vector<shader::MaterialPackage> const& litPackages() {
     static const std::vector<shader::MaterialPackage> packages = [] {
@@ -516,20 +535,11 @@ class ReflectionReachEdit final : public PassBlocksEdit {
 };
 
 /// The second peeled layer is the first once more, and so are all after it.
-class LayerAgainEdit final : public StreamEdit {
-public:
-    using StreamEdit::edit;
-    void inspect(CommandView) override { mChanged.clear(); }
-    void edit(CmdCreateProgram& command) override {
-        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
-        const auto term = std::ranges::find(constants, uint32_t{ shader::kQualityTransparency }, &ConstantValue::id);
-        if (term != constants.end() && term->bits == shader::kTransparencyNextDepth)
-            term->bits = shader::kTransparencyDepth;
-        command.desc.constants = constants;
+class LayerAgainEdit final : public ConstantEdit {
+    void editConstant(std::string_view, ConstantValue& constant) const override {
+        if (constant.id == shader::kQualityTransparency && constant.bits == shader::kTransparencyNextDepth)
+            constant.bits = shader::kTransparencyDepth;
     }
-
-private:
-    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
 class ShadowShiftEdit final : public StreamEdit {
@@ -581,60 +591,32 @@ public:
 };
 
 /// Turns a switch of a full-screen material over.
-class SwitchEdit final : public StreamEdit {
+class SwitchEdit final : public ConstantEdit {
 public:
-    using StreamEdit::edit;
     /// `constant`: its place among those of the .mat file.
     SwitchEdit(std::string_view material, uint32_t constant) : mMaterial(material), mConstant(constant) {}
-    void inspect(CommandView) override { mChanged.clear(); }
-    void edit(CmdCreateProgram& command) override {
-        const std::string_view name = command.desc.debugName; // with the values of the constants: "fxaa/0/0/0"
-        if (name.substr(0, name.find('/')) != mMaterial) return;
-        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
-        const auto found = std::ranges::find(constants, mConstant, &ConstantValue::id); // given in any order
-        if (found != constants.end()) found->bits ^= 1;
-        command.desc.constants = constants;
-    }
 
 private:
+    void editConstant(std::string_view program, ConstantValue& constant) const override {
+        if (program.substr(0, program.find('/')) == mMaterial && constant.id == mConstant) constant.bits ^= 1;
+    }
+
     std::string_view mMaterial;
     uint32_t mConstant;
-    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
 /// The tone-aware resolve looks at two of four samples.
-class ResolveSamplesEdit final : public StreamEdit {
-public:
-    using StreamEdit::edit;
-    void inspect(CommandView) override { mChanged.clear(); }
-    void edit(CmdCreateProgram& command) override {
-        if (!command.desc.debugName.starts_with("msaa_resolve")) return;
-        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
-        for (ConstantValue& constant : constants) {
-            if (constant.type == ConstantValue::Type::Int) constant.bits = 2;
-        }
-        command.desc.constants = constants;
+class ResolveSamplesEdit final : public ConstantEdit {
+    void editConstant(std::string_view program, ConstantValue& constant) const override {
+        if (program.starts_with("msaa_resolve") && constant.type == ConstantValue::Type::Int) constant.bits = 2;
     }
-
-private:
-    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
 /// Textures are read at the mip levels of the pixels that are drawn.
-class DrawnLevelsEdit final : public StreamEdit {
-public:
-    using StreamEdit::edit;
-    void inspect(CommandView) override { mChanged.clear(); }
-    void edit(CmdCreateProgram& command) override {
-        auto& constants = mChanged.emplace_back(command.desc.constants.begin(), command.desc.constants.end());
-        for (ConstantValue& constant : constants) {
-            if (constant.id == shader::kQualityMipBias) constant.bits = 0;
-        }
-        command.desc.constants = constants;
+class DrawnLevelsEdit final : public ConstantEdit {
+    void editConstant(std::string_view, ConstantValue& constant) const override {
+        if (constant.id == shader::kQualityMipBias) constant.bits = 0;
     }
-
-private:
-    std::deque<std::vector<ConstantValue>> mChanged; // grows without moving its elements
 };
 
 class CoverageOffEdit final : public StreamEdit {
@@ -678,8 +660,8 @@ class GatheredWeightEdit final : public PassBlocksEdit {
     }
 };
 
-/// Ghosts and halo of the lens 2 % off: in blocks of flare.mat, which begin with the size of the picture and the reciprocal
-/// of whole blocks of pixels, followed by eight ghosts and the halo.
+/// Ghosts and halo of the lens 2 % off: in blocks of flare.mat, which begin with the size of the picture and the
+/// reciprocal of whole blocks of pixels, followed by eight ghosts and the halo.
 class FlarePlacesEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
         constexpr size_t kGhosts = 4, kHalo = 36, kWords = 40;

@@ -68,6 +68,13 @@ void Engine::Impl::markDirty(MaterialInstance handle) {
 }
 
 template <class Write>
+void Engine::Impl::changeRaster(MaterialInstance handle, Write&& write) {
+    write(instances.get(handle).raster);
+    ++rasterChanges;
+    ++instanceChanges;
+}
+
+template <class Write>
 Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name, Write&& write) {
     scene::MaterialInstance& instance = instances.get(handle);
     Parameter const* parameter = instance.material->package.findParameter(name);
@@ -200,7 +207,7 @@ Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
     if (parameter) {
         if (Result<void> done = set(handle, parameter->name, ParameterValue(doubleSided)); !done) return done;
     }
-    instance.raster.cullingDisabled = doubleSided;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.cullingDisabled = doubleSided; });
     return {};
 }
 
@@ -218,36 +225,34 @@ Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) 
 }
 
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
-    mImpl->instances.get(handle).raster.cullingDisabled = disabled;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.cullingDisabled = disabled; });
 }
 
 void Engine::setCulling(MaterialInstance handle, Culling culling) {
-    scene::InstanceRaster& raster = mImpl->instances.get(handle).raster;
-    raster.culling = culling;
-    raster.cullingDisabled = false;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) {
+        raster.culling = culling;
+        raster.cullingDisabled = false;
+    });
 }
 
 void Engine::setShadowCulling(MaterialInstance handle, std::optional<Culling> culling) {
-    mImpl->instances.get(handle).raster.shadowCulling = culling;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.shadowCulling = culling; });
 }
 
 void Engine::setColorWrite(MaterialInstance handle, bool writes) {
-    mImpl->instances.get(handle).raster.colorWrite = writes;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.colorWrite = writes; });
 }
 
 void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
-    mImpl->instances.get(handle).raster.depthWrite = writes;
-    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.depthWrite = writes; });
 }
 
 void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
-    mImpl->instances.get(handle).raster.depthCulling = tests;
-    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.depthCulling = tests; });
 }
 
 void Engine::setStencil(MaterialInstance handle, std::optional<StencilState> state) {
-    mImpl->instances.get(handle).raster.stencil = state;
-    ++mImpl->depthStateChanges, ++mImpl->instanceChanges;
+    mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.stencil = state; });
 }
 
 void Engine::Impl::destroy(MaterialInstance handle) {

@@ -46,6 +46,7 @@ public:
         EXPECT_TRUE(image);
         return image ? std::move(*image) : Image{};
     }
+    MaterialInstance lastMaterial() const { return mInstances.back(); }
     bool says(const char* words) const { return renderer.explain().find(words) != std::string::npos; }
 
     Engine engine;
@@ -151,6 +152,35 @@ TEST(DebugHistoryWeight, OfAStillPictureIsAllButOneOfItsFrames) {
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(codesAt(images[i], pixel.x, pixel.y)[c], 255 * kept, 0.51) << "frame " << frames[i];
     }
+}
+
+TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
+    using Change = void (*)(Engine&, MaterialInstance);
+    const Change changes[] = {
+        [](Engine& engine, MaterialInstance material) { EXPECT_TRUE(engine.setDoubleSided(material, false)); },
+        [](Engine& engine, MaterialInstance material) { engine.setCullingDisabled(material, true); },
+        [](Engine& engine, MaterialInstance material) { engine.setCulling(material, Culling::None); },
+        [](Engine& engine, MaterialInstance material) { engine.setShadowCulling(material, Culling::Front); },
+        [](Engine& engine, MaterialInstance material) { engine.setColorWrite(material, true); },
+        [](Engine& engine, MaterialInstance material) { engine.setDepthWrite(material, true); },
+        [](Engine& engine, MaterialInstance material) { engine.setDepthCulling(material, true); },
+        [](Engine& engine, MaterialInstance material) { engine.setStencil(material, std::nullopt); },
+    };
+    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+        stage.view.size = { 32, 24 };
+        stage.view.quality.antiAliasing = AntiAliasing::Taa;
+        stage.view.debugView = DebugView::HistoryWeight;
+        stage.add(1, { 0, 0, -2 }, 40);
+        std::vector<Image> frames;
+        for (const Change change : changes) {
+            for (int i = 0; i < 20; ++i) stage.draw();
+            change(stage.engine, stage.lastMaterial());
+            frames.push_back(stage.draw());
+        }
+        return frames;
+    });
+    for (size_t i = 0; i < images.size(); ++i)
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(codesAt(images[i], 16, 12)[c], 255 * 0.8, 0.51) << "change " << i;
 }
 
 /// The camera moves to the right by a quarter of the picture's width: what comes into it there is new.

@@ -457,6 +457,31 @@ TransparencyFrame frameOfPanes(std::vector<Pane> const& panes, Quality const& qu
     return frame;
 }
 
+TEST(Transparency, FollowsRasterStatesThatChangeBetweenFrames) {
+    auto engine = Engine::create({ .backend = Backend::Null, .workers = 0 });
+    MaterialStage stage(*engine);
+    showPanes(stage, {}, composedBy(TransparencyOrder::Weighted));
+    const MaterialInstance material = stage.material(paneMaterial(), test::kNoLights);
+    for (Pane const& pane : kThreePanes) stage.add(material, { pane.square() }, pane.world());
+    Renderer renderer(*engine);
+    const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = stage.view.size }));
+    const auto isComposed = [&] {
+        renderer.render(stage.scene, stage.view, target);
+        return std::ranges::any_of(renderer.decisions(), [](EffectDecision const& decision) {
+            return decision.name == "transparency" && decision.state == EffectDecision::State::Ran;
+        });
+    };
+    EXPECT_TRUE(isComposed());
+    using Set = void (Engine::*)(MaterialInstance, bool);
+    for (const Set set : { &Engine::setColorWrite, &Engine::setDepthCulling }) {
+        ((*engine).*set)(material, false);
+        EXPECT_FALSE(isComposed());
+        ((*engine).*set)(material, true);
+        EXPECT_TRUE(isComposed());
+    }
+    test::expectNoErrors(*engine);
+}
+
 TEST(Transparency, RunsOnlyWhereTwoObjectsMayOverlap) {
     using testing::ElementsAre;
     const std::vector<Pane> one{ kThreePanes[0] };

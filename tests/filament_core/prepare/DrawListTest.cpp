@@ -192,8 +192,7 @@ struct AnyOrderTest : DrawListTest {
     }
     std::vector<uint32_t> composed(ViewPacket const& packet) {
         std::vector<uint32_t> renderables;
-        for (DrawCall const& draw :
-             packet.blended.subspan(packet.anyOrder.first, packet.anyOrder.end - packet.anyOrder.first))
+        for (DrawCall const& draw : packet.anyOrderDraws())
             for (uint32_t i = 0; i < draw.instanceCount; ++i)
                 renderables.push_back(packet.objects.order[draw.firstObject + i].renderable);
         return renderables;

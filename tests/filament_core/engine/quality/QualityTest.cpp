@@ -323,8 +323,8 @@ std::vector<Image> renderEveryValue(Backend backend) {
 }
 
 /// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp,
-/// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen, ambient-occlusion, contact-shadows,
-/// refraction, transparency and reflections have pictures for them.
+/// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen,
+/// ambient-occlusion, contact-shadows, refraction, transparency and reflections have pictures for them.
 bool isOfTheView(std::string_view name) {
     if (name.starts_with("ao") || name.starts_with("ssr") || name.starts_with("refraction") || name == "contactSteps" ||
         name.starts_with("transparency") || name == "depthPrepass" || name == "antiAliasing" || name == "upscale" ||
