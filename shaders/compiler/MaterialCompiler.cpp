@@ -99,6 +99,10 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     package.filteredVariants |= options.filteredVariants;
     describeInputs(prepared);
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
+    if (!options.onlyVariant) return prepared;
+    if (std::ranges::count(prepared.keys, *options.onlyVariant) == 0)
+        return fail(ErrorCode::InvalidArgument, "{}: the material has no variant {}", fileName, *options.onlyVariant);
+    prepared.keys = { *options.onlyVariant };
     return prepared;
 }
 

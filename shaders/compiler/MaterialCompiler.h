@@ -15,6 +15,7 @@
 #include "shaders/compiler/PlatformDefaults.h"
 #include "shaders/package/Package.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,6 +34,7 @@ struct CompileOptions {
     bool essl = true;
     Platform platform = Platform::All; ///< which defaults
     uint16_t filteredVariants = 0;     ///< VariantBits never requested, besides the material's own variantFilter
+    std::optional<uint16_t> onlyVariant = std::nullopt; ///< compiles this one alone, for tests of shaders
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.
     IncludeResolver includes{};
     jobs::JobSystem* jobs = nullptr; ///< null: compile on the calling thread only

@@ -9,6 +9,7 @@
 #include "shaders/package/Package.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,8 +81,8 @@ inline constexpr size_t kMaxVariables = 4;
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);
 
-/// "directionalLighting" and the like -> the VariantBit that they stand for; nothing for an unknown name.
-std::optional<uint16_t> variantBitsOfFilter(std::string_view name);
+/// "directionalLighting" and the like -> the VariantBits that they stand for. InvalidArgument: an unknown name.
+Result<uint16_t> variantBitsOfFilters(std::span<const std::string> names);
 std::vector<std::string_view> variantFilterNames();
 
 } // namespace filament::shader

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/ParameterProperties.h"
 
+#include "base/Suggest.h"
 #include "shaders/compiler/GlslKeywords.h"
 #include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/compiler/PropertyReader.h"
@@ -275,7 +276,9 @@ Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
     return {};
 }
 
-constexpr std::pair<std::string_view, uint16_t> kVariantFilters[] = {
+using VariantFilter = std::pair<std::string_view, uint16_t>;
+
+constexpr VariantFilter kVariantFilters[] = {
     { "directionalLighting", kVariantSun },
     { "dynamicLighting", kVariantPunctual },
     { "shadowReceiver", kVariantShadowReceiver },
@@ -355,11 +358,18 @@ std::vector<std::string_view> attributeNames() {
     return names;
 }
 
-std::optional<uint16_t> variantBitsOfFilter(std::string_view name) {
-    for (auto const& [known, bits] : kVariantFilters) {
-        if (equalIgnoringCase(name, known)) return bits;
+Result<uint16_t> variantBitsOfFilters(std::span<const std::string> names) {
+    uint16_t bits = 0;
+    for (std::string const& name : names) {
+        const auto known = std::ranges::find_if(
+                kVariantFilters, [&](VariantFilter const& each) { return equalIgnoringCase(name, each.first); });
+        if (known == std::end(kVariantFilters)) {
+            return fail(ErrorCode::InvalidArgument, "there is no variant '{}'{}", name,
+                        suggestion(name, variantFilterNames()));
+        }
+        bits |= known->second;
     }
-    return std::nullopt;
+    return bits;
 }
 
 std::vector<std::string_view> variantFilterNames() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/MaterialModel.h"
 
+#include "shaders/compiler/MaterialDefinition.h"
 #include "tools/conformance/SceneAssets.h"
 
 #include <nlohmann/json.hpp>
@@ -15,13 +16,18 @@ Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec) {
     std::string path;
     MaterialModelFile model;
     NamedWords edits;
+    std::vector<std::string> filters;
     JsonReader reader(*spec.modelObject, spec.name + ": model");
     reader.read("material", path);
     reader.read("mesh", model.mesh);
     reader.read("edits", edits);
     reader.read("values", model.values);
+    reader.read("variantFilter", filters);
     if (const Result<void> done = reader.finish(); !done) return done.error();
-    Result<std::shared_ptr<const tools::MaterialFile>> file = tools::readMaterialFile(spec.folder / path, edits);
+    const Result<uint16_t> filtered = shader::variantBitsOfFilters(filters);
+    if (!filtered) return fail(filtered.error().code, "{}: model: {}", spec.name, filtered.error().message);
+    Result<std::shared_ptr<const tools::MaterialFile>> file =
+            tools::readMaterialFile(spec.folder / path, edits, *filtered);
     if (!file) return file.error();
     model.file = std::move(*file);
     return model;

@@ -2,7 +2,8 @@
 /// MaterialModel: a scene whose "model" is a material: { "material": "PATH.mat" } and optionally
 ///   "values"   { "NAME": "1,0.5" }: parameters and constants, which override those of the file's "// show:" line;
 ///   "mesh"     replaces the file's mesh;
-///   "edits"    { "TEXT": "OTHER TEXT" }: pieces of the file to replace before compiling.
+///   "edits"    { "TEXT": "OTHER TEXT" }: pieces of the file to replace before compiling;
+///   "variantFilter"  [ "skinning" ]: variants that the scene never requests, which saves compiling them.
 ///   Paths are relative to the scene file.
 ///   Fails  InvalidArgument: file, field, what is valid; and as readMaterialFile().
 #pragma once

@@ -6,7 +6,6 @@
 ///           standard input lies in the current folder.
 ///   Status  Options.h. The reason is on standard error, as the guide shows it (5.1): a line "ERROR: file:line: reason"
 ///           for each mistake, with the line of the author's file, and which material was not compiled.
-#include "base/Suggest.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/PathInside.h"
 #include "jobsystem/JobSystem.h"
@@ -100,19 +99,6 @@ private:
     std::optional<Error> mProblem;
 };
 
-Result<uint16_t> filteredBits(std::vector<std::string> const& filters) {
-    uint16_t bits = 0;
-    for (std::string const& filter : filters) {
-        const std::optional<uint16_t> known = shader::variantBitsOfFilter(filter);
-        if (!known) {
-            return fail(ErrorCode::InvalidArgument, "there is no variant '{}'{}", filter,
-                        suggestion(filter, shader::variantFilterNames()));
-        }
-        bits |= *known;
-    }
-    return bits;
-}
-
 Result<void> write(std::filesystem::path const& path, std::vector<std::byte> const& bytes) {
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     if (!std::filesystem::is_directory(folder)) // replaceFile() would make one, whose name may be a typing error
@@ -126,7 +112,7 @@ Result<void> print(Result<std::string> const& text) {
 }
 
 Result<shader::CompileOptions> compileOptions(Options const& options, Files& files, jobs::JobSystem& jobs) {
-    const Result<uint16_t> filtered = filteredBits(options.filters);
+    const Result<uint16_t> filtered = shader::variantBitsOfFilters(options.filters);
     if (!filtered) return filtered.error();
     shader::CompileOptions out{ .exact = !options.inexact, .filteredVariants = *filtered, .jobs = &jobs };
     if (options.platform == "mobile") out.platform = shader::Platform::Mobile;

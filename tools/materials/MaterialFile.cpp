@@ -5,6 +5,8 @@
 #include "filament_core/assets/files/PathInside.h"
 #include "shaders/compiler/MaterialCompiler.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -33,20 +35,20 @@ Result<std::string> edited(std::string text, std::vector<TextEdit> const& edits,
     return text;
 }
 
-Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const& path) {
+Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const& path, uint16_t filteredVariants) {
     const auto beside = [&](std::string_view name) -> std::optional<std::string> {
         const Result<fs::path> inside = assets::fileInside(path.parent_path(), name);
         if (!inside) return std::nullopt;
         const Result<std::string> file = readText(*inside);
         return file ? std::optional(*file) : std::nullopt;
     };
-    const Result<shader::MaterialPackage> package =
-            shader::compileMaterial(text, path.filename().string(), { .includes = beside });
+    const Result<shader::MaterialPackage> package = shader::compileMaterial(
+            text, path.filename().string(), { .filteredVariants = filteredVariants, .includes = beside });
     if (!package) return package.error();
     return shader::writePackage(*package);
 }
 
-Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edits) {
+Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
     MaterialFile file{ .name = path.stem().string(), .bytes = {}, .package = {}, .show = {} };
     Result<std::string> text = readText(path);
     if (!text) return text.error();
@@ -56,7 +58,7 @@ Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edi
         Result<MaterialShow> show = readMaterialShow(*text, path.filename().string());
         if (!show) return show.error();
         file.show = std::move(*show);
-        Result<std::vector<std::byte>> bytes = compiled(*text, path);
+        Result<std::vector<std::byte>> bytes = compiled(*text, path, filteredVariants);
         if (!bytes) return bytes.error();
         file.bytes = std::move(*bytes);
     } else {
@@ -69,8 +71,8 @@ Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edi
     return file;
 }
 
-std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits) {
-    std::string key = path.string();
+std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
+    std::string key = fmt::format("{}\n{}", path.string(), filteredVariants);
     for (auto const& [from, to] : edits) key += "\n" + from + "\n" + to;
     return key;
 }
@@ -103,13 +105,14 @@ Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fi
     return show;
 }
 
-Result<std::shared_ptr<const MaterialFile>> readMaterialFile(fs::path const& path, std::vector<TextEdit> const& edits) {
+Result<std::shared_ptr<const MaterialFile>> readMaterialFile(fs::path const& path, std::vector<TextEdit> const& edits,
+                                                             uint16_t filteredVariants) {
     static std::mutex mutex;
     static std::map<std::string, std::shared_ptr<const MaterialFile>> known;
     const std::lock_guard lock(mutex);
-    std::shared_ptr<const MaterialFile>& entry = known[keyOf(path, edits)];
+    std::shared_ptr<const MaterialFile>& entry = known[keyOf(path, edits, filteredVariants)];
     if (!entry) {
-        Result<MaterialFile> file = read(path, edits);
+        Result<MaterialFile> file = read(path, edits, filteredVariants);
         if (!file) return file.error();
         entry = std::make_shared<const MaterialFile>(std::move(*file));
     }

@@ -40,9 +40,11 @@ struct MaterialFile {
 /// A piece of the text to replace before compiling; it must occur.
 using TextEdit = std::pair<std::string, std::string>;
 
-/// NotFound: an edit does not apply.
+/// `filteredVariants`: VariantBits that nobody will request; ignored for .fmat files.
+///   Fails  NotFound: an edit does not apply.
 Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::path const& path,
-                                                             std::vector<TextEdit> const& edits = {});
+                                                             std::vector<TextEdit> const& edits = {},
+                                                             uint16_t filteredVariants = 0);
 
 /// Whether the path names a material, judged by its extension.
 bool isMaterialFile(std::filesystem::path const& path);

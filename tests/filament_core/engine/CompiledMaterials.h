@@ -21,8 +21,8 @@
 namespace filament::test {
 
 /// Variants that a picture does not need.
-inline constexpr uint16_t kNoLights = shader::kVariantSun | shader::kVariantPunctual,
-                          kSunOnly = shader::kVariantPunctual;
+inline constexpr uint16_t kNoShadows = shader::kVariantShadowReceiver, // most of a lit material
+        kSunOnly = kNoShadows | shader::kVariantPunctual, kNoLights = kSunOnly | shader::kVariantSun;
 
 /// Empty, and a test failure, if the text does not compile. Filter variants that a test does not need: they only take
 /// time.

@@ -39,6 +39,9 @@ SceneSpec sceneOf(Sample const& sample, std::vector<tools::TextEdit> const& edit
     SceneSpec spec{ .name = sample.name, .folder = kSampleFolder };
     Json model = { { "material", sample.name + ".mat" } };
     for (auto const& [from, to] : edits) model["edits"][from] = to;
+    // The others are compiled by tests of the compiler; these are most of a material.
+    model["variantFilter"] = { "skinning", "shadowReceiver" };
+    if (!sample.hasLamp) model["variantFilter"].push_back("dynamicLighting");
     spec.modelObject = std::make_shared<const Json>(std::move(model));
     spec.environment = "studio";
     spec.environmentSettings.illuminance = Lux{ 10'000 };

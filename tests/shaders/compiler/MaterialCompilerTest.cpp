@@ -2,6 +2,7 @@
 #include "shaders/compiler/MaterialCompiler.h"
 
 #include "jobsystem/JobSystem.h"
+#include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 #include "tests/shaders/compiler/SpirvTools.h"
@@ -9,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
 namespace filament::shader {
@@ -211,6 +213,29 @@ TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
 }
 
 // ---------------------------------------------------------------------------------------------- variants and layout
+
+TEST(MaterialCompiler, CompilesOneVariantAloneWithTheBytesThatItHasAmongAll) {
+    const Result<MaterialPackage> all = compile(withProperties("")),
+                                  one = compile(withProperties(""), { .onlyVariant = kVariantSun });
+    ASSERT_TRUE(all && one);
+    ASSERT_EQ(one->variants.size(), 1u);
+    const auto same = std::ranges::find(all->variants, kVariantSun, &Variant::key);
+    EXPECT_EQ(one->variants[0].fragmentSpirv, same->fragmentSpirv);
+    EXPECT_EQ(one->variants[0].vertexEssl, same->vertexEssl);
+    const Result<MaterialPackage> none =
+            compile(withProperties("shadingModel : unlit"), { .onlyVariant = kVariantSun });
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("wood.mat: the material has no variant 1"));
+}
+
+TEST(MaterialCompiler, KnowsTheNamesOfFiltersInAnyCase) {
+    const std::string known[] = { "skinning", "ShadowReceiver" }, unknown[] = { "skining" };
+    const Result<uint16_t> bits = variantBitsOfFilters(known), none = variantBitsOfFilters(unknown);
+    ASSERT_TRUE(bits);
+    EXPECT_EQ(*bits, kVariantSkinning | kVariantShadowReceiver);
+    ASSERT_FALSE(none);
+    EXPECT_THAT(none.error().message, HasSubstr("there is no variant 'skining'; did you mean 'skinning'?"));
+}
 
 TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
     const auto keys = [](std::string_view properties, uint8_t filtered = 0) {

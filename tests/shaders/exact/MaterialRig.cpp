@@ -320,8 +320,7 @@ Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
     const std::pair key(scene.source, scene.variant);
     const auto known = mCompiled.find(key);
     if (known != mCompiled.end()) return known->second;
-    const auto others = static_cast<uint16_t>(kAllVariantBits & ~scene.variant); // a tenth of all code is drawn
-    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat", { .filteredVariants = others });
+    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat", { .onlyVariant = scene.variant });
     if (compiled) mCompiled.emplace(key, *compiled);
     return compiled;
 }

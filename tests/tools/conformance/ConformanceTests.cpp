@@ -3,6 +3,7 @@
 #include "tools/common/Interrupt.h"
 #include "tools/conformance/BuiltModel.h"
 #include "tools/conformance/Journal.h"
+#include "tools/conformance/MaterialModel.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
@@ -211,6 +212,22 @@ TEST(SceneFiles, GridsOfMoreThan4096ObjectsAreRefusedBeforeAnyIsMade) {
     const auto built = buildModel(model, "grid");
     ASSERT_FALSE(built.ok());
     EXPECT_NE(built.error().message.find("4096 objects at most"), std::string::npos) << built.error().message;
+}
+
+TEST(SceneFiles, MaterialsLackTheVariantsThatTheirModelFilters) {
+    const auto withFilter = [](const char* name) {
+        SceneSpec spec{ .name = "stand", .folder = tools::sourceDir() / "samples/materials" };
+        spec.modelObject =
+                std::make_shared<const Json>(Json{ { "material", "unlit.mat" }, { "variantFilter", { name } } });
+        return readMaterialModel(spec);
+    };
+    const auto model = withFilter("skinning");
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    for (shader::Variant const& variant : model->file->package.variants)
+        EXPECT_EQ(variant.key & shader::kVariantSkinning, 0);
+    const auto wrong = withFilter("skining");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().message, "stand: model: there is no variant 'skining'; did you mean 'skinning'?");
 }
 
 TEST(SceneFiles, ImageBasedLightsOfModelsSayWhatIsWrongWithThem) {

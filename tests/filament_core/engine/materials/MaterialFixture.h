@@ -12,9 +12,10 @@
 
 namespace filament::test {
 
-inline Owned<Material> loadMaterial(Engine& engine, std::string_view text,
-                                    std::vector<MaterialConstant> constants = {}) {
-    auto material = engine.create(MaterialDesc{ .package = compiledPackage(text), .constants = std::move(constants) });
+inline Owned<Material> loadMaterial(Engine& engine, std::string_view text, std::vector<MaterialConstant> constants = {},
+                                    uint16_t filteredVariants = 0) {
+    auto material = engine.create(
+            MaterialDesc{ .package = compiledPackage(text, filteredVariants), .constants = std::move(constants) });
     if (material) return engine.own(*material);
     ADD_FAILURE() << material.error().message;
     return {};

@@ -37,7 +37,7 @@ public:
 
     /// None, and a test failure, if the text does not compile. Filter variants that a test does not need: they only
     /// take time.
-    MaterialInstance material(std::string_view text, uint16_t filteredVariants = 0) {
+    MaterialInstance material(std::string_view text, uint16_t filteredVariants = kNoShadows) {
         Result<Material> material = engine.create(MaterialDesc{ .package = compiledPackage(text, filteredVariants) });
         if (!material) {
             ADD_FAILURE() << material.error().message;

@@ -67,7 +67,7 @@ public:
     Renderable wall;
 
 private:
-    Owned<Material> load(std::string const& text) { return test::loadMaterial(mEngine, text); }
+    Owned<Material> load(std::string const& text) { return test::loadMaterial(mEngine, text, {}, test::kNoShadows); }
     MaterialInstance instance(Owned<Material> const& material) {
         mInstances.push_back(mEngine.own(mEngine.createInstance(material)));
         return mInstances.back();
