@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// effects_bench [--frames N] [--size WxH] [--json FILE]: what effects cost where they are seen, and that they cost
-// nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one, then the other first,
-// and the ratio is that of each pair: its median, and the interval in which the true median lies with 95 % certainty.
-// What cannot be seen must have the same bits, the same draws and the same passes, or the program fails. The last line
-// is the time of a pass that fetches one texel a pixel: the floor below everything that works on whole pictures.
+// effects_bench [--frames N] [--size WxH] [--only TEXT] [--unseen] [--json FILE]: what effects cost where they are seen,
+// and that they cost nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one, then the
+// other first, and the ratio is that of each pair: its median, and the interval in which the true median lies with 95 %
+// certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program fails. The
+// last line is the time of a pass that fetches one texel a pixel: the floor below everything that works on whole pictures.
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
 
@@ -276,6 +276,24 @@ void addChain(std::vector<Pair>& all, const char* file) {
     all.push_back({ "four samples", file, plain, withEffects([](View& view) { view.samples = 4; }) });
 }
 
+/// What whole views of a model under a sun take, beside one with the defaults.
+void addPresets(std::vector<Pair>& all, const char* file) {
+    const auto sunlit = [](std::function<void(View&)> const& set) {
+        return [set](Scene& scene, View& view) {
+            scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+            view.effects.ambientOcclusion.radiusMeters = 0.1f; // the model is 1 m large
+            set(view);
+        };
+    };
+    const auto plain = sunlit([](View&) {});
+    const std::pair<const char*, RenderPreset> presets[] = { { "preset fast", RenderPreset::Fast },
+                                                             { "preset balanced", RenderPreset::Balanced },
+                                                             { "preset fine", RenderPreset::Fine },
+                                                             { "preset cinematic", RenderPreset::Cinematic } };
+    for (auto const& [name, preset] : presets)
+        all.push_back({ name, file, plain, sunlit([preset](View& view) { applyPreset(view, preset); }) });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -336,6 +354,7 @@ std::vector<Pair> pairs() {
     addFinish(all, kHelmet);
     addResolutions(all, kHelmet);
     addChain(all, kHelmet);
+    addPresets(all, kHelmet);
     return all;
 }
 
@@ -484,10 +503,12 @@ int main(int argc, char** argv) {
     CLI::App app("What effects cost where they are seen, and where they are not");
     Options options{ .assets = tools::assetDir() };
     std::string size = "1280x720", json, only;
+    bool isUnseenOnly = false;
     app.add_option("--frames", options.frames, "pairs of frames a measurement")->check(CLI::Range(4, 10'000));
     app.add_option("--size", size, "WxH in pixels");
     app.add_option("--assets", options.assets, "directory with models/ and environments/");
     app.add_option("--only", only, "pairs whose names contain this");
+    app.add_flag("--unseen", isUnseenOnly, "only effects that the scene cannot show");
     app.add_option("--json", json, "also write the figures to this file");
     CLI11_PARSE(app, argc, argv);
     if (std::sscanf(size.c_str(), "%ux%u", &options.size.x, &options.size.y) != 2 || options.size.x == 0 ||
@@ -500,6 +521,7 @@ int main(int argc, char** argv) {
     std::printf("%-32s %-32s %-7s %8s   %s\n", "effect", "model", "api", "plain ms", "ratio");
     for (Pair const& pair : pairs()) {
         if (std::string_view(pair.name).find(only) == std::string_view::npos) continue;
+        if (isUnseenOnly && !pair.isUnseen) continue;
         for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
             const Result<Measured> measured = measure(backend, pair, options);
             if (!measured) {
