@@ -137,9 +137,10 @@ set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 # the same bits.
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 
-# One test program per mirrored folder: tests/<folder>/*.cpp.
+# One test program per mirrored folder: tests/<folder>/*.cpp. SHARDS n: ctest runs it n times, each with a part of its tests,
+# so that no core waits for the longest program.
 function(filament_tests folder)
-    cmake_parse_arguments(ARG "GPU;OPTIMIZED" "" "SUBFOLDERS;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "GPU;OPTIMIZED" "SHARDS" "SUBFOLDERS;LINK" ${ARGN})
     string(REPLACE "/" "_" name ${folder})
     filament_glob(sources tests/${folder} SUBFOLDERS ${ARG_SUBFOLDERS})
     if(NOT sources)
@@ -153,12 +154,23 @@ function(filament_tests folder)
         target_compile_options(${name}_tests PRIVATE ${FILAMENT_TEST_OPTIONS})
         filament_use_precompiled(${name}_tests precompiled_tests)
     endif()
-    add_test(NAME ${name} COMMAND ${name}_tests)
+    set(label unit)
+    set(environment "")
     if(ARG_GPU)
-        set_tests_properties(${name} PROPERTIES LABELS gpu ENVIRONMENT ${FILAMENT_DEVICE_ENVIRONMENT})
-    else()
-        set_tests_properties(${name} PROPERTIES LABELS unit)
+        set(label gpu)
+        set(environment ${FILAMENT_DEVICE_ENVIRONMENT})
     endif()
+    if(NOT ARG_SHARDS)
+        add_test(NAME ${name} COMMAND ${name}_tests)
+        set_tests_properties(${name} PROPERTIES LABELS ${label} ENVIRONMENT "${environment}")
+        return()
+    endif()
+    math(EXPR last "${ARG_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+        add_test(NAME ${name}_${shard} COMMAND ${name}_tests)
+        set_tests_properties(${name}_${shard} PROPERTIES LABELS ${label}
+            ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
+    endforeach()
 endfunction()
 
 # One Google Benchmark program per file: bench/<folder>/<Name>Bench.cpp.

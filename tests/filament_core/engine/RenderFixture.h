@@ -116,6 +116,16 @@ inline Difference differenceOf(Image const& a, Image const& b) {
     return difference;
 }
 
+/// For files that a test writes and reads. No other test has it: several run at once, in processes of their own.
+inline std::filesystem::path folderOfThisTest() {
+    testing::TestInfo const& test = *testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + '.' + test.name();
+    std::ranges::replace(name, '/', '-');
+    const std::filesystem::path folder = tools::buildDir() / "test-files" / name;
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
 /// For tests that use files beside the checkout.
 class AssetTest : public testing::Test {
 protected:

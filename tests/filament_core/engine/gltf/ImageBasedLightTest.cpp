@@ -78,8 +78,7 @@ GlbImageBasedLight lightWith(GlbScene& scene, uint32_t side, uint32_t levels, Pi
 }
 
 std::filesystem::path written(GlbScene const& scene, std::string const& name) {
-    const std::filesystem::path folder = tools::buildDir() / "image-based-light";
-    std::filesystem::create_directories(folder);
+    const std::filesystem::path folder = test::folderOfThisTest();
     const auto bytes = assets::writeGlb(scene);
     EXPECT_TRUE(bytes.ok());
     std::ofstream(folder / name, std::ios::binary)
@@ -177,8 +176,7 @@ void fromPicture(MaterialStage& stage) {
         const assets::Texel texel = level.sample(cubeFromDirection(assets::directionFromEquirect(uv)));
         picture.pixels.emplace_back(texel[0], texel[1], texel[2]);
     }
-    const std::filesystem::path file = tools::buildDir() / "image-based-light" / "world.hdr";
-    std::filesystem::create_directories(file.parent_path());
+    const std::filesystem::path file = test::folderOfThisTest() / "world.hdr";
     ASSERT_TRUE(assets::writeHdr(file, picture));
     Result<Environment> sky = loadEnvironment(stage.engine, file, { .samples = 8 });
     ASSERT_TRUE(sky.ok()) << sky.error().message;

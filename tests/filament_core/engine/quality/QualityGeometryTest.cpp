@@ -27,7 +27,7 @@ std::filesystem::path sphereFile() {
     scene.nodes = { { .name = "stretched", .parentFromNode = node, .mesh = 0 } };
     const auto bytes = assets::writeGlb(scene);
     EXPECT_TRUE(bytes.ok());
-    const std::filesystem::path path = tools::buildDir() / "quality-geometry.glb";
+    const std::filesystem::path path = test::folderOfThisTest() / "sphere.glb";
     std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
     return path;
