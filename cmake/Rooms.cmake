@@ -138,7 +138,7 @@ set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 
 # One test program per mirrored folder: tests/<folder>/*.cpp. SHARDS n: ctest runs it n times, each with a part of its tests,
-# so that no core waits for the longest program.
+# so that no core waits for the longest program; <name>_shards lists them.
 function(filament_tests folder)
     cmake_parse_arguments(ARG "GPU;OPTIMIZED" "SHARDS" "SUBFOLDERS;LINK" ${ARGN})
     string(REPLACE "/" "_" name ${folder})
@@ -166,11 +166,14 @@ function(filament_tests folder)
         return()
     endif()
     math(EXPR last "${ARG_SHARDS} - 1")
+    set(shards "")
     foreach(shard RANGE ${last})
+        list(APPEND shards ${name}_${shard})
         add_test(NAME ${name}_${shard} COMMAND ${name}_tests)
         set_tests_properties(${name}_${shard} PROPERTIES LABELS ${label}
             ENVIRONMENT "${environment};GTEST_TOTAL_SHARDS=${ARG_SHARDS};GTEST_SHARD_INDEX=${shard}")
     endforeach()
+    set(${name}_shards ${shards} PARENT_SCOPE)
 endfunction()
 
 # One Google Benchmark program per file: bench/<folder>/<Name>Bench.cpp.

@@ -274,10 +274,10 @@ const StageOptions kAlone{}, kPlain{ .validation = false },
 
 class OutOfMemory : public testing::TestWithParam<Sweeper> {};
 INSTANTIATE_TEST_SUITE_P(Sweeps, OutOfMemory,
-                         testing::Values(Sweeper{ "app", kAlone, Whose::App, Lasting::Once, 1, 11 },
+                         testing::Values(Sweeper{ "app", kAlone, Whose::App, Lasting::Once, 1, 5 },
                                          Sweeper{ "driver", kAlone, Whose::Driver },
                                          Sweeper{ "plain_driver", kPlain, Whose::Driver },
-                                         Sweeper{ "app_onwards", kAlone, Whose::App, Lasting::Onwards, 1, 11 },
+                                         Sweeper{ "app_onwards", kAlone, Whose::App, Lasting::Onwards, 1, 5 },
                                          Sweeper{ "driver_onwards", kAlone, Whose::Driver, Lasting::Onwards },
                                          Sweeper{ "app_with_workers", kCrowd, Whose::App, Lasting::Once, 211 },
                                          Sweeper{ "jobs", kCrowd, Whose::Jobs }),

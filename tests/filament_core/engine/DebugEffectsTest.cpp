@@ -46,6 +46,11 @@ public:
         EXPECT_TRUE(image);
         return image ? std::move(*image) : Image{};
     }
+    void showHistoryWeight(uint2 size) {
+        view.size = size;
+        view.quality.antiAliasing = AntiAliasing::Taa;
+        view.debugView = DebugView::HistoryWeight;
+    }
     MaterialInstance lastMaterial() const { return mInstances.back(); }
     bool says(const char* words) const { return renderer.explain().find(words) != std::string::npos; }
 
@@ -133,9 +138,7 @@ TEST(DebugCircleOfConfusion, IsBlackWithoutDepthOfField) {
 
 TEST(DebugHistoryWeight, OfAStillPictureIsAllButOneOfItsFrames) {
     const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
-        stage.view.size = { 32, 24 };
-        stage.view.quality.antiAliasing = AntiAliasing::Taa;
-        stage.view.debugView = DebugView::HistoryWeight;
+        stage.showHistoryWeight({ 32, 24 });
         stage.add(1, { 0.1, 0.2, -2 }, 1);
         std::vector<Image> frames;
         for (int i = 0; i < 300; ++i) {
@@ -167,9 +170,7 @@ TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
         [](Engine& engine, MaterialInstance material) { engine.setStencil(material, std::nullopt); },
     };
     const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
-        stage.view.size = { 32, 24 };
-        stage.view.quality.antiAliasing = AntiAliasing::Taa;
-        stage.view.debugView = DebugView::HistoryWeight;
+        stage.showHistoryWeight({ 32, 24 });
         stage.add(1, { 0, 0, -2 }, 40);
         std::vector<Image> frames;
         for (const Change change : changes) {
@@ -186,9 +187,7 @@ TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
 /// The camera moves to the right by a quarter of the picture's width: what comes into it there is new.
 TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
     const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
-        stage.view.size = { 64, 32 };
-        stage.view.quality.antiAliasing = AntiAliasing::Taa;
-        stage.view.debugView = DebugView::HistoryWeight;
+        stage.showHistoryWeight({ 64, 32 });
         stage.add(1, { 0, 0, -2 }, 40);
         for (int i = 0; i < 8; ++i) stage.draw();
         stage.view.camera = Camera::lookAt({ 2, 0, 0 }, { 2, 0, -1 }, { .verticalFovDegrees = 90 }); // 8 m are seen
@@ -204,9 +203,7 @@ TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
 /// What an object leaves behind was not gathered there: its colour is limited to what is around.
 TEST(DebugHistoryWeight, IsOrangeWhereColoursAreLimited) {
     const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
-        stage.view.size = { 64, 32 };
-        stage.view.quality.antiAliasing = AntiAliasing::Taa;
-        stage.view.debugView = DebugView::HistoryWeight;
+        stage.showHistoryWeight({ 64, 32 });
         stage.add(0.1f, { 0, 0, -4 }, 40);
         const Renderable square = stage.add(4, { -1, 0, -2 }, 0.5);
         for (int i = 0; i < 4; ++i) stage.draw();

@@ -107,7 +107,7 @@ Quality presetOf(QualityPreset preset) {
 }
 
 /// The other choices in which presets differ.
-const CostMeasurement kMeasurement{ .rounds = 15,
+const CostMeasurement kMeasurement{ .rounds = 31,
                                     .choices = { "specularVisibility", "fresnel", "energyCompensation", "splitSum",
                                                  "dfgTableSize", "diffuseIrradiance", "shBands", "textureFilter" } };
 constexpr QualityPreset kPresets[] = { QualityPreset::Low, QualityPreset::High, QualityPreset::Reference };
