@@ -34,6 +34,8 @@ struct Options {
     std::filesystem::path assets;
 };
 
+enum class Moving { Nothing, Model, Camera }; ///< the model turns by a degree a frame, the camera goes 2 mm
+
 /// A model under a light, and the two views or scenes that are compared.
 struct Pair {
     const char* name = nullptr; ///< none: passes are timed
@@ -42,7 +44,7 @@ struct Pair {
     std::function<void(Scene&, View&)> effect{}; ///< the same with the effect
     bool isUnseen = false;
     bool hasMirror = false; ///< a floor that reflects the picture
-    bool isTurning = false; ///< the model, a degree a frame
+    Moving moving = Moving::Nothing;
 };
 
 constexpr float3 kSunDirection{ -0.4f, -1.0f, -0.6f };
@@ -152,7 +154,7 @@ void addReflections(std::vector<Pair>& all, const char* file) {
                     .plain = off,
                     .effect = on,
                     .hasMirror = true,
-                    .isTurning = true });
+                    .moving = Moving::Model });
     all.push_back({ .name = "ssr=on", .file = file, .plain = off, .effect = on });
 }
 
@@ -187,7 +189,8 @@ void addAntiAliasing(std::vector<Pair>& all, const char* file) {
     const auto off = smoothed(AntiAliasing::Off), taa = smoothed(AntiAliasing::Taa);
     all.push_back({ "fxaa", file, off, smoothed(AntiAliasing::Fxaa) });
     all.push_back({ "taa", file, off, taa });
-    all.push_back({ .name = "taa, and the model turns", .file = file, .plain = off, .effect = taa, .isTurning = true });
+    all.push_back(
+            { .name = "taa, and the model turns", .file = file, .plain = off, .effect = taa, .moving = Moving::Model });
 }
 
 void addResolutions(std::vector<Pair>& all, const char* file) {
@@ -254,7 +257,7 @@ void addFinish(std::vector<Pair>& all, const char* file) {
                     .file = file,
                     .plain = withEffects([](View&) {}),
                     .effect = moving,
-                    .isTurning = true });
+                    .moving = Moving::Model });
     all.push_back({ "motion blur, nothing moves", file, withEffects([](View&) {}), moving, true });
 }
 
@@ -285,13 +288,22 @@ void addPresets(std::vector<Pair>& all, const char* file) {
             set(view);
         };
     };
+    struct Preset {
+        const char *still, *moving;
+        RenderPreset preset;
+    };
+    constexpr Preset kPresets[] = {
+        { "preset fast", "preset fast, and the camera moves", RenderPreset::Fast },
+        { "preset balanced", "preset balanced, and the camera moves", RenderPreset::Balanced },
+        { "preset fine", "preset fine, and the camera moves", RenderPreset::Fine },
+        { "preset cinematic", "preset cinematic, and the camera moves", RenderPreset::Cinematic },
+    };
     const auto plain = sunlit([](View&) {});
-    const std::pair<const char*, RenderPreset> presets[] = { { "preset fast", RenderPreset::Fast },
-                                                             { "preset balanced", RenderPreset::Balanced },
-                                                             { "preset fine", RenderPreset::Fine },
-                                                             { "preset cinematic", RenderPreset::Cinematic } };
-    for (auto const& [name, preset] : presets)
-        all.push_back({ name, file, plain, sunlit([preset](View& view) { applyPreset(view, preset); }) });
+    for (auto const& [still, moving, preset] : kPresets) {
+        const auto finished = sunlit([preset](View& view) { applyPreset(view, preset); });
+        all.push_back({ .name = still, .file = file, .plain = plain, .effect = finished });
+        all.push_back({ .name = moving, .file = file, .plain = plain, .effect = finished, .moving = Moving::Camera });
+    }
 }
 
 std::vector<Pair> pairs() {
@@ -381,17 +393,20 @@ public:
     Side(Engine& engine, Subject const& subject, Pair const& pair, std::function<void(Scene&, View&)> const& set,
          uint2 size)
             : mEngine(engine), mScene(engine), mRenderer(engine, { .passTimers = pair.name == nullptr }),
-              mIsTurning(pair.isTurning), mPlace(fitToUnitCube(subject.model.bounds())) {
+              mMoving(pair.moving), mPlace(fitToUnitCube(subject.model.bounds())) {
         mRoot = mScene.add(subject.model, mPlace);
         mScene.setEnvironment(subject.environment);
         if (subject.mirror) subject.mirror->addTo(mScene, belowModel());
-        mView.camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
         mView.size = size;
+        lookFrom({ 0.9, 0.6, 1.5 });
         set(mScene, mView);
         mTarget = engine.own(engine.create(SwapChainDesc{ .size = size, .name = "bench" }));
     }
     double draw() {
-        if (mIsTurning) mScene.setTransform(mRoot, glm::rotate(mPlace, 0.0175 * ++mDrawn, double3(0, 1, 0)));
+        ++mDrawn;
+        if (mMoving == Moving::Model)
+            mScene.setTransform(mRoot, glm::rotate(mPlace, 0.0175 * mDrawn, double3(0, 1, 0)));
+        if (mMoving == Moving::Camera) lookFrom({ 0.9 + 0.002 * mDrawn, 0.6, 1.5 });
         const auto begin = Clock::now();
         mRenderer.render(mScene, mView, mTarget);
         mEngine.waitIdle();
@@ -402,12 +417,14 @@ public:
     std::vector<FrameTimings> takeTimings() { return mRenderer.takeTimings(); }
 
 private:
+    void lookFrom(double3 eye) { mView.camera = Camera::lookAt(eye, { 0, 0, 0 }, { .verticalFovDegrees = 40 }); }
+
     Engine& mEngine;
     Scene mScene;
     Renderer mRenderer;
     View mView;
     Owned<SwapChain> mTarget;
-    bool mIsTurning;
+    Moving mMoving;
     double4x4 mPlace;
     Node mRoot;
     int mDrawn = 0;
@@ -489,7 +506,7 @@ Result<double> millisecondsOfOneFetch(Backend backend, Options const& options) {
 }
 
 void print(Pair const& pair, Backend backend, Measured const& m) {
-    std::printf("%-32s %-32s %-7s %8.1f   %6.3f  [%.3f, %.3f]%s\n", pair.name, pair.file, toString(backend),
+    std::printf("%-40s %-32s %-7s %8.1f   %6.3f  [%.3f, %.3f]%s\n", pair.name, pair.file, toString(backend),
                 m.milliseconds, m.median, m.low, m.high,
                 !pair.isUnseen ? ""
                 : m.isSame     ? "  same"
@@ -518,7 +535,7 @@ int main(int argc, char** argv) {
     }
     nlohmann::json report = nlohmann::json::array();
     bool isGood = true;
-    std::printf("%-32s %-32s %-7s %8s   %s\n", "effect", "model", "api", "plain ms", "ratio");
+    std::printf("%-40s %-32s %-7s %8s   %s\n", "effect", "model", "api", "plain ms", "ratio");
     for (Pair const& pair : pairs()) {
         if (std::string_view(pair.name).find(only) == std::string_view::npos) continue;
         if (isUnseenOnly && !pair.isUnseen) continue;

@@ -9,6 +9,11 @@ layout(location = 0) out vec4 fragment_color;
 // Grazing views would divide by zero in the visibility term and read outside the DFG table.
 const float kMinNoV = 1e-4;
 
+// A uniform that conditions read. Mesa's Vulkan driver may compile a stage for the values of uniforms that alone decide
+// a condition, in a moving picture anew in each frame: to it, this one belongs to the fragment. gl_FragCoord.w is
+// positive. tests/filament_core/engine/CompilationsTest.cpp
+highp float ofFragment(highp float uniformValue) { return gl_FragCoord.w > 0.0 ? uniformValue : 0.0; }
+
 // Filled by main() and prepareMaterial().
 mat3 shading_tangentToWorld;
 vec3 shading_geometricNormal;

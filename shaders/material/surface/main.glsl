@@ -16,7 +16,7 @@ void main() {
 
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
-    if (frameUniforms.ambient.x > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x; // else: none
+    if (ofFragment(frameUniforms.ambient.x) > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x;
 #if defined(REFRACTION_OF_PICTURE)
     if (quality_screenRefraction != 0) light += refractedPicture(surface);
 #endif

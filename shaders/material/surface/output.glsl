@@ -10,7 +10,7 @@
 void applyMask(inout vec4 baseColor) {
 #if defined(BLEND_MODE_MASKED)
 #if defined(ALPHA_TO_COVERAGE)
-    if (passUniforms.raster.x > 1.0) {
+    if (ofFragment(passUniforms.raster.x) > 1.0) {
         float ramp = (baseColor.a - getMaskThreshold()) / max(fwidth(baseColor.a), 1e-4) + 0.5;
         if (ramp <= 0.0) discard;
         baseColor.a = min(ramp, 1.0);

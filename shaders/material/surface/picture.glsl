@@ -27,7 +27,7 @@ Behind nothingBehind() { return Behind(vec3(0.0), vec3(1.0), 0.0); }
 highp float blurredPixels(highp float deviation, highp float distance, highp float nearness) {
     highp float perTangent = 0.5 * abs(frameUniforms.clipFromView[1].y) * passUniforms.target.y;
     highp float way;
-    if (frameUniforms.clipFromView[3].w == 0.0) {
+    if (ofFragment(frameUniforms.clipFromView[3].w) == 0.0) {
         way = 1.0 - distance * nearness; // perspective: of what is far away, pixels are tangents
     } else {
         way = 1.0 / max(nearness, kLeastNearness) - distance;
@@ -66,7 +66,7 @@ Look lookAt(highp vec3 offset, highp float deviation) {
         level = min(wanted, last);
     }
     share *= shareOfPicture(pixel);
-    if (frameUniforms.ambient.x <= 0.0) share = 1.0; // no environment: the picture's edge goes on
+    if (ofFragment(frameUniforms.ambient.x) <= 0.0) share = 1.0; // no environment: the picture's edge goes on
     highp vec3 light;
 #if defined(REFRACTION_THIN)
     if (level == 0.0) {

@@ -132,7 +132,7 @@ vec3 irradianceTerm(highp vec3 normal) {
     } else if (quality_diffuseIrradiance == kIrradianceCube) {
         irradiance = textureLod(passIrradiance, normal, 0.0).rgb;
     } else {
-        irradiance = irradianceSh(frameUniforms.irradianceSh, normal, int(frameUniforms.ambient.z));
+        irradiance = irradianceSh(frameUniforms.irradianceSh, normal, int(ofFragment(frameUniforms.ambient.z)));
     }
     return irradiance;
 }

@@ -4,6 +4,7 @@
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -19,13 +20,13 @@ constexpr float4 kRed{ 1, 0, 0, 1 };
 constexpr const char* kWall = R"(material { name : wall, shadingModel : unlit, culling : none }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = vec4(0.0, 0.0, 0.25, 1.0); } })";
 
-struct DebugStage : test::SquareStage {
+struct LinesStage : test::SquareStage {
     Scene scene{ engine };
     Renderer renderer{ engine };
     DebugDraw draw;
     View view{ .camera = Camera::lookAt({ 0, 0, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 50 }), .size = kDebugSize };
 
-    explicit DebugStage(Backend backend) : SquareStage(backend, kWall) { view.debugDraw = &draw; }
+    explicit LinesStage(Backend backend) : SquareStage(backend, kWall) { view.debugDraw = &draw; }
 
     Image picture() {
         auto image = renderer.renderToImage(scene, view);
@@ -48,8 +49,8 @@ struct DebugStage : test::SquareStage {
     }
 };
 
-struct DebugDrawTest : testing::TestWithParam<Backend>, DebugStage {
-    DebugDrawTest() : DebugStage(GetParam()) {}
+struct DebugDrawTest : testing::TestWithParam<Backend>, LinesStage {
+    DebugDrawTest() : LinesStage(GetParam()) {}
 };
 INSTANTIATE_TEST_SUITE_P(BothApis, DebugDrawTest, testing::ValuesIn(test::kBothApis),
                          [](auto const& test) { return std::string(toString(test.param)); });
@@ -222,7 +223,7 @@ void addDrawings(DebugDraw& draw, Random& random) {
 TEST(DebugDraw, BothApisDrawTheSameBits) {
     std::vector<std::byte> first[3];
     for (const Backend backend : test::kBothApis) {
-        DebugStage stage(backend);
+        LinesStage stage(backend);
         stage.square.add(stage.scene, stage.instance, { 0, 0, -0.2 }, 0.9);
         for (uint32_t seed = 0; seed < std::size(first); ++seed) {
             Random random(seed);
@@ -233,7 +234,7 @@ TEST(DebugDraw, BothApisDrawTheSameBits) {
             const Image image = stage.picture();
             if (first[seed].empty()) first[seed] = image.pixels;
             EXPECT_EQ(image.pixels, first[seed]) << seed;
-            EXPECT_GT(DebugStage::covered(image).size(), 500u);
+            EXPECT_GT(LinesStage::covered(image).size(), 500u);
         }
     }
 }

@@ -3,6 +3,7 @@
 // under all of them: the others stay finite, and a frame later it is forgotten. The list of effects is generated from the
 // options, so new ones are in it.
 #include "tests/filament_core/engine/SkyStage.h"
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <filament/Renderer.h>
 

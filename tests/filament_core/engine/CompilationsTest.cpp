@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What changes from frame to frame has Mesa's Vulkan driver compile nothing: it may compile a stage anew for every value
+// of the uniforms that alone decide a condition, which takes seconds a frame. Counted in files of its shader cache.
+#include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/filament_core/engine/SkyStage.h"
+#include "tests/scenes/Sphere.h"
+
+#include "shaders/package/EngineMaterials.h"
+
+namespace filament {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Has Mesa keep compiled code in a folder of its own, which is empty at first.
+class OwnShaderCache {
+public:
+    OwnShaderCache() : mFolder(test::folderOfThisTest() / "shaders") {
+        fs::remove_all(mFolder);
+        if (const char* before = std::getenv(kVariable)) mBefore = before;
+        ::setenv(kVariable, mFolder.c_str(), 1); // read when a device is created
+    }
+    ~OwnShaderCache() {
+        if (mBefore)
+            ::setenv(kVariable, mBefore->c_str(), 1);
+        else
+            ::unsetenv(kVariable);
+        fs::remove_all(mFolder);
+    }
+
+    /// Complete once the devices are destroyed.
+    size_t files() const {
+        size_t count = 0;
+        if (!fs::exists(mFolder)) return 0;
+        for (fs::directory_entry const& entry : fs::recursive_directory_iterator(mFolder))
+            count += entry.is_regular_file();
+        return count;
+    }
+
+private:
+    static constexpr const char* kVariable = "MESA_SHADER_CACHE_DIR";
+    fs::path mFolder;
+    std::optional<std::string> mBefore;
+};
+
+/// Spheres of several materials in the light of a sky, a sun and a lamp, of which everything changes in each frame.
+class ChangingScene {
+public:
+    explicit ChangingScene(test::MaterialStage& stage)
+            : mStage(stage), mSphere(stage.engine, scenes::makeSphere(6, 12)), mSky(stage, test::kDirectionSky) {
+        for (const char* name : { "gltf_lit_opaque", "gltf_lit_blended", "gltf_transmissive_solid_opaque" }) {
+            mMaterials.push_back(
+                    stage.engine.own(*stage.engine.create(MaterialDesc{ .package = shader::engineMaterial(name) })));
+            mInstances.push_back(stage.engine.own(stage.engine.createInstance(mMaterials.back())));
+            double4x4 world(1);
+            world[3] = double4(2.2 * static_cast<double>(mInstances.size()) - 4.4, 0, 0, 1);
+            mSpheres.push_back(stage.scene.add(mSphere.renderable(mInstances.back(), world)));
+        }
+        mSun = stage.scene.add(SunLight{});
+        mLamp = stage.scene.add(PointLight{});
+    }
+
+    void draw(Renderer& renderer, int frame, void (*ask)(View&)) {
+        const auto t = static_cast<float>(frame);
+        mStage.scene.setIndirectLight(mSky.light, Lux{ 20'000 + 500 * t }, 0.1f * t);
+        mStage.scene.remove(mSun);
+        mStage.scene.remove(mLamp);
+        mSun = mStage.scene.add(SunLight{ .directionWorld = { -0.4f + 0.01f * t, -1, -0.6f },
+                                          .illuminance = Lux{ 50'000 + 1000 * t },
+                                          .contactShadows = true });
+        mLamp = mStage.scene.add(PointLight{ .positionWorld = { 0.1f * t, 2, 2 },
+                                             .intensity = Candela{ 20'000 + 100 * t },
+                                             .rangeMeters = 8 + 0.1f * t });
+        double4x4 world(1);
+        world[3] = double4(-2.2, 0.05 * frame, 0, 1);
+        mStage.scene.setTransform(mSpheres[0], world);
+
+        View view{ .camera = Camera::lookAt({ 0.03 * frame, 1, 6 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 + t }),
+                   .size = { 96, 64 } };
+        view.camera.exposure.shutterSeconds = 1 / (100 + 3 * t);
+        view.timeSeconds = frame;
+        ask(view);
+        view.effects.fog.density = 0.05f + 0.01f * t;
+        view.effects.contactShadows.distanceMeters = 0.2f + 0.01f * t;
+        view.effects.ambientOcclusion.intensity = 1.1f + 0.1f * t;
+        view.effects.bloom.strength = 0.1f + 0.01f * t;
+        view.effects.lensFlare.ghostStrength = 0.03f + 0.001f * t;
+        view.effects.depthOfField.focusMeters = 3 + 0.1f * t;
+        EXPECT_TRUE(renderer.renderToImage(mStage.scene, view));
+    }
+
+private:
+    test::MaterialStage& mStage;
+    scenes::Sphere mSphere;
+    test::SkyObjects mSky;
+    std::vector<Owned<Material>> mMaterials;
+    std::vector<Owned<MaterialInstance>> mInstances;
+    std::vector<Renderable> mSpheres;
+    Light mSun{}, mLamp{};
+};
+
+/// How many programs the cache holds after drawing so many frames with a new device.
+size_t programsAfter(int frames, OwnShaderCache const& cache, void (*ask)(View&)) {
+    {
+        std::optional<Engine> engine = test::makeEngine(Backend::Vulkan);
+        if (!engine) return 0;
+        test::MaterialStage stage(*engine);
+        ChangingScene scene(stage);
+        Renderer renderer(*engine);
+        for (int frame = 0; frame < frames; ++frame) scene.draw(renderer, frame, ask);
+        test::expectNoErrors(*engine);
+    }
+    return cache.files();
+}
+
+void expectNoFurtherPrograms(void (*ask)(View&)) {
+    constexpr int kFew = 3, kMore = 8;
+    const OwnShaderCache cache;
+    if (programsAfter(kFew, cache, ask) == 0)
+        GTEST_SKIP() << "the driver keeps no compiled code in Mesa's shader cache";
+    const size_t programs = programsAfter(kFew, cache, ask); // the first device does not keep quite everything
+    EXPECT_EQ(programsAfter(kMore, cache, ask), programs) << "programs were compiled for the values of single frames";
+}
+
+TEST(Compilations, MovingPicturesCompileNothing) {
+    expectNoFurtherPrograms([](View&) {});
+}
+
+TEST(Compilations, MovingPicturesWithEffectsCompileNothing) {
+    expectNoFurtherPrograms([](View& view) {
+        view.quality.ssr = true;
+        view.quality.ao = AmbientOcclusionTerm::Gtao;
+        view.quality.antiAliasing = AntiAliasing::Taa;
+        Effects& effects = view.effects;
+        effects.fog.enabled = effects.bloom.enabled = effects.depthOfField.enabled = true;
+        effects.motionBlur.enabled = effects.autoExposure.enabled = effects.grading.enabled = true;
+        effects.vignette.enabled = effects.grain.enabled = effects.chromaticAberration.enabled = true;
+        effects.lensFlare.enabled = true;
+        effects.lensFlare.threshold = 0.1f;
+    });
+}
+
+} // namespace
+} // namespace filament
