@@ -47,7 +47,10 @@ std::string table(std::vector<EffectDecision> const& decisions) {
 } // namespace
 
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan) {
-    FrameSummary summary{ .counts = packet.mainView().counts, .demand = packet.demand };
+    FrameSummary summary{ .counts = packet.mainView().counts,
+                          .demand = packet.demand,
+                          .size = packet.size,
+                          .covered = { packet.covered.width, packet.covered.height } };
     add(summary.main, packet.mainView());
     summary.main.draws += summary.demand.needs(prepare::Effect::Sky) ? 1 : 0;
     summary.main.draws += static_cast<uint32_t>(packet.discs.size());
@@ -118,6 +121,10 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
     if (counts.inOtherLayers)
         text += fmt::format("  {} not drawn: the view hides their layers\n", counts.inOtherLayers);
     text += explainFroxels(counts);
+    if (summary.covered != summary.size)
+        text += fmt::format(
+                "objects are within {} x {} of {} x {} pixels: ambient occlusion and FXAA draw only there\n",
+                summary.covered.x, summary.covered.y, summary.size.x, summary.size.y);
     for (size_t kind = 0; kind < summary.others.size(); ++kind) {
         FrameSummary::Totals const& others = summary.others[kind];
         if (others.views == 0) continue;

@@ -28,6 +28,7 @@ struct FrameSummary {
     Totals main;
     std::array<Totals, prepare::kViewKinds> others{}; ///< by ViewKind, without the main view
     prepare::SceneDemand demand;
+    uint2 size{ 1, 1 }, covered{ 1, 1 }; ///< pixels that the main view draws, and those of FramePacket::covered
 };
 
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan);

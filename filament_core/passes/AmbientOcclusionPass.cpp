@@ -12,6 +12,7 @@ namespace filament::passes {
 namespace {
 
 using backend::Format;
+using backend::Rect;
 using framegraph::FrameGraph;
 using framegraph::GraphTextureDesc;
 using framegraph::TextureId;
@@ -82,12 +83,36 @@ struct OcclusionSource {
     Format resultFormat() const { return hasBentNormals ? Format::RGBA8 : Format::R8; }
     float2 inverse() const { return inverseOfDepth(context.packet.mainView().uniforms.clipFromView); }
 
+    /// Of surfaces there is none, and filters find every texel like this one: it is what the passes compute there.
+    float4 clearColor() const {
+        constexpr float kInverseOfNothing = 1e-30f; // shaders/post/occlusion_places.glsl
+        constexpr float kNoLean = 128.0f / 255;     // encodeLean()
+        return hasBentNormals ? float4(1, kNoLean, kNoLean, kNoLean) : float4(1, 1 / (1 / kInverseOfNothing), 0, 0);
+    }
+
+    /// Texels of the pixels that objects cover.
+    Rect covered(uint2 stride) const {
+        Rect const& pixels = context.packet.covered;
+        const uint32_t x = static_cast<uint32_t>(pixels.x) / stride.x, y = static_cast<uint32_t>(pixels.y) / stride.y;
+        return { static_cast<int32_t>(x), static_cast<int32_t>(y), (pixels.width + stride.x - 1) / stride.x,
+                 (pixels.height + stride.y - 1) / stride.y };
+    }
+
     TextureId texture(FrameGraph& graph, bool isResult, std::string_view name) const {
         const uint2 size = grid.size;
         const Format format = isResult || isFromDepth() ? resultFormat() : Format::RG32F;
         return graph.createTexture({ .width = size.x, .height = size.y, .format = format, .name = name });
     }
 };
+
+/// Draws only what objects cover.
+void addCoveredPass(FrameGraph& graph, OcclusionSource const& from, Rect const& texels, FullScreenPass pass) {
+    const std::array tiles{ FullScreenTile{ texels, pass.values } };
+    pass.tiles = tiles;
+    pass.clears = true;
+    pass.clearColor = from.clearColor();
+    addFullScreenPass(graph, from.context, pass);
+}
 
 TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResult) {
     FrameContext const& context = from.context;
@@ -108,12 +133,12 @@ TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResul
                              FullScreenValue{ "intensity", effect.intensity } };
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = from.depth } };
     const TextureId target = from.texture(graph, isResult, "occlusion of points");
-    addFullScreenPass(graph, context,
-                      { .name = "ambient occlusion",
-                        .material = context.resources.effects->get("ambient_occlusion", constants, kPoints),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = target });
+    addCoveredPass(graph, from, from.covered(from.grid.stride),
+                   { .name = "ambient occlusion",
+                     .material = context.resources.effects->get("ambient_occlusion", constants, kPoints),
+                     .inputs = inputs,
+                     .values = values,
+                     .target = target });
     return target;
 }
 
@@ -136,12 +161,12 @@ TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occl
                              FullScreenInput{ .name = "depth",
                                               .texture = from.isFromDepth() ? from.depth : TextureId{} } };
     const TextureId target = from.texture(graph, isResult, alongX ? "occlusion, half blurred" : "occlusion, blurred");
-    addFullScreenPass(graph, context,
-                      { .name = "occlusion blur",
-                        .material = context.resources.effects->get("occlusion_blur", constants, kOcclusionBlur),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = target });
+    addCoveredPass(graph, from, from.covered(from.grid.stride),
+                   { .name = "occlusion blur",
+                     .material = context.resources.effects->get("occlusion_blur", constants, kOcclusionBlur),
+                     .inputs = inputs,
+                     .values = values,
+                     .target = target });
     return target;
 }
 
@@ -157,12 +182,12 @@ TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId 
     const uint2 size = context.settings.size;
     const TextureId target = graph.createTexture(
             { .width = size.x, .height = size.y, .format = from.resultFormat(), .name = "occlusion" });
-    addFullScreenPass(graph, context,
-                      { .name = "occlusion upsample",
-                        .material = context.resources.effects->get("occlusion_upsample", constants, kUpsample),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = target });
+    addCoveredPass(graph, from, from.covered({ 1, 1 }),
+                   { .name = "occlusion upsample",
+                     .material = context.resources.effects->get("occlusion_upsample", constants, kUpsample),
+                     .inputs = inputs,
+                     .values = values,
+                     .target = target });
     return target;
 }
 

@@ -3,6 +3,7 @@
 ///   Draws   targets.occlusion, of the view's size: what samples or horizons hide at all pixels, half of them or a
 ///           quarter; then, as Quality says, a blur along each axis, and the step up to all pixels.
 ///   Reads   targets.prepassDepth.
+///   Where   FramePacket::covered; beside it nothing is hidden, and the passes only clear.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 

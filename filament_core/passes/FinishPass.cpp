@@ -14,6 +14,7 @@ namespace filament::passes {
 namespace {
 
 using backend::Format;
+using backend::Rect;
 using framegraph::FrameGraph;
 using framegraph::TextureId;
 using prepare::Effect;
@@ -233,21 +234,49 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
                         .target = target });
 }
 
-void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
-                 TextureId target) {
+/// Where objects have edges: beside them only the sky is, unless the picture shows them elsewhere.
+Rect pixelsWithEdges(prepare::FramePacket const& packet, Finish const& finish, uint2 size) {
+    const bool isKnown = size == packet.size && !finish.hasFringes && packet.discs.empty();
+    return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };
+}
+
+/// Those of a target around `inside`, which lies in it; some may be empty.
+std::array<Rect, 4> around(Rect const& inside, uint2 size) {
+    const auto x = static_cast<uint32_t>(inside.x), y = static_cast<uint32_t>(inside.y);
+    const uint32_t right = x + inside.width, below = y + inside.height;
+    return { Rect{ 0, 0, size.x, y }, Rect{ 0, inside.y, x, inside.height },
+             Rect{ static_cast<int32_t>(right), inside.y, size.x - right, inside.height },
+             Rect{ 0, static_cast<int32_t>(below), size.x, size.y - below } };
+}
+
+scene::Material const& fxaaMaterial(FrameContext const& context, Finish const& finish, bool smooths) {
     const std::array constants{ EffectConstant{ "isSceneLinear", finish.isSceneLinear },
+                                EffectConstant{ "smooths", smooths },
                                 EffectConstant{ "dither", finish.dithers && !finish.changesPixels() },
                                 EffectConstant{ "grain", finish.hasGrain && !finish.changesPixels() } };
+    return context.resources.effects->get("fxaa", constants, kFxaa);
+}
+
+void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
+                 TextureId target) {
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
     Grain const& grain = context.packet.effects.grain;
     const std::array values{ FullScreenValue{ "grainStrength", grain.strength },
                              FullScreenValue{ "grainSize", grain.size } };
+    const uint2 size = sizeOf(graph, target);
+    const Rect withEdges = pixelsWithEdges(context.packet, finish, size);
+    std::array<FullScreenTile, 5> tiles{ FullScreenTile{ withEdges, values } };
+    size_t count = 1;
+    for (Rect const& rect : around(withEdges, size)) {
+        if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &fxaaMaterial(context, finish, false) };
+    }
     addFullScreenPass(graph, context,
                       { .name = "fxaa",
-                        .material = context.resources.effects->get("fxaa", constants, kFxaa),
+                        .material = fxaaMaterial(context, finish, true),
                         .inputs = inputs,
-                        .values = values,
-                        .target = target });
+                        .target = target,
+                        .tiles = std::span(tiles).first(count),
+                        .fillsTarget = true });
 }
 
 /// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their steps.

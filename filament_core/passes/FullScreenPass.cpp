@@ -63,14 +63,18 @@ PassBlock declareValues(Arena& arena, FrameContext const& context, MaterialPacka
 struct Part {
     Rect rect; ///< without a width: all of the target
     PassBlock values;
+    scene::Material const* material = nullptr;
 };
 
 std::span<const Part> declareParts(Arena& arena, FrameContext const& context, FullScreenPass const& pass) {
     MaterialPackage const& package = pass.material.package;
     const auto parts = arena.array<Part>(std::max<size_t>(pass.tiles.size(), 1));
-    if (pass.tiles.empty()) parts[0].values = declareValues(arena, context, package, pass.values);
-    for (size_t i = 0; i < pass.tiles.size(); ++i)
-        parts[i] = { pass.tiles[i].rect, declareValues(arena, context, package, pass.tiles[i].values) };
+    if (pass.tiles.empty()) parts[0] = { {}, declareValues(arena, context, package, pass.values), &pass.material };
+    for (size_t i = 0; i < pass.tiles.size(); ++i) {
+        FullScreenTile const& tile = pass.tiles[i];
+        parts[i] = { tile.rect, declareValues(arena, context, package, tile.values),
+                     tile.material ? tile.material : &pass.material };
+    }
     return parts;
 }
 
@@ -85,7 +89,7 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
 }
 
 framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
-    framegraph::ColorTarget target{ .overwrites = pass.tiles.empty() &&
+    framegraph::ColorTarget target{ .overwrites = (pass.tiles.empty() || pass.fillsTarget) &&
                                                   pass.material.package.blending == shader::Blending::Opaque,
                                     .level = pass.level,
                                     .resolve = pass.resolve };
@@ -96,10 +100,14 @@ framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
 
 // ---------------------------------------------------------------------------------------------- before drawing
 
-struct ChosenPipeline {
+struct ChosenPart {
     PipelineHandle pipeline;
+    BindGroupHandle material;
+};
+
+struct ChosenPipelines {
     BindGroupHandle pass;
-    std::span<const BindGroupHandle> materials; ///< by part
+    std::span<const ChosenPart> parts;
 };
 
 /// What the pass keeps until it is drawn.
@@ -140,24 +148,32 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
                           std::span(entries).first(count), package.name);
 }
 
-ChosenPipeline choose(PassContext& pass, FrameContext const& context, Declared const& declared) {
+ChosenPipelines choose(PassContext& pass, FrameContext const& context, Declared const& declared) {
     PipelineSource const& pipelines = context.resources.pipelines;
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
-    const auto materials = context.arena->array<BindGroupHandle>(declared.parts.size());
-    std::ranges::transform(declared.parts, materials.begin(),
-                           [&](Part const& part) { return materialGroup(pass, context, declared, part.values); });
-    return { pipelines.fullscreenPipeline(pass.commands(), slot, *declared.material),
-             passGroup(pass, context, PassKind::Picture, declared.target), materials };
+    const auto parts = context.arena->array<ChosenPart>(declared.parts.size());
+    std::ranges::transform(declared.parts, parts.begin(), [&](Part const& part) {
+        return ChosenPart{ pipelines.fullscreenPipeline(pass.commands(), slot, *part.material),
+                           materialGroup(pass, context, declared, part.values) };
+    });
+    return { passGroup(pass, context, PassKind::Picture, declared.target), parts };
+}
+
+void bindPipeline(CommandBuffer& commands, FrameContext const& context, PipelineHandle pipeline, BindGroupHandle pass) {
+    commands.record(CmdBindPipeline{ pipeline });
+    commands.record(context.views[0].bind(0));
+    commands.record(CmdBindGroup{ pass, shader::kGroupPass });
 }
 
 void draw(CommandBuffer& commands, FrameContext const& context, std::span<const Part> parts,
-          ChosenPipeline const& chosen) {
-    commands.record(CmdBindPipeline{ chosen.pipeline });
-    commands.record(context.views[0].bind(0));
-    commands.record(CmdBindGroup{ chosen.pass, shader::kGroupPass });
+          ChosenPipelines const& chosen) {
+    PipelineHandle bound;
     for (size_t i = 0; i < parts.size(); ++i) {
+        ChosenPart const& part = chosen.parts[i];
+        if (part.pipeline != bound) bindPipeline(commands, context, part.pipeline, chosen.pass);
+        bound = part.pipeline;
         if (parts[i].rect.width > 0) commands.record(CmdSetScissor{ parts[i].rect });
-        commands.record(CmdBindGroup{ chosen.materials[i], shader::kGroupMaterial });
+        commands.record(CmdBindGroup{ part.material, shader::kGroupMaterial });
         commands.record(CmdDraw{ 3 });
     }
 }
@@ -175,7 +191,7 @@ framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& cont
                 builder.writeColor(0, pass.target, targetOf(pass));
             },
             [of = &context, declared](PassContext& at) { return choose(at, *of, declared); },
-            [of = &context, parts = declared.parts](PassContext& at, ChosenPipeline const& chosen) {
+            [of = &context, parts = declared.parts](PassContext& at, ChosenPipelines const& chosen) {
                 draw(at.commands(), *of, parts, chosen);
             });
 }

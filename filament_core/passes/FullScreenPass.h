@@ -42,6 +42,7 @@ struct FullScreenValue {
 struct FullScreenTile {
     backend::Rect rect; ///< pixels of the level that is drawn to
     std::span<const FullScreenValue> values{};
+    scene::Material const* material = nullptr; ///< none: that of the pass; otherwise one of the same package
 };
 
 struct FullScreenPass {
@@ -53,6 +54,7 @@ struct FullScreenPass {
     framegraph::TextureId resolve{};         ///< of a target with several samples a pixel: receives their mean
     uint8_t level = 0;                       ///< of the target
     std::span<const FullScreenTile> tiles{}; ///< only these are drawn, with their own values; none: all of the target
+    bool fillsTarget = false;                ///< the tiles do: what the target holds need not be kept
     bool clears = false; ///< what lies outside of the tiles becomes `clearColor`; otherwise it keeps its contents
     float4 clearColor{ 0 };
 };

@@ -7,6 +7,7 @@
 ///           scene changes.
 #pragma once
 
+#include "backend/api/Descriptions.h"
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/PictureCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
@@ -189,6 +190,8 @@ struct FramePacket {
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;
+    /// Pixels of `size`: objects of the main view cover no others (CoveredPixels.h), if an effect asks; otherwise all.
+    backend::Rect covered{ 0, 0, 1, 1 };
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;
     SceneDemand demand; ///< of the main view

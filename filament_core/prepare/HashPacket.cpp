@@ -82,7 +82,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashEffects(packet.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed);
-    hash = hashValues(hash, packet.size, packet.shownSize, packet.band, packet.gathering.jitterPixels,
+    hash = hashValues(hash, packet.size, packet.shownSize, packet.band, packet.covered, packet.gathering.jitterPixels,
                       packet.gathering.weight, packet.gathering.ramp, packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,

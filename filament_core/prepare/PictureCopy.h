@@ -8,6 +8,7 @@
 
 #include "backend/api/Descriptions.h"
 #include "base/math/Math.h"
+#include "filament_core/prepare/PixelBox.h"
 
 #include <cstdint>
 
@@ -27,16 +28,6 @@ struct PictureCopy {
 
     uint32_t pixels() const { return rect.width * rect.height; }
 };
-
-/// In pixels, and possibly outside of the view.
-struct PixelBox {
-    float2 least{ 0.0f }, most{ 0.0f };
-};
-
-PixelBox unionOf(PixelBox a, PixelBox b);
-
-/// What a box covers on the screen; all of the view if some of it is beside or behind the camera.
-PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view);
 
 /// The part that is copied for objects in `box`.
 PictureCopy copyAround(PixelBox box, uint2 view);

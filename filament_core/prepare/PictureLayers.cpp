@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PictureLayers.h"
 
+#include "filament_core/prepare/CoveredPixels.h"
 #include "filament_core/prepare/DrawList.h"
 
 #include <algorithm>
@@ -23,11 +24,7 @@ PixelBox boxOf(scene::Renderables const& renderables, std::span<const SortItem> 
     PixelBox box{ float2(view), float2(0.0f) };
     for (SortItem const& item : items) {
         if (!seesPicture(renderables, item)) continue;
-        const bool isBounded = (renderables.flags[item.renderable] & scene::kCulled) != 0;
-        const float3 center(renderables.bounds.centerAt(item.renderable) - space.cameraWorld);
-        box = unionOf(box, isBounded ? projectedBox(space.clipFromWorld, center,
-                                                    renderables.bounds.halfExtentAt(item.renderable), view)
-                                     : PixelBox{ float2(0.0f), float2(view) });
+        box = unionOf(box, coveredBy(renderables, item.renderable, space, view));
     }
     return box;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PrepareFrame.h"
 
+#include "filament_core/prepare/CoveredPixels.h"
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/LightChannels.h"
@@ -94,6 +95,14 @@ float largestBlur(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& s
     return static_cast<float>(std::max(std::abs(blurRadius(packet.focus, at.nearest)), std::abs(far)));
 }
 
+/// Looked for only where an effect draws nothing beside them.
+backend::Rect coveredPixelsIn(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                              FramePacket const& packet) {
+    const bool isAsked = packet.demand.needs(Effect::AmbientOcclusion) || packet.demand.needs(Effect::Fxaa);
+    return isAsked ? coveredPixels(jobs, arena, scene, packet.mainView(), makeViewSpace(view), view.size)
+                   : backend::Rect{ 0, 0, view.size.x, view.size.y };
+}
+
 /// As they are drawn.
 std::span<const ViewInput> jittered(Arena& arena, scene::SceneData const& scene, std::span<const ViewInput> views,
                                     LastFrame const& last) {
@@ -150,6 +159,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.discsOutOfView = discs.outOfView;
     packet.focus = focusOf(main.camera, main.effects.depthOfField, main.inside().y);
     packet.demand = demandOf(packet, shadows.counts, main, largestBlur(jobs, arena, scene, main, packet));
+    packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
     if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);
     return packet;
 }

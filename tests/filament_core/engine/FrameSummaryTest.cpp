@@ -25,7 +25,7 @@ ViewPacket view(ViewKind kind, uint32_t visible, size_t draws, uint64_t triangle
 TEST(FrameSummary, CountsWhatTheMainViewSeesAndWhatAllViewsDraw) {
     const std::array views{ view(ViewKind::Color, 40, 7, 1000), view(ViewKind::Shadow, 60, 5, 2000),
                             view(ViewKind::Shadow, 70, 6, 3000), view(ViewKind::Depth, 40, 4, 500) };
-    prepare::FramePacket packet{ .views = views };
+    prepare::FramePacket packet{ .views = views, .size = { 1280, 720 }, .covered = { 400, 100, 300, 200 } };
     packet.demand = prepare::findDemand({ .hasSky = true });
     const FrameSummary summary = summarize(3, packet, {});
     EXPECT_EQ(summary.statistics.renderables, 100u);
@@ -37,6 +37,7 @@ TEST(FrameSummary, CountsWhatTheMainViewSeesAndWhatAllViewsDraw) {
     EXPECT_THAT(text, HasSubstr("frame 3: 40 of 100 renderables drawn, 1000 triangles in 8 draws\n"));
     EXPECT_THAT(text, HasSubstr("2 shadow views besides: 130 renderables drawn, 5000 triangles in 11 draws\n"));
     EXPECT_THAT(text, HasSubstr("1 depth view besides: 40 renderables drawn, 500 triangles in 4 draws\n"));
+    EXPECT_THAT(text, HasSubstr("objects are within 300 x 200 of 1280 x 720 pixels"));
     EXPECT_THAT(text, testing::ContainsRegex("sky +needed +fills what nothing covers"));
 }
 
@@ -44,6 +45,7 @@ TEST(FrameSummary, SaysNothingOfViewsThatAreNotThere) {
     const std::array views{ view(ViewKind::Color, 1, 1, 12) };
     const std::string text = explain(summarize(1, { .views = views }, {}), {});
     EXPECT_THAT(text, Not(HasSubstr("besides")));
+    EXPECT_THAT(text, Not(HasSubstr("objects are within")));
     EXPECT_THAT(text, testing::ContainsRegex("sky +not needed +none in the scene"));
 }
 

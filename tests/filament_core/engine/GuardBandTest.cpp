@@ -16,7 +16,7 @@ namespace {
 using test::halfPixel;
 using test::MaterialStage;
 
-constexpr uint2 kSize(64, 48);
+constexpr uint2 kBandedSize(64, 48);
 constexpr uint32_t kAround = 24; // pixels on each side of the larger picture
 constexpr uint32_t kBorder = 6;  // of the picture, where what lies beside it matters
 
@@ -38,7 +38,7 @@ void addSquare(MaterialStage& stage, MaterialInstance instance, float3 at, float
 void build(MaterialStage& stage) {
     stage.keep(std::make_shared<test::SkyObjects>(stage, test::Sky{ float3(0.6f), float3(0.2f) }));
     stage.view.camera = Camera::lookAt({ 0, 1, 3 }, { 0, 0.6, 0 }, { .verticalFovDegrees = 40 });
-    stage.view.size = kSize;
+    stage.view.size = kBandedSize;
     const auto lit = [&](std::string const& text) { return stage.material(text, test::kNoLights); };
     const MaterialInstance floor = lit(surface("0.5, 0.5, 0.5", "material.metallic = 1.0; material.roughness = 0.1;",
                                                ", reflections : screenspace"));
@@ -98,9 +98,9 @@ void enlarge(View& view) {
 double rmsAtBorder(Image const& image, Image const& larger) {
     double sum = 0;
     uint32_t count = 0;
-    for (uint32_t y = 0; y < kSize.y; ++y) {
-        for (uint32_t x = 0; x < kSize.x; ++x) {
-            const uint32_t away = std::min({ x, y, kSize.x - 1 - x, kSize.y - 1 - y });
+    for (uint32_t y = 0; y < kBandedSize.y; ++y) {
+        for (uint32_t x = 0; x < kBandedSize.x; ++x) {
+            const uint32_t away = std::min({ x, y, kBandedSize.x - 1 - x, kBandedSize.y - 1 - y });
             if (away >= kBorder) continue;
             const float3 off = float3(halfPixel(image, x, y)) - float3(halfPixel(larger, x + kAround, y + kAround));
             sum += static_cast<double>(dot(off, off)) / 3;
@@ -134,8 +134,8 @@ TEST(GuardBand, ShowsTheSamePictureWhereNothingLooksAtNeighbours) {
         return drawn(Backend::Gles, [isOn](View& view) { view.effects.guardBand.enabled = isOn; });
     };
     const Image with = plain(true), without = plain(false);
-    for (uint32_t y = 0; y < kSize.y; ++y) {
-        for (uint32_t x = 0; x < kSize.x; ++x) {
+    for (uint32_t y = 0; y < kBandedSize.y; ++y) {
+        for (uint32_t x = 0; x < kBandedSize.x; ++x) {
             const float4 light = halfPixel(without, x, y);
             if (light.x > 1) continue; // the edges of the lamp
             EXPECT_NEAR(halfPixel(with, x, y).x, light.x, 0.02f * light.x + 0.002f) << x << " " << y;
@@ -167,7 +167,7 @@ TEST(GuardBand, HasTheSameBitsOnBothApisBesideEveryEffect) {
                 set(view);
                 view.effects.guardBand.enabled = true;
             }));
-        EXPECT_EQ(images[0].width, kSize.x);
+        EXPECT_EQ(images[0].width, kBandedSize.x);
         EXPECT_EQ(images[0].pixels, images[1].pixels) << name;
     }
 }

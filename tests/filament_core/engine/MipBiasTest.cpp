@@ -11,7 +11,7 @@ namespace {
 
 using test::rmsBetween;
 
-constexpr uint2 kSize(64, 48);
+constexpr uint2 kPlaneSize(64, 48);
 
 constexpr std::string_view kPhoto = "material.baseColor = texture(materialParams_photo, getUV0() * 2.0);";
 constexpr std::string_view kOffset =
@@ -41,7 +41,7 @@ public:
                         .ok());
         mSquare.add(scene, mInstance, glm::rotate(double4x4(1.5), -0.9, double3(1, 0.2, 0)));
         view.camera = Camera::lookAt({ 0, 0, 2 }, { 0, 0, 0 }, { .verticalFovDegrees = 50 });
-        view.size = kSize;
+        view.size = kPlaneSize;
     }
     ~Photo() { test::expectNoErrors(engine); }
 
@@ -60,15 +60,16 @@ public:
     /// The mean of 8 x 8 samples a pixel, each with the mip levels of its own.
     Image supersampled() {
         constexpr uint32_t kSide = 8;
-        view.size = kSize * kSide;
+        view.size = kPlaneSize * kSide;
         const Image large = draw();
-        view.size = kSize;
+        view.size = kPlaneSize;
         Image small = draw();
         auto* halves = reinterpret_cast<uint16_t*>(small.pixels.data());
-        for (uint32_t i = 0; i < kSize.x * kSize.y; ++i) {
+        for (uint32_t i = 0; i < kPlaneSize.x * kPlaneSize.y; ++i) {
             float4 sum(0);
             for (uint32_t s = 0; s < kSide * kSide; ++s)
-                sum += test::halfPixel(large, i % kSize.x * kSide + s % kSide, i / kSize.x * kSide + s / kSide);
+                sum += test::halfPixel(large, i % kPlaneSize.x * kSide + s % kSide,
+                                       i / kPlaneSize.x * kSide + s / kSide);
             for (int c = 0; c < 4; ++c) halves[4 * i + static_cast<uint32_t>(c)] = halfFromFloat(sum[c] / 64);
         }
         return small;

@@ -104,7 +104,7 @@ inline vec4 textureLod(sampler2D const& map, vec2 uv, double) { return map.texel
 inline vec4 texture(sampler2D const& map, vec2 uv) { return textureLod(map, uv, 0.0); }
 inline vec4 texelFetch(sampler2D const&, ivec2, int) { return vec4(1.0); }
 
-inline vec4 gl_FragCoord;
+inline vec4 gl_FragCoord{ 0.5f, 0.5f, 0.5f, 1.0f };
 inline bool gl_FrontFacing = true;
 
 } // namespace filament::shader::composition
