@@ -19,6 +19,11 @@ bool isBounded(scene::Renderables const& renderables, uint32_t renderable) {
     return isInWorld && (renderables.flags[renderable] & scene::kCulled) != 0;
 }
 
+bool holds(PixelBox const& box, PixelBox const& other) {
+    return box.least.x <= other.least.x && box.least.y <= other.least.y && box.most.x >= other.most.x &&
+           box.most.y >= other.most.y;
+}
+
 struct PixelSpan {
     uint32_t first, end;
 };
@@ -29,7 +34,7 @@ PixelSpan spanAround(float least, float most, uint32_t size) {
         return static_cast<uint32_t>(std::clamp(std::floor(at), 0.0f, static_cast<float>(size)));
     };
     const uint32_t first = std::min(pixelAt(least - static_cast<float>(kCoverMargin)), size - 1) & ~1u;
-    const uint32_t end = pixelAt(most + static_cast<float>(kCoverMargin)) + 2 & ~1u;
+    const uint32_t end = (pixelAt(most + static_cast<float>(kCoverMargin)) + 2) & ~1u;
     return { first, std::clamp(end, first + 1, size) };
 }
 
@@ -49,6 +54,7 @@ backend::Rect coveredPixels(jobs::JobSystem& jobs, Arena& arena, scene::SceneDat
     const Covered all = reduceRanges<Covered>(
             jobs, arena, view.objects.size(),
             [&](Covered& part, size_t i) {
+                if (holds(part.box, allOf(size))) return;
                 const uint32_t at = view.objects.order[i].renderable;
                 part.box = unionOf(part.box, coveredBy(scene.renderables, at, space, size));
             },
