@@ -122,9 +122,8 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
         text += fmt::format("  {} not drawn: the view hides their layers\n", counts.inOtherLayers);
     text += explainFroxels(counts);
     if (summary.covered != summary.size)
-        text += fmt::format(
-                "objects are within {} x {} of {} x {} pixels: ambient occlusion and FXAA draw only there\n",
-                summary.covered.x, summary.covered.y, summary.size.x, summary.size.y);
+        text += fmt::format("objects are within {} x {} of {} x {} pixels, by their boxes\n", summary.covered.x,
+                            summary.covered.y, summary.size.x, summary.size.y);
     for (size_t kind = 0; kind < summary.others.size(); ++kind) {
         FrameSummary::Totals const& others = summary.others[kind];
         if (others.views == 0) continue;

@@ -92,13 +92,13 @@ PoleComparison comparePole(View const& view, Image const& with, Image const& wit
 }
 
 TEST(ContactShadows, APoleDarkensWhatARaySays) {
-    constexpr uint2 kContactSize{ 240, 180 };
+    constexpr uint2 kSize{ 240, 180 };
     for (const double elevation : { 25.0, 50.0, 75.0 }) {
         for (const double azimuth : { 20.0, 160.0, 250.0 }) {
             std::array<Image, 2> images;
             for (size_t api = 0; api < 2; ++api) {
                 ShadowStage stage(test::kBothApis[api]);
-                View view = contactView({ 0.25, -0.7, 0.5 }, { 0, 0, 0.05 }, 1, kContactSize);
+                View view = contactView({ 0.25, -0.7, 0.5 }, { 0, 0, 0.05 }, 1, kSize);
                 view.effects.contactShadows.thicknessMeters = 0.03f; // of the pole, across its edges
                 const float3 direction = sunAt(elevation, azimuth);
                 ContactScene asked(stage, 1), unasked(stage, 1);

@@ -69,13 +69,13 @@ TEST(Upscaling, KeepsEvenPicturesAsTheyAre) {
 
 /// A linear filter keeps ramps, and a cubic one parabolas too; codes of 8 bits are between the passes.
 TEST(Upscaling, KeepsRampsAndParabolas) {
-    constexpr uint2 kScaledSize(64, 48);
+    constexpr uint2 kSize(64, 48);
     const auto worst = [&](Upscaling filter, std::string const& formula, std::function<float(float2)> const& exact) {
-        const Image drawn = patterned(formula, kScaledSize, enlarged(filter, float2(0.5f, 0.75f)));
+        const Image drawn = patterned(formula, kSize, enlarged(filter, float2(0.5f, 0.75f)));
         float most = 0;
-        for (uint32_t y = 6; y + 6 < kScaledSize.y; ++y) {
-            for (uint32_t x = 6; x + 6 < kScaledSize.x; ++x) {
-                const float2 at = (float2(x, y) + 0.5f) / float2(kScaledSize);
+        for (uint32_t y = 6; y + 6 < kSize.y; ++y) {
+            for (uint32_t x = 6; x + 6 < kSize.x; ++x) {
+                const float2 at = (float2(x, y) + 0.5f) / float2(kSize);
                 most = std::max(most, std::abs(bytePixel(drawn, x, y).x - exact(at)));
             }
         }
@@ -115,18 +115,18 @@ TEST(Upscaling, OfAnEdgeIsSharperTheBetterItsFilter) {
 
 /// A diagonal edge of a small picture becomes a straight one: brightness along it hardly changes.
 TEST(Upscaling, AlongEdgesHasFewerSteps) {
-    constexpr uint2 kScaledSize(96, 96);
+    constexpr uint2 kSize(96, 96);
     const auto roughness = [&](Upscaling filter) {
-        const Image drawn = patterned("clamp((0.7 * at.x + at.y - 0.85) * 40.0 + 0.5, 0.1, 0.9)", kScaledSize,
+        const Image drawn = patterned("clamp((0.7 * at.x + at.y - 0.85) * 40.0 + 0.5, 0.1, 0.9)", kSize,
                                       enlarged(filter, float2(0.5f)));
         double sum = 0;
         int count = 0;
         for (uint32_t y = 16; y < 80; ++y) { // from the middle code to where the edge is
-            for (uint32_t x = 1; x < kScaledSize.x; ++x) {
+            for (uint32_t x = 1; x < kSize.x; ++x) {
                 const float before = bytePixel(drawn, x - 1, y).x, after = bytePixel(drawn, x, y).x;
                 if (before >= 0.5f || after < 0.5f) continue;
                 const double place = x - 0.5 + (0.5 - double(before)) / double(after - before);
-                const double exact = (0.85 - (y + 0.5) / kScaledSize.y) / 0.7 * kScaledSize.x;
+                const double exact = (0.85 - (y + 0.5) / kSize.y) / 0.7 * kSize.x;
                 sum += std::pow(place - exact, 2);
                 ++count;
             }

@@ -60,7 +60,7 @@ double reachInTexels(ShadowFilter filter) {
 
 // A wall on a plane, seen from above: what is dark lies between the wall and where the ray over its top ends.
 TEST(ShadowFilters, BeginAtTheCasterAndEndWhereTheLightPassesIt) {
-    constexpr uint2 kFilteredSize{ 512, 8 };
+    constexpr uint2 kSize{ 512, 8 };
     for (const Backend backend : test::kBothApis) {
         ShadowStage stage(backend);
         for (const double degrees : { 10.0, 30.0, 60.0, 80.0 }) {
@@ -79,18 +79,18 @@ TEST(ShadowFilters, BeginAtTheCasterAndEndWhereTheLightPassesIt) {
                         .angularRadiusDegrees = 0 });
                 // The wall is edge on, and the picture as wide as the plane.
                 for (const ShadowFilter filter : kShadowFilters) {
-                    View view = shadowedView({ 0, 0, scale * 200 }, {}, filter, kFilteredSize);
-                    view.camera.lens.verticalFovDegrees = static_cast<float>(
-                            glm::degrees(2 * std::atan(1.0 * kFilteredSize.y / kFilteredSize.x / 200)));
+                    View view = shadowedView({ 0, 0, scale * 200 }, {}, filter, kSize);
+                    view.camera.lens.verticalFovDegrees =
+                            static_cast<float>(glm::degrees(2 * std::atan(1.0 * kSize.y / kSize.x / 200)));
                     const Image image = test::renderLinear(stage.engine, scene, view);
                     // A map is as wide as the scene's extent across the light, with margins.
                     const double extent = 2.0 * 1.07 * 1.07 * std::max(1.0, std::sin(up) + height * std::cos(up) / 2);
                     const double texel = extent / 512 / std::sin(up); // on the plane, along the light
                     const float lit = test::halfPixel(image, 2, 4).x;
-                    for (uint32_t x = 0; x < kFilteredSize.x; ++x) {
-                        const double at = 2 * (x + 0.5) / kFilteredSize.x - 1;
+                    for (uint32_t x = 0; x < kSize.x; ++x) {
+                        const double at = 2 * (x + 0.5) / kSize.x - 1;
                         const float share = test::halfPixel(image, x, 4).x / lit;
-                        const double reach = (1 + reachInTexels(filter)) * texel + 2.0 / kFilteredSize.x;
+                        const double reach = (1 + reachInTexels(filter)) * texel + 2.0 / kSize.x;
                         const bool isOutside = at < -reach || at > 0.5 + reach;
                         const bool isInside = at > reach && at < 0.5 - reach;
                         if (isOutside) {
@@ -115,25 +115,25 @@ double visibleShare(double x) {
 /// Half of a ceiling a metre above a plane, which is seen from between them: x in [-0.5, 0.5].
 template <class Light>
 void expectPenumbra(ShadowStage& stage, Light const& light, double radius) {
-    constexpr uint2 kFilteredSize{ 512, 64 };
+    constexpr uint2 kSize{ 512, 64 };
     Scene scene(stage.engine);
     stage.square.add(scene, stage.white);
     stage.square.add(scene, stage.white, { -1, 0, 1 }, 1);
     scene.add(light);
     View view{ .camera = Camera::lookAt({ 0, 0, 0.9 }, { 0, 0, 0 }, { .nearMeters = 1e-3f }, {}, { 0, 1, 0 }),
-               .size = kFilteredSize };
+               .size = kSize };
     view.camera.lens.verticalFovDegrees =
-            static_cast<float>(glm::degrees(2 * std::atan(0.5 / 0.9 * kFilteredSize.y / kFilteredSize.x)));
+            static_cast<float>(glm::degrees(2 * std::atan(0.5 / 0.9 * kSize.y / kSize.x)));
     view.quality.shadowMapSize = 512;
     view.quality.shadows = ShadowFilter::Off;
     const Image plain = test::renderLinear(stage.engine, scene, view);
     view.quality.shadows = ShadowFilter::Pcss;
     const Image soft = test::renderLinear(stage.engine, scene, view);
-    for (uint32_t x = 0; x < kFilteredSize.x; ++x) {
+    for (uint32_t x = 0; x < kSize.x; ++x) {
         double share = 0;
-        for (uint32_t y = 0; y < kFilteredSize.y; ++y)
-            share += test::halfPixel(soft, x, y).x / test::halfPixel(plain, x, y).x / kFilteredSize.y;
-        const double at = (x + 0.5) / kFilteredSize.x - 0.5;
+        for (uint32_t y = 0; y < kSize.y; ++y)
+            share += test::halfPixel(soft, x, y).x / test::halfPixel(plain, x, y).x / kSize.y;
+        const double at = (x + 0.5) / kSize.x - 0.5;
         EXPECT_NEAR(share, visibleShare(at / radius), 0.06) << at << " m, radius " << radius;
     }
 }
@@ -174,17 +174,17 @@ double litShareOfBlur(double texels, int radius) {
 
 // Two depths alone: Chebyshev's bound is exact, and what is cut off it is known.
 TEST(ShadowFilters, BlurredEdgesHaveTheProfileOfTheBlur) {
-    constexpr uint2 kFilteredSize{ 512, 8 };
+    constexpr uint2 kSize{ 512, 8 };
     for (const Backend backend : test::kBothApis) {
         ShadowStage stage(backend);
         Scene scene(stage.engine);
         stage.square.add(scene, stage.white, {}, 4);
         stage.square.add(scene, stage.white, { -4, 0, 2 }, 4);
         scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 50'000 } });
-        View view = shadowedView({ 0, 0, 1 }, {}, ShadowFilter::Off, kFilteredSize);
+        View view = shadowedView({ 0, 0, 1 }, {}, ShadowFilter::Off, kSize);
         constexpr double width = 2; // metres of the picture
         view.camera.lens.verticalFovDegrees =
-                static_cast<float>(glm::degrees(2 * std::atan(width / 2 * kFilteredSize.y / kFilteredSize.x)));
+                static_cast<float>(glm::degrees(2 * std::atan(width / 2 * kSize.y / kSize.x)));
         const float lit = test::halfPixel(test::renderLinear(stage.engine, scene, view), 100, 4).x;
         view.quality.shadows = ShadowFilter::Vsm;
         for (const int radius : { 0, 1, 2, 8 }) {
@@ -194,8 +194,8 @@ TEST(ShadowFilters, BlurredEdgesHaveTheProfileOfTheBlur) {
             for (double texel = 2.0 / 512; texel < 14.0 / 512; texel *= 1.01) { // what the fit makes it
                 for (double phase = -0.5; phase < 0.5; phase += 0.05) {
                     double worst = 0;
-                    for (uint32_t x = 0; x < kFilteredSize.x; x += 3) {
-                        const double at = ((x + 0.5) / kFilteredSize.x - 0.5) * width;
+                    for (uint32_t x = 0; x < kSize.x; x += 3) {
+                        const double at = ((x + 0.5) / kSize.x - 0.5) * width;
                         const double share = litShareOfBlur(at / texel + phase, radius);
                         const double expected = std::clamp((share - 0.2) / 0.78, 0.0, 1.0);
                         worst = std::max(worst, std::abs(test::halfPixel(image, x, 4).x / lit - expected));
