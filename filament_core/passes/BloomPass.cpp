@@ -29,6 +29,9 @@ float2 perTexel(FrameGraph const& graph, TextureId texture, uint8_t level) {
              1.0f / static_cast<float>(std::max(1u, desc.height >> level)) };
 }
 
+/// n, if texels of the first level are 2^n pixels wide.
+int firstLevel(BloomResolution resolution) { return resolution == BloomResolution::Quarter ? 2 : 1; }
+
 /// `level` of `spread` from the one before it, or from the picture.
 void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId spread, uint8_t level) {
     const bool isFirst = level == 0;
@@ -40,7 +43,8 @@ void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, Te
                                               .range = backend::oneLevel(fromLevel) } };
     const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, from, fromLevel) },
                              FullScreenValue{ "threshold", context.packet.effects.bloom.threshold } };
-    const EffectConstant constants[] = { { "isFirst", isFirst } };
+    const bool isQuarter = isFirst && context.view->quality.bloomResolution == BloomResolution::Quarter;
+    const EffectConstant constants[] = { { "isFirst", isFirst }, { "isQuarter", isQuarter } };
     addFullScreenPass(graph, context,
                       { .name = "bloom down",
                         .material = context.resources.effects->get("bloom_down", constants, kDown),
@@ -71,20 +75,23 @@ void addUp(FrameGraph& graph, FrameContext const& context, TextureId spread, uin
 
 } // namespace
 
-uint8_t bloomLevels(uint2 view, float radiusPixels) {
-    constexpr int kMost = 10;
-    const int whole = std::bit_width(std::max(1u, std::min(view.x, view.y) / 2)); // until one texel is left
-    const int wanted = radiusPixels > 2 ? static_cast<int>(std::lround(std::log2(radiusPixels))) : 1;
-    return static_cast<uint8_t>(std::clamp(wanted, 1, std::min(whole, kMost)));
+uint8_t bloomLevels(uint2 view, float radiusPixels, BloomResolution resolution) {
+    constexpr int kLast = 10;
+    const int first = firstLevel(resolution);
+    const int last = radiusPixels > 2 ? static_cast<int>(std::lround(std::log2(radiusPixels))) : 1;
+    const int whole = std::bit_width(std::max(1u, std::min(view.x, view.y) >> first)); // until one texel is left
+    return static_cast<uint8_t>(std::clamp(last - first + 1, 1, std::min(whole, kLast - first + 1)));
 }
 
 void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
     const uint2 size = sizeOf(graph, targets.color);
     const uint2 inside = size - 2u * context.packet.band;
-    const uint8_t levels = bloomLevels(inside, context.packet.effects.bloom.radius * static_cast<float>(inside.y));
-    const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x / 2),
-                                                   .height = std::max(1u, size.y / 2),
+    const BloomResolution resolution = context.view->quality.bloomResolution;
+    const float radiusPixels = context.packet.effects.bloom.radius * static_cast<float>(inside.y);
+    const uint8_t levels = bloomLevels(inside, radiusPixels, resolution);
+    const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x >> firstLevel(resolution)),
+                                                   .height = std::max(1u, size.y >> firstLevel(resolution)),
                                                    .format = Format::RGBA16F,
                                                    .levels = levels,
                                                    .name = "spread light" });

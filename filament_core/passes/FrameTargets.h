@@ -22,7 +22,7 @@ struct FrameTargets {
     framegraph::TextureId prepassDepth; ///< that of the prepass, also when `depth` is another one; none: not drawn
     framegraph::TextureId motion;       ///< of what moved by itself (MotionPass.h); none: nothing did, or nobody asks
     framegraph::History lastPicture;    ///< the picture of the last frame, and of this one; none: not needed
-    framegraph::TextureId spread;       ///< light that bloom scatters, half as large; none: not needed
+    framegraph::TextureId spread;       ///< light that bloom scatters, smaller than the picture; none: not needed
     framegraph::TextureId flare;        ///< ghosts and halo of the lens, by blocks of pixels; none: not needed
     framegraph::TextureId historyShare; ///< what is kept of the gathered picture (taa.mat); none: no debug view asks
     framegraph::TextureId histogram;    ///< of luminance (histogram.mat); none: not needed

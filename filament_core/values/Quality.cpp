@@ -33,6 +33,7 @@ constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "tril
 constexpr std::string_view kAntiAliasings[] = { "off", "fxaa", "taa" };
 constexpr std::string_view kMsaaResolves[] = { "average", "toneAware" };
 constexpr std::string_view kMipBiases[] = { "output", "off", "sharp" };
+constexpr std::string_view kBloomResolutions[] = { "half", "quarter" };
 constexpr std::string_view kUpscalings[] = { "off", "bilinear", "catmullRom", "edgeAdaptive" };
 constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
 constexpr std::string_view kShadowFilters[] = {
@@ -121,6 +122,7 @@ constexpr std::array kFields{
     enumField<&Quality::antiAliasing>("antiAliasing", kAntiAliasings),
     enumField<&Quality::msaaResolve>("msaaResolve", kMsaaResolves),
     enumField<&Quality::mipBias>("mipBias", kMipBiases),
+    enumField<&Quality::bloomResolution>("bloomResolution", kBloomResolutions),
     enumField<&Quality::upscale>("upscale", kUpscalings),
     enumField<&Quality::toneMapping>("toneMapping", kToneMappings),
     enumField<&Quality::shadows>("shadows", kShadowFilters),
@@ -176,6 +178,7 @@ Quality lowPreset() {
     quality.textureFilter = TextureFilter::Bilinear;
     quality.shadows = ShadowFilter::Pcf2;
     quality.shadowMapSize = 1024;
+    quality.bloomResolution = BloomResolution::Quarter;
     return quality;
 }
 
@@ -185,6 +188,7 @@ Quality mediumPreset() {
     quality.splitSum = SplitSum::Analytic;
     quality.anisotropicLookUps = AnisotropicLookUps::Three;
     quality.shadowMapSize = 1024;
+    quality.bloomResolution = BloomResolution::Quarter;
     return quality;
 }
 
@@ -220,6 +224,7 @@ const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value
 const char* toString(AntiAliasing value) { return wordOf(kAntiAliasings, value); }
 const char* toString(MsaaResolve value) { return wordOf(kMsaaResolves, value); }
 const char* toString(MipBias value) { return wordOf(kMipBiases, value); }
+const char* toString(BloomResolution value) { return wordOf(kBloomResolutions, value); }
 const char* toString(Upscaling value) { return wordOf(kUpscalings, value); }
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
 const char* toString(ShadowFilter value) { return wordOf(kShadowFilters, value); }
@@ -279,6 +284,9 @@ std::optional<MsaaResolve> msaaResolveFromName(std::string_view name) {
     return valueOf<MsaaResolve>(kMsaaResolves, name);
 }
 std::optional<MipBias> mipBiasFromName(std::string_view name) { return valueOf<MipBias>(kMipBiases, name); }
+std::optional<BloomResolution> bloomResolutionFromName(std::string_view name) {
+    return valueOf<BloomResolution>(kBloomResolutions, name);
+}
 std::optional<Upscaling> upscalingFromName(std::string_view name) { return valueOf<Upscaling>(kUpscalings, name); }
 std::optional<ToneMapping> toneMappingFromName(std::string_view name) {
     return valueOf<ToneMapping>(kToneMappings, name);

@@ -762,6 +762,8 @@ constexpr Mutation kMutations[] = {
     { "layerAgain", "every peeled layer is the nearest one", make<LayerAgainEdit> },
     { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
     { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
+    { "bloomResolution", "the picture is halved for bloom where it is to be quartered, and the other way round",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("bloom_down", 1); } },
     { "fxaaBrightness", "FXAA takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("fxaa", 0); } },
     { "upscaleFilter", "another filter makes the picture larger",

@@ -193,6 +193,12 @@ enum class MsaaResolve : uint8_t {
     ToneAware,
 };
 
+/// The largest level of what Effects::bloom scatters.
+enum class BloomResolution : uint8_t {
+    Half,    ///< half of the picture, each way
+    Quarter, ///< a quarter, each way: without the narrowest lobe
+};
+
 /// Which mip levels of materials' textures are read while frames are gathered (AntiAliasing::Taa).
 enum class MipBias : uint8_t {
     Output, ///< those of the picture that is shown, also if fewer pixels are drawn
@@ -270,6 +276,7 @@ struct Quality {
     AntiAliasing antiAliasing = AntiAliasing::Off;
     MsaaResolve msaaResolve = MsaaResolve::Average;
     MipBias mipBias = MipBias::Output;
+    BloomResolution bloomResolution = BloomResolution::Half;
     Upscaling upscale = Upscaling::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
@@ -294,6 +301,7 @@ const char* toString(TextureFilter value);
 const char* toString(AntiAliasing value);
 const char* toString(MsaaResolve value);
 const char* toString(MipBias value);
+const char* toString(BloomResolution value);
 const char* toString(Upscaling value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
@@ -320,6 +328,7 @@ std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
 std::optional<MsaaResolve> msaaResolveFromName(std::string_view name);
 std::optional<MipBias> mipBiasFromName(std::string_view name);
+std::optional<BloomResolution> bloomResolutionFromName(std::string_view name);
 std::optional<Upscaling> upscalingFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);

@@ -16,6 +16,19 @@ using test::LampStage;
 using test::pictureOfLamp;
 using test::sumOf;
 
+/// Of light along x, off the middle of the picture, pixels.
+double middleOf(Image const& image) {
+    double sum = 0, moments = 0;
+    for (uint32_t y = 0; y < image.height; ++y) {
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const double light = static_cast<double>(halfPixel(image, x, y).x);
+            sum += light;
+            moments += light * (x + 0.5 - image.width / 2.0);
+        }
+    }
+    return moments / sum;
+}
+
 /// Along x, about the middle.
 double varianceOf(Image const& image) {
     double sum = 0, squares = 0;
@@ -31,58 +44,97 @@ double varianceOf(Image const& image) {
 }
 
 // A level's lobe: of the weights 1, 3, 3, 1 on the way down, of two look-ups between texels on the way up. All texels
-// of a level are looked up a quarter off the centre of one of the smaller one: 7/16 of its width squared, and 3/16 for
-// the one look-up at the end.
-double varianceOfLevels(int levels) {
+// of a level are looked up a quarter off the centre of one of the smaller one: 7/16 of its width squared. A look-up d of
+// a texel's width off its centre widens the lobe by d (1 - d), which is 3/16 of half the picture and in the mean 11/64
+// of a quarter, for the one look-up at the end. The weights of a quarter, 1 to 7, move light by 1.75 or 3.75.
+double varianceOfLevels(int levels, BloomResolution resolution) {
+    const bool isQuarter = resolution == BloomResolution::Quarter;
+    const int first = isQuarter ? 1 : 0;
+    const double atEnd = isQuarter ? 16 * 11 / 64.0 : 4 * 3 / 16.0;
     double sum = 0;
-    for (int i = 0; i < levels; ++i) {
-        double variance = (std::pow(4.0, i + 1) - 1) / 4 + 4 * 3 / 16.0;
-        for (int j = 1; j <= i; ++j) variance += std::pow(4.0, j + 1) * 7 / 16;
+    for (int i = first; i < first + levels; ++i) {
+        double variance = atEnd + (isQuarter ? 3.75 : 0.75);
+        for (int j = first + 1; j <= i; ++j) variance += std::pow(4.0, j) * 3 / 4 + std::pow(4.0, j + 1) * 7 / 16;
         sum += variance;
     }
     return sum / levels;
 }
 
 TEST(BloomLevels, FollowTheRadius) {
-    using passes::bloomLevels;
-    EXPECT_EQ(bloomLevels({ 1280, 720 }, 0), 1);
-    EXPECT_EQ(bloomLevels({ 1280, 720 }, 4), 2);
-    EXPECT_EQ(bloomLevels({ 1280, 720 }, 72), 6);
-    EXPECT_EQ(bloomLevels({ 1280, 720 }, 1e9f), 9) << "the last is a texel high";
-    EXPECT_EQ(bloomLevels({ 16384, 16384 }, 1e9f), 10);
-    EXPECT_EQ(bloomLevels({ 1, 1 }, 100), 1);
-    EXPECT_EQ(bloomLevels({ 5000, 3 }, 100), 1);
+    const auto levels = [](uint2 view, float radius) {
+        return passes::bloomLevels(view, radius, BloomResolution::Half);
+    };
+    EXPECT_EQ(levels({ 1280, 720 }, 0), 1);
+    EXPECT_EQ(levels({ 1280, 720 }, 4), 2);
+    EXPECT_EQ(levels({ 1280, 720 }, 72), 6);
+    EXPECT_EQ(levels({ 1280, 720 }, 1e9f), 9) << "the last is a texel high";
+    EXPECT_EQ(levels({ 16384, 16384 }, 1e9f), 10);
+    EXPECT_EQ(levels({ 1, 1 }, 100), 1);
+    EXPECT_EQ(levels({ 5000, 3 }, 100), 1);
+}
+
+TEST(BloomLevels, OfAQuarterReachAsFarWithOneLess) {
+    for (const uint2 view : { uint2(1, 1), uint2(3, 2), uint2(1280, 720), uint2(131, 17), uint2(16384, 16384) }) {
+        for (float radius = 0; radius < 1e5f; radius = 2 * radius + 1) {
+            const int half = passes::bloomLevels(view, radius, BloomResolution::Half);
+            EXPECT_EQ(passes::bloomLevels(view, radius, BloomResolution::Quarter), std::max(1, half - 1))
+                    << view.x << " x " << view.y << ", " << radius;
+        }
+    }
 }
 
 TEST(Bloom, SpreadsLightAsFarAsTheSumOfItsLobes) {
-    for (const auto& [radius, levels] : { std::pair(0.004f, 1), std::pair(0.03f, 3), std::pair(0.0625f, 4) }) {
-        const Image spread = pictureOfLamp(64, 1 / 128.0, [&](View& view) {
-            view.effects.bloom = { .enabled = true, .strength = 1, .radius = radius };
-        });
-        const double ofLamp = 0.25; // two pixels, each half a pixel off the middle
-        const double wanted = varianceOfLevels(levels) + ofLamp;
-        EXPECT_NEAR(varianceOf(spread), wanted, 0.002 * wanted) << levels << " levels";
+    for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
+        for (const auto& [radius, levels] : { std::pair(0.004f, 1), std::pair(0.03f, 3), std::pair(0.0625f, 4) }) {
+            const Image spread = pictureOfLamp(64, 1 / 128.0, [&](View& view) {
+                view.effects.bloom = { .enabled = true, .strength = 1, .radius = radius };
+                view.quality.bloomResolution = resolution;
+            });
+            const double ofLamp = 0.25; // two pixels, each half a pixel off the middle
+            const int drawn = resolution == BloomResolution::Half ? levels : std::max(1, levels - 1);
+            const double wanted = varianceOfLevels(drawn, resolution) + ofLamp;
+            EXPECT_NEAR(varianceOf(spread), wanted, 0.002 * wanted) << toString(resolution) << ", " << levels;
+        }
+    }
+}
+
+// Wherever the lamp is in a texel of the first level, the middle of its light is where it was.
+TEST(Bloom, OfAQuarterKeepsLightInItsPlace) {
+    for (int i = 0; i < 8; ++i) {
+        const auto blooming = [](View& view) {
+            view.effects.bloom = { .enabled = true, .strength = 1, .radius = 0.03f };
+            view.quality.bloomResolution = BloomResolution::Quarter;
+        };
+        const Image spread = pictureOfLamp(64, 1 / 128.0, blooming, { i / 128.0, 0 });
+        EXPECT_NEAR(middleOf(spread), i, 0.02) << "pixels to the right";
     }
 }
 
 TEST(Bloom, MovesLightAndAddsNone) {
     const double before = sumOf(pictureOfLamp(8, 0.25, [](View&) {}));
-    for (const float strength : { 0.1f, 0.5f, 1.0f }) {
-        const Image image = pictureOfLamp(8, 0.25, [&](View& view) {
-            view.effects.bloom = { .enabled = true, .strength = strength, .radius = 0.05f };
-        });
-        EXPECT_NEAR(sumOf(image), before, 0.005 * before) << strength;
-        EXPECT_GT(halfPixel(image, 92, 128).x, 0.0f) << "beside the lamp";
+    for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
+        for (const float strength : { 0.1f, 0.5f, 1.0f }) {
+            const Image image = pictureOfLamp(8, 0.25, [&](View& view) {
+                view.effects.bloom = { .enabled = true, .strength = strength, .radius = 0.05f };
+                view.quality.bloomResolution = resolution;
+            });
+            EXPECT_NEAR(sumOf(image), before, 0.005 * before) << strength << " " << toString(resolution);
+            EXPECT_GT(halfPixel(image, 92, 128).x, 0.0f) << "beside the lamp";
+        }
     }
 }
 
 /// A picture of one light stays what it is, up to its edges.
 TEST(Bloom, LeavesAnEvenPictureAlone) {
-    const Image image = pictureOfLamp(
-            0.75f, 4, [](View& view) { view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = 0.3f }; });
-    const test::Extremes found = test::extremesOf(image);
-    EXPECT_NEAR(found.least, 0.75f, 2e-3f);
-    EXPECT_NEAR(found.most, 0.75f, 2e-3f);
+    for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
+        const Image image = pictureOfLamp(0.75f, 4, [resolution](View& view) {
+            view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = 0.3f };
+            view.quality.bloomResolution = resolution;
+        });
+        const test::Extremes found = test::extremesOf(image);
+        EXPECT_NEAR(found.least, 0.75f, 2e-3f) << toString(resolution);
+        EXPECT_NEAR(found.most, 0.75f, 2e-3f) << toString(resolution);
+    }
 }
 
 TEST(Bloom, BelowItsThresholdNothingChanges) {
@@ -100,6 +152,7 @@ TEST(Bloom, IsFiniteAtItsEndsAndInAllSizes) {
                     view.size = size;
                     view.samples = samples;
                     view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = radius };
+                    view.quality.bloomResolution = samples == 1 ? BloomResolution::Quarter : BloomResolution::Half;
                 });
                 EXPECT_GE(test::extremesOf(image).least, 0);
             }

@@ -328,7 +328,7 @@ std::vector<Image> renderEveryValue(Backend backend) {
 bool isOfTheView(std::string_view name) {
     if (name.starts_with("ao") || name.starts_with("ssr") || name.starts_with("refraction") || name == "contactSteps" ||
         name.starts_with("transparency") || name == "depthPrepass" || name == "antiAliasing" || name == "upscale" ||
-        name == "msaaResolve" || name == "mipBias")
+        name == "msaaResolve" || name == "mipBias" || name == "bloomResolution")
         return true;
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
            name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
