@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HandleAllocator: allocates and frees handles.
+/// HandleAllocator: allocates and frees handles, of devices or of apps. It knows no owners: who gives out handles of
+/// apps adds its own, and looks at it.
 ///   Thread  any; one short lock per call. Never waits for a driver or a device.
 ///   Limits  2^20 live handles: files, too, decide how many there are, so that more of them is an error.
 ///   Fails   allocate() throws std::bad_alloc, or OutOfHandles, and changes nothing; free() never fails.
@@ -24,32 +25,33 @@ public:
     const char* what() const noexcept override { return "2^20 objects of one type"; }
 };
 
-template <class Tag>
+/// `H`: Handle or ObjectHandle.
+template <class Tag, template <class> class H = Handle>
 class HandleAllocator {
 public:
-    Handle<Tag> allocate() {
+    H<Tag> allocate() {
         const std::lock_guard lock(mMutex);
         if (mFree.empty()) {
-            if (mGenerations.size() > Handle<Tag>::kIndexMask) throw OutOfHandles();
+            if (mGenerations.size() > H<Tag>::kIndexMask) throw OutOfHandles();
             reserveFree(mGenerations.size() + 1);
             mGenerations.push_back(1);
-            return Handle<Tag>::make(static_cast<uint32_t>(mGenerations.size() - 1), 1);
+            return H<Tag>::make(static_cast<uint32_t>(mGenerations.size() - 1), 1);
         }
         const uint32_t index = mFree.back();
         mFree.pop_back();
-        return Handle<Tag>::make(index, mGenerations[index]);
+        return H<Tag>::make(index, mGenerations[index]);
     }
 
     /// Frees a handle; its index is reused with another generation.
-    void free(Handle<Tag> handle) {
+    void free(H<Tag> handle) {
         const std::lock_guard lock(mMutex);
         FILAMENT_ASSERT(isLiveLocked(handle), "a handle is freed once, and only by whoever allocated it");
         uint32_t& generation = mGenerations[handle.index()];
-        generation = generation == Handle<Tag>::kMaxGeneration ? 1 : generation + 1;
+        generation = generation == H<Tag>::kMaxGeneration ? 1 : generation + 1;
         mFree.push_back(handle.index());
     }
 
-    bool isLive(Handle<Tag> handle) const {
+    bool isLive(H<Tag> handle) const {
         const std::lock_guard lock(mMutex);
         return isLiveLocked(handle);
     }
@@ -60,7 +62,7 @@ public:
     }
 
 private:
-    bool isLiveLocked(Handle<Tag> handle) const {
+    bool isLiveLocked(H<Tag> handle) const {
         return handle && handle.index() < mGenerations.size() && mGenerations[handle.index()] == handle.generation();
     }
 

@@ -138,10 +138,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     for (MaterialInstance& instance : engine.drawingDebug)
         if (instance) engine.destroy(std::exchange(instance, {}));
-    for (auto const& [key, material] : engine.engineMaterials) {
-        engine.pipelines.forget(engine.pending, engine.materials.get(material));
-        engine.removeMaterial(material);
-    }
+    for (auto const& [key, material] : engine.engineMaterials) engine.retire(engine.materials, material);
     engine.engineMaterials.clear();
 }
 

@@ -19,6 +19,8 @@ namespace filament {
 namespace {
 
 using namespace backend;
+using engine::PublicCall;
+using engine::thisThread;
 
 BackendType backendType(Backend backend) {
     switch (backend) {
@@ -143,7 +145,11 @@ Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> c
 }
 
 Engine::Impl::~Impl() {
+    for (engine::Dependent* dependent : dependents) dependent->release();
     destroyDefaultObjects(*this);
+    scenes.clear(); // they show nothing without it
+    aUseEnded = true;
+    releaseRetired(pending);
     reportLeaks(swapChains, "swap chain");
     reportLeaks(renderTargets, "render target");
     reportLeaks(indirectLights, "indirect light");
@@ -184,7 +190,8 @@ void Engine::Impl::recordCompilations(CommandBuffer& commands) {
 
 void Engine::Impl::drainPending(CommandBuffer& commands) {
     if (pending.commandCount() > 0) commands.append(std::move(pending));
-    for (MaterialInstance handle : dirtyInstances) updateInstance(instances.get(handle), commands);
+    releaseRetired(commands);
+    for (MaterialInstance handle : dirtyInstances) updateInstance(instances.held(handle), commands);
     dirtyInstances.clear();
 }
 
@@ -222,6 +229,7 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 }
 
 Result<Engine> Engine::create(EngineOptions const& options) {
+    const ApiCall call("Engine::create(EngineOptions)");
     return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
         if (Result<void> cores = checkCores(options); !cores) return cores.error();
         auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore,
@@ -229,23 +237,35 @@ Result<Engine> Engine::create(EngineOptions const& options) {
                                                                      .hashStreams = options.hashFrames });
         if (!stream) return stream.error();
         if (Result<void> usable = engine::checkDevice((*stream)->info()); !usable) return usable.error();
-        return Engine(std::make_unique<Impl>(options, std::move(*stream)));
+        return Engine(std::make_shared<Impl>(options, std::move(*stream)));
     });
 }
 
-Engine::Engine(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) { mImpl->self = this; }
-Engine::Engine(Engine&& other) noexcept : mImpl(std::move(other.mImpl)) { mImpl->self = this; }
+Engine::Engine(std::shared_ptr<Impl> impl) : mImpl(std::move(impl)) { mImpl->self = this; }
+Engine::Engine(Engine&& other) noexcept : mImpl(std::move(other.mImpl)) {
+    if (mImpl) mImpl->self = this;
+}
 Engine& Engine::operator=(Engine&& other) noexcept {
     mImpl = std::move(other.mImpl);
-    mImpl->self = this;
+    if (mImpl) mImpl->self = this;
     return *this;
 }
 Engine& Engine::of(Impl& impl) { return *impl.self; }
-Engine::~Engine() = default;
+Engine::~Engine() {
+    if (mImpl) const PublicCall call(mImpl, "Engine::~Engine()");
+}
 
-DeviceDescription const& Engine::device() const { return mImpl->device; }
+void Engine::useOnThisThread() {
+    if (mImpl) mImpl->appThread = thisThread();
+}
+
+DeviceDescription const& Engine::device() const {
+    const PublicCall call(mImpl, "Engine::device()");
+    return mImpl->device;
+}
 
 EngineStatistics Engine::statistics() const {
+    const PublicCall call(mImpl, "Engine::statistics()");
     const DriverStatistics driver = mImpl->stream->statistics();
     return { driver.draws,
              driver.pipelinesCreated,
@@ -259,11 +279,13 @@ EngineStatistics Engine::statistics() const {
 }
 
 std::vector<std::string> Engine::takeErrors() {
+    const PublicCall call(mImpl, "Engine::takeErrors()");
     mImpl->collectErrors();
     return std::exchange(mImpl->errors, {});
 }
 
 Result<void> Engine::writeJobTrace(std::filesystem::path const& file) const {
+    const PublicCall call(mImpl, "Engine::writeJobTrace(filesystem::path)");
     return orOutOfMemory("job trace", file.native(), [&]() -> Result<void> {
         if (jobs::JobTrace const* timeline = mImpl->jobs.trace()) return writeChromeTrace(timeline->snapshot(), file);
         return fail(ErrorCode::InvalidArgument, "job trace '{}': make the engine with EngineOptions::traceJobs",
@@ -272,6 +294,7 @@ Result<void> Engine::writeJobTrace(std::filesystem::path const& file) const {
 }
 
 void Engine::waitIdle() {
+    const PublicCall call(mImpl, "Engine::waitIdle()");
     try {
         mImpl->flush();
     } catch (std::bad_alloc const&) {

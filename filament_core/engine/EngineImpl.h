@@ -8,7 +8,9 @@
 
 #include "backend/stream/CommandStream.h"
 #include "filament_core/engine/HandleTable.h"
+#include "filament_core/engine/PublicCall.h"
 #include "filament_core/engine/SamplerCache.h"
+#include "filament_core/engine/Uses.h"
 #include "filament_core/engine/materials/CompileQueue.h"
 #include "filament_core/engine/materials/MaterialNumbers.h"
 #include "filament_core/passes/Pipelines.h"
@@ -18,6 +20,7 @@
 
 #include <filament/Engine.h>
 #include <filament/Quality.h>
+#include <filament/Scene.h>
 #include <filament/View.h>
 
 #include <array>
@@ -84,7 +87,7 @@ struct LightProfileState {
 };
 
 struct RenderTargetState {
-    Texture color, depth; ///< depth: none, unless somebody asks
+    Texture color, depth; ///< depth: none, unless somebody asks. The app may have destroyed them: HandleTable::held()
     bool generateMips = false;
     std::string name;
 };
@@ -107,6 +110,15 @@ struct ToneTableKey {
 struct ToneTable {
     ToneTableKey key;
     Texture texture;
+};
+
+/// Something with device objects of its own that may outlive the engine.
+class Dependent {
+public:
+    virtual void release() noexcept = 0; ///< destroys them; once, while the engine lives
+
+protected:
+    ~Dependent() = default;
 };
 
 /// Objects of every engine.
@@ -139,6 +151,8 @@ struct Engine::Impl {
     void report(std::string_view line) noexcept;
     void reportOutOfMemory(std::string_view doing, std::string_view object = {},
                            std::bad_alloc const& cause = {}) noexcept;
+    /// Ends what the app destroyed and nothing uses any more, if a use ended since the last time.
+    void releaseRetired(backend::CommandBuffer& commands);
     /// Returns what `make` returns; none, and a line for takeErrors(), if memory runs out.
     template <class F>
     auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
@@ -155,9 +169,14 @@ struct Engine::Impl {
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                      uint32_t first);
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
-    void destroy(Texture texture);
-    void destroy(MaterialInstance instance);
-    void destroy(MorphTargets targets);
+    /// The handle ends. Null: nothing happens.
+    template <class Tag, class State>
+    void retire(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
+    /// The same for what scenes copy.
+    template <class Tag, class State>
+    void removeNow(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
+    void destroy(Texture texture) { retire(textures, texture); }
+    void destroy(MaterialInstance instance) { retire(instances, instance); }
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);
@@ -198,6 +217,8 @@ struct Engine::Impl {
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 
     Engine* self = nullptr; ///< follows moves of the Engine
+    uint16_t owner = scene::ownerTag(scene::newOwnerSerial());
+    const void* appThread = engine::thisThread();
     EngineOptions options;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::unique_ptr<backend::CommandStream> stream;
@@ -213,17 +234,22 @@ struct Engine::Impl {
     engine::CompileQueue compilations;
     engine::SamplerCache samplers;
 
-    engine::HandleTable<TextureObject, engine::TextureState> textures;
-    engine::HandleTable<VertexBufferObject, engine::VertexBufferState> vertexBuffers;
-    engine::HandleTable<IndexBufferObject, engine::IndexBufferState> indexBuffers;
-    engine::HandleTable<MorphTargetsObject, engine::MorphTargetsState> morphTargets;
-    engine::HandleTable<MaterialObject, scene::Material> materials;
-    engine::HandleTable<MaterialInstanceObject, scene::MaterialInstance> instances;
-    engine::HandleTable<IndirectLightObject, engine::IndirectLightState> indirectLights;
-    engine::HandleTable<SkyboxObject, engine::SkyboxState> skyboxes;
-    engine::HandleTable<LightProfileObject, engine::LightProfileState> lightProfiles;
-    engine::HandleTable<RenderTargetObject, engine::RenderTargetState> renderTargets;
-    engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains;
+    engine::HandleTable<TextureObject, engine::TextureState> textures{ owner };
+    engine::HandleTable<VertexBufferObject, engine::VertexBufferState> vertexBuffers{ owner };
+    engine::HandleTable<IndexBufferObject, engine::IndexBufferState> indexBuffers{ owner };
+    engine::HandleTable<MorphTargetsObject, engine::MorphTargetsState> morphTargets{ owner };
+    engine::HandleTable<MaterialObject, scene::Material> materials{ owner };
+    engine::HandleTable<MaterialInstanceObject, scene::MaterialInstance> instances{ owner };
+    engine::HandleTable<IndirectLightObject, engine::IndirectLightState> indirectLights{ owner };
+    engine::HandleTable<SkyboxObject, engine::SkyboxState> skyboxes{ owner };
+    engine::HandleTable<LightProfileObject, engine::LightProfileState> lightProfiles{ owner };
+    engine::HandleTable<RenderTargetObject, engine::RenderTargetState> renderTargets{ owner };
+    engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains{ owner };
+
+    std::vector<engine::Dependent*> dependents;
+    std::vector<Scene::Impl const*> scenes; ///< that show objects of this engine
+    engine::Uses uses;                      ///< of the last search
+    bool aUseEnded = false;                 ///< something was destroyed, removed or replaced since
 
     engine::Defaults defaults;
     MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
@@ -245,6 +271,20 @@ auto Engine::Impl::orNone(std::string_view doing, std::string_view object, F&& m
         reportOutOfMemory(doing, object, cause);
         return {};
     }
+}
+
+template <class Tag, class State>
+void Engine::Impl::retire(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle) {
+    if (!handle) return;
+    table.retire(handle);
+    aUseEnded = true;
+}
+
+template <class Tag, class State>
+void Engine::Impl::removeNow(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle) {
+    if (!handle) return;
+    table.remove(handle);
+    aUseEnded = true;
 }
 
 } // namespace filament

@@ -14,7 +14,8 @@
 namespace filament {
 
 struct Environment::Impl {
-    Engine::Impl& engine;
+    Engine::Impl& engine; ///< while the link is alive
+    engine::EngineLink link;
     Texture specular{}, sky{};
     Texture irradiance{}; ///< none: only coefficients are known
     IndirectLight indirectLight{};

@@ -6,12 +6,15 @@
 
 #include "filament_core/engine/EngineImpl.h"
 
+#include <utility>
+
 namespace filament::engine {
 
 class ImageTarget {
 public:
     explicit ImageTarget(Engine::Impl& engine) : mEngine(engine) {}
-    ~ImageTarget();
+    /// Before the engine ends, or the image is no longer needed.
+    void destroy() noexcept { mEngine.destroy(std::exchange(mChain, {})); }
     ImageTarget(ImageTarget const&) = delete;
     ImageTarget& operator=(ImageTarget const&) = delete;
 

@@ -11,6 +11,9 @@
 #include <bit>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 std::vector<uint32_t> shaderWords(assets::LightProfileTable const& table) {
@@ -34,6 +37,7 @@ LightProfile Engine::Impl::createLightProfile(assets::IesFile const& file, std::
 }
 
 Result<LightProfile> Engine::create(LightProfileDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(LightProfileDesc)", desc.name);
     return orOutOfMemory("light profile", desc.name, [&]() -> Result<LightProfile> {
         const std::string_view name = desc.name.empty() ? "light profile" : std::string_view(desc.name);
         const Result<assets::IesFile> file = assets::readIes(desc.file, name);
@@ -43,12 +47,17 @@ Result<LightProfile> Engine::create(LightProfileDesc const& desc) {
 }
 
 LightProfileDescription Engine::describe(LightProfile profile) const {
+    const PublicCall call(mImpl, "Engine::describe(LightProfile)");
     return mImpl->lightProfiles.get(profile).description;
 }
 
-void Engine::destroy(LightProfile profile) { mImpl->lightProfiles.remove(profile); }
+void Engine::destroy(LightProfile profile) {
+    const PublicCall call(mImpl, "Engine::destroy(LightProfile)");
+    mImpl->removeNow(mImpl->lightProfiles, profile);
+}
 
 Result<LightProfile> loadLightProfile(Engine& engine, std::filesystem::path const& path) {
+    const PublicCall call(engine, "loadLightProfile(Engine, path)", path.native());
     return orOutOfMemory("light profile", path.native(), [&]() -> Result<LightProfile> {
         const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
         if (!bytes) return bytes.error();

@@ -6,6 +6,8 @@
 
 namespace filament {
 
+using engine::PublicCall;
+
 namespace {
 
 template <class Handle>
@@ -27,17 +29,16 @@ Texture uploadCube(Engine::Impl& engine, assets::Image const& image, std::string
 } // namespace
 
 Environment::Impl::~Impl() {
+    if (!link.isAlive()) return;
     Engine& owner = Engine::of(engine);
-    if (skybox) owner.destroy(skybox); // null: memory ran out while the environment was loaded
-    if (indirectLight) owner.destroy(indirectLight);
-    if (irradiance) engine.destroy(irradiance);
-    if (sky) engine.destroy(sky);
-    if (specular) engine.destroy(specular);
+    owner.destroy(skybox);
+    owner.destroy(indirectLight);
+    for (const Texture texture : { irradiance, sky, specular }) owner.destroy(texture);
 }
 
 Environment engine::uploadEnvironment(Engine& engine, assets::EnvironmentData const& data, std::string const& name) {
     Engine::Impl& impl = engine.impl();
-    std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl });
+    std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl, engine::EngineLink(engine) });
     parts->specular = uploadCube(impl, data.specular, name);
     parts->sky = uploadCube(impl, data.sky, name + " sky");
     if (!data.irradiance.data.empty()) parts->irradiance = uploadCube(impl, data.irradiance, name + " irradiance");
@@ -58,11 +59,18 @@ Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
 Environment::~Environment() = default;
 
-IndirectLight Environment::indirectLight() const { return mImpl->indirectLight; }
-Skybox Environment::skybox() const { return mImpl->skybox; }
+IndirectLight Environment::indirectLight() const {
+    const PublicCall call(mImpl, "Environment::indirectLight()");
+    return mImpl->indirectLight;
+}
+Skybox Environment::skybox() const {
+    const PublicCall call(mImpl, "Environment::skybox()");
+    return mImpl->skybox;
+}
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options) {
+    const PublicCall call(engine, "loadEnvironment(Engine, path)", path.native());
     return orOutOfMemory("environment", path.native(), [&]() -> Result<Environment> {
         Engine::Impl& impl = engine.impl();
         auto data = assets::loadEnvironment(path, impl.jobs,

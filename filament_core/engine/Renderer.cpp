@@ -31,6 +31,7 @@ namespace filament {
 namespace {
 
 using namespace backend;
+using engine::PublicCall;
 using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
@@ -116,19 +117,32 @@ bool joinsLastImage(View const& view) { return view.viewport && view.viewport->c
 
 } // namespace
 
-struct Renderer::Impl {
-    Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
-            : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), blocks(*owner.stream),
-              debugBuffers(*owner.stream), shadows(owner), graph(arena), transients(*owner.stream), ranges(owner.jobs),
-              timings(owner), pixels(owner), imageTarget(owner) {}
+struct Renderer::Impl final : engine::Dependent {
+    Impl(Engine& ofEngine, RendererOptions const& rendererOptions)
+            : engine(ofEngine.impl()), link(ofEngine), options(rendererOptions), resources(engine),
+              data(*engine.stream), blocks(*engine.stream), debugBuffers(*engine.stream), shadows(engine), graph(arena),
+              transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine), imageTarget(engine) {
+        engine.dependents.push_back(this);
+    }
 
     ~Impl() {
+        if (!link.isAlive()) return;
+        release();
+        std::erase(engine.dependents, this);
+    }
+
+    void release() noexcept override {
+        plan = {};
         data.destroy(engine.pending);
         blocks.destroy(engine.pending);
         debugBuffers.destroy(engine.pending);
         shadows.destroy();
         transients.destroyAll(engine.pending);
+        imageTarget.destroy();
+        picker.reset();
     }
+
+    void check(Scene const& scene) const { engine::requireSame(engine, scene.impl().engine, "scene"); }
 
     // ------------------------------------------------------------------------------------------ a frame
 
@@ -272,8 +286,8 @@ struct Renderer::Impl {
 
     Target targetOf(RenderTarget target) {
         engine::RenderTargetState const& state = engine.renderTargets.get(target);
-        return { .color = engine.textures.get(state.color),
-                 .depth = state.depth ? &engine.textures.get(state.depth) : nullptr,
+        return { .color = engine.textures.held(state.color),
+                 .depth = state.depth ? &engine.textures.held(state.depth) : nullptr,
                  .generatesMips = state.generateMips,
                  .isSampled = true };
     }
@@ -324,7 +338,8 @@ struct Renderer::Impl {
 
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
-    Engine::Impl& engine;
+    Engine::Impl& engine; ///< while the link is alive
+    engine::EngineLink link;
     RendererOptions options;
     engine::FrameResourceCache resources;
     Arena arena;
@@ -348,48 +363,78 @@ struct Renderer::Impl {
     engine::FrameSummary summary;
 };
 
-Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(new Impl(engine.impl(), options)) {}
+Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(std::make_unique<Impl>(engine, options)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+    if (mImpl && mImpl->link.isAlive()) const PublicCall call(mImpl, "Renderer::~Renderer()");
+}
 
 void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain) {
+    const PublicCall call(mImpl, "Renderer::render(Scene, View, SwapChain)");
+    mImpl->check(scene);
     engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
     checkPlace(view, state.size);
     (void)mImpl->renderInto(state, scene, view); // takeErrors() says why a frame may be missing
 }
 
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
+    const PublicCall call(mImpl, "Renderer::render(Scene, View, RenderTarget)");
+    mImpl->check(scene);
     const Target drawn = mImpl->targetOf(target);
     checkPlace(view, { drawn.color.desc.width, drawn.color.desc.height });
     (void)mImpl->render(scene, view, drawn);
 }
 
 void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
+    const PublicCall call(mImpl, "Renderer::expect(Scene, View, SwapChain)");
+    mImpl->check(scene);
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
     mImpl->expect(scene, view, { mImpl->engine.textures.get(state.images[state.current]) });
 }
 
 void Renderer::expect(Scene const& scene, View const& view, RenderTarget target) {
+    const PublicCall call(mImpl, "Renderer::expect(Scene, View, RenderTarget)");
+    mImpl->check(scene);
     mImpl->expect(scene, view, mImpl->targetOf(target));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
+    const PublicCall call(mImpl, "Renderer::readPixels(SwapChain)");
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
     return mImpl->pixels.ask(mImpl->engine.textures.get(state.images[state.current]));
 }
 
 PixelTicket Renderer::readPixels(RenderTarget target) {
-    return mImpl->pixels.ask(mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
+    const PublicCall call(mImpl, "Renderer::readPixels(RenderTarget)");
+    return mImpl->pixels.ask(mImpl->engine.textures.held(mImpl->engine.renderTargets.get(target).color));
 }
 
-std::optional<Image> Renderer::takePixels(PixelTicket ticket) { return mImpl->pixels.take(ticket); }
-Result<Image> Renderer::waitPixels(PixelTicket ticket) { return mImpl->pixels.wait(ticket); }
+std::optional<Image> Renderer::takePixels(PixelTicket ticket) {
+    const PublicCall call(mImpl, "Renderer::takePixels(PixelTicket)");
+    return mImpl->pixels.take(ticket);
+}
+Result<Image> Renderer::waitPixels(PixelTicket ticket) {
+    const PublicCall call(mImpl, "Renderer::waitPixels(PixelTicket)");
+    return mImpl->pixels.wait(ticket);
+}
 
-PickTicket Renderer::pick(Scene const& scene, View const& view, uint2 pixel) { return mImpl->pick(scene, view, pixel); }
-std::optional<PickHit> Renderer::takePick(PickTicket ticket) { return mImpl->pickerOfRenderer().take(ticket); }
-Result<PickHit> Renderer::waitPick(PickTicket ticket) { return mImpl->pickerOfRenderer().wait(ticket); }
+PickTicket Renderer::pick(Scene const& scene, View const& view, uint2 pixel) {
+    const PublicCall call(mImpl, "Renderer::pick(Scene, View, uint2)");
+    mImpl->check(scene);
+    return mImpl->pick(scene, view, pixel);
+}
+std::optional<PickHit> Renderer::takePick(PickTicket ticket) {
+    const PublicCall call(mImpl, "Renderer::takePick(PickTicket)");
+    return mImpl->pickerOfRenderer().take(ticket);
+}
+Result<PickHit> Renderer::waitPick(PickTicket ticket) {
+    const PublicCall call(mImpl, "Renderer::waitPick(PickTicket)");
+    return mImpl->pickerOfRenderer().wait(ticket);
+}
 
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
+    const PublicCall call(mImpl, "Renderer::renderToImage(Scene, View)");
+    mImpl->check(scene);
     return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {
         engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTarget.of(view.size));
         View whole = view;
@@ -399,18 +444,27 @@ Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
     });
 }
 
-FrameStatistics Renderer::statistics() const { return mImpl->summary.statistics; }
-std::vector<FrameTimings> Renderer::takeTimings() { return mImpl->timings.take(); }
+FrameStatistics Renderer::statistics() const {
+    const PublicCall call(mImpl, "Renderer::statistics()");
+    return mImpl->summary.statistics;
+}
+std::vector<FrameTimings> Renderer::takeTimings() {
+    const PublicCall call(mImpl, "Renderer::takeTimings()");
+    return mImpl->timings.take();
+}
 
 std::vector<EffectDecision> Renderer::decisions() const {
+    const PublicCall call(mImpl, "Renderer::decisions()");
     return engine::decisions(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses());
 }
 
 std::string Renderer::explain() const {
+    const PublicCall call(mImpl, "Renderer::explain()");
     return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses());
 }
 
 std::string Renderer::graphviz() const {
+    const PublicCall call(mImpl, "Renderer::graphviz()");
     return mImpl->plan.graph ? framegraph::toGraphviz(mImpl->plan) : std::string();
 }
 

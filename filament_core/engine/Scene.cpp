@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Scene.h>
 
+#include "filament_core/engine/RequiredAttributes.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/scene/SceneNodes.h"
 #include "filament_core/scene/SceneSkins.h"
@@ -15,6 +16,7 @@
 namespace filament {
 namespace {
 
+using engine::PublicCall;
 using scene::LightRecord;
 
 bool hasAttribute(backend::VertexLayout const& layout, Attribute attribute) {
@@ -124,26 +126,31 @@ Light addLight(scene::SceneData& data, LightRecord const& record, Node node) {
 
 } // namespace
 
-Scene::Scene(Engine& engine) : mImpl(new Impl{ engine.impl(), {}, {} }) {}
+Scene::Scene(Engine& engine) : mImpl(std::make_shared<Impl>(engine)) {}
 Scene::Scene(Scene&&) noexcept = default;
-Scene::~Scene() = default;
+Scene::~Scene() {
+    if (mImpl && mImpl->link.isAlive()) const PublicCall call(mImpl, "Scene::~Scene()");
+}
 
 Renderable Scene::add(RenderableDesc const& desc) {
+    const PublicCall call(mImpl, "Scene::add(RenderableDesc)", desc.name);
+    FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
+                    "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
     Engine::Impl& engine = mImpl->engine;
     engine::VertexBufferState const& vertices = engine.vertexBuffers.get(desc.vertices);
     engine::IndexBufferState const& indices = engine.indexBuffers.get(desc.indices);
     FILAMENT_ASSERT(desc.firstIndex <= indices.indexCount && desc.indexCount <= indices.indexCount - desc.firstIndex,
                     "a renderable's indices lie inside of its index buffer");
+    scene::MaterialInstance const& material = engine.instances.get(desc.material);
+    engine::requireAttributes(*material.material, vertices.layout);
     const scene::Geometry geometry{ vertices.handle,
                                     indices.handle,
                                     engine.layouts.intern({ vertices.layout, desc.primitive }),
                                     desc.firstIndex,
                                     desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
                                     indices.format };
-    FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
-                    "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
     const scene::RenderableInput input{ .geometry = geometry,
-                                        .material = &engine.instances.get(desc.material),
+                                        .material = &material,
                                         .boundsMin = desc.boundsMin,
                                         .boundsMax = desc.boundsMax,
                                         .worldFromObject = desc.worldFromObject,
@@ -165,6 +172,7 @@ Renderable Scene::add(RenderableDesc const& desc) {
 }
 
 Light Scene::add(SunLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(SunLight, Node)");
     checkLight(light.color, 0, double3(0.0));
     return addLight(mImpl->changed(),
                     { .type = LightRecord::Type::Sun,
@@ -182,6 +190,7 @@ Light Scene::add(SunLight const& light, Node node) {
 }
 
 Light Scene::add(PointLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(PointLight, Node)");
     checkLight(light.color, light.rangeMeters, light.positionWorld);
     LightRecord record{ .type = LightRecord::Type::Point,
                         .positionWorld = light.positionWorld,
@@ -200,6 +209,7 @@ Light Scene::add(PointLight const& light, Node node) {
 }
 
 Light Scene::add(SpotLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(SpotLight, Node)");
     checkLight(light.color, light.rangeMeters, light.positionWorld);
     FILAMENT_ASSERT(light.innerConeRadians >= 0 && light.innerConeRadians < light.outerConeRadians &&
                             light.outerConeRadians <= 1.5707964f,
@@ -221,6 +231,7 @@ Light Scene::add(SpotLight const& light, Node node) {
 }
 
 Light Scene::add(RectLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(RectLight, Node)");
     LightRecord record = areaRecord(LightRecord::Type::Rect, light);
     record.directionWorld = unitDirection(light.directionWorld);
     const float3 up = acrossDirection(record.directionWorld, light.upWorld);
@@ -231,6 +242,7 @@ Light Scene::add(RectLight const& light, Node node) {
 }
 
 Light Scene::add(DiscLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(DiscLight, Node)");
     LightRecord record = areaRecord(LightRecord::Type::Disc, light);
     record.directionWorld = unitDirection(light.directionWorld);
     record.sideWorld = acrossDirection(record.directionWorld, {});
@@ -240,6 +252,7 @@ Light Scene::add(DiscLight const& light, Node node) {
 }
 
 Light Scene::add(TubeLight const& light, Node node) {
+    const PublicCall call(mImpl, "Scene::add(TubeLight, Node)");
     LightRecord record = areaRecord(LightRecord::Type::Tube, light);
     record.sideWorld = unitDirection(light.axisWorld);
     setExtent(record, halfExtentOf(light.lengthMeters / 2, light.radiusMeters));
@@ -247,6 +260,7 @@ Light Scene::add(TubeLight const& light, Node node) {
 }
 
 Skin Scene::add(SkinDesc const& desc) {
+    const PublicCall call(mImpl, "Scene::add(SkinDesc)");
     FILAMENT_ASSERT(desc.joints.size() == desc.jointFromBind.size(), "a skin has one matrix for each of its joints");
     FILAMENT_ASSERT(desc.joints.empty() != (desc.boneCount == 0), "a skin has joints or a number of bones");
     scene::SkinRecord data{ .node = desc.node, .joints = { desc.joints.begin(), desc.joints.end() } };
@@ -256,74 +270,100 @@ Skin Scene::add(SkinDesc const& desc) {
     return scene::addSkin(mImpl->changed(), std::move(data));
 }
 
-void Scene::remove(Skin skin) { scene::removeSkin(mImpl->changed(), skin); }
+void Scene::remove(Skin skin) {
+    const PublicCall call(mImpl, "Scene::remove(Skin)");
+    scene::removeSkin(mImpl->changedUses(), skin);
+}
 
 void Scene::setBones(Skin skin, std::span<const float4x4> objectFromBind) {
+    const PublicCall call(mImpl, "Scene::setBones(Skin, span<float4x4>)");
     scene::setBones(mImpl->changed(), skin, objectFromBind);
 }
 
 void Scene::setMorphWeights(Renderable renderable, std::span<const float> weights) {
+    const PublicCall call(mImpl, "Scene::setMorphWeights(Renderable, span<float>)");
     scene::setMorphWeights(mImpl->changed(), renderable, weights);
 }
 
-void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->changed(), renderable); }
-void Scene::remove(Light light) { scene::removeLight(mImpl->changed(), light); }
+void Scene::remove(Renderable renderable) {
+    const PublicCall call(mImpl, "Scene::remove(Renderable)");
+    scene::removeRenderable(mImpl->changedUses(), renderable);
+}
+void Scene::remove(Light light) {
+    const PublicCall call(mImpl, "Scene::remove(Light)");
+    scene::removeLight(mImpl->changedUses(), light);
+}
 
 void Scene::setLightChannels(Renderable renderable, LightChannels channels) {
+    const PublicCall call(mImpl, "Scene::setLightChannels(Renderable, LightChannels)");
     scene::setLightChannels(mImpl->changed().renderables, renderable, channels);
 }
 
 void Scene::setLightChannels(Light light, LightChannels channels) {
+    const PublicCall call(mImpl, "Scene::setLightChannels(Light, LightChannels)");
     scene::Lights& lights = mImpl->changed().lights;
     lights.records[lights.index.at(light)].channels = channels;
 }
 
 void Scene::setLightChannels(Node node, LightChannels channels) {
+    const PublicCall call(mImpl, "Scene::setLightChannels(Node, LightChannels)");
     scene::setLightChannels(mImpl->changed(), node, channels);
 }
 
 void Scene::setLayers(Renderable renderable, Layers select, Layers layers) {
+    const PublicCall call(mImpl, "Scene::setLayers(Renderable, Layers, Layers)");
     scene::setLayers(mImpl->changed().renderables, renderable, select, layers);
 }
 
 void Scene::setLayers(Node node, Layers select, Layers layers) {
+    const PublicCall call(mImpl, "Scene::setLayers(Node, Layers, Layers)");
     scene::setLayers(mImpl->changed(), node, select, layers);
 }
 
 void Scene::setDrawPlace(Renderable renderable, DrawPlace place) {
+    const PublicCall call(mImpl, "Scene::setDrawPlace(Renderable, DrawPlace)");
     scene::setDrawPlace(mImpl->changed().renderables, renderable, place);
 }
 
-void Scene::setDrawPlace(Node node, DrawPlace place) { scene::setDrawPlace(mImpl->changed(), node, place); }
+void Scene::setDrawPlace(Node node, DrawPlace place) {
+    const PublicCall call(mImpl, "Scene::setDrawPlace(Node, DrawPlace)");
+    scene::setDrawPlace(mImpl->changed(), node, place);
+}
 
 DrawPlace Scene::drawPlace(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::drawPlace(Renderable)");
     scene::Renderables const& renderables = mImpl->data.renderables;
     return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].place;
 }
 
 Layers Scene::layers(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::layers(Renderable)");
     scene::Renderables const& renderables = mImpl->data.renderables;
     return renderables.layers[renderables.index.at(renderable)];
 }
 
 void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject) {
+    const PublicCall call(mImpl, "Scene::setTransform(Renderable, double4x4)");
     scene::setTransform(mImpl->changed(), renderable, worldFromObject);
 }
 
 void Scene::setEnvironment(Environment const& environment, EnvironmentSettings const& settings) {
+    const PublicCall call(mImpl, "Scene::setEnvironment(Environment, EnvironmentSettings)");
     setIndirectLight(environment.indirectLight(), settings.illuminance, settings.rotationRadians);
     setSkybox(settings.skybox ? environment.skybox() : Skybox{}, settings.illuminance, settings.rotationRadians);
 }
 
 void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians) {
+    const PublicCall call(mImpl, "Scene::setIndirectLight(IndirectLight, Lux, float)");
     scene::IndirectLightRecord state;
     if (light) state = mImpl->engine.indirectLights.get(light).light;
     state.illuminance = illuminance;
     state.rotationRadians = rotationRadians;
-    mImpl->changed().indirectLight = state;
+    mImpl->changedUses().indirectLight = state;
 }
 
 void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
+    const PublicCall call(mImpl, "Scene::setSkybox(Skybox, Lux, float)");
     scene::SkyboxRecord state{ .illuminance = illuminance, .rotationRadians = rotationRadians };
     if (skybox) {
         engine::SkyboxState const& made = mImpl->engine.skyboxes.get(skybox);
@@ -331,11 +371,20 @@ void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
         state.isRgbm = made.isRgbm;
         state.worldFromCube = made.worldFromCube;
     }
-    mImpl->changed().skybox = state;
+    mImpl->changedUses().skybox = state;
 }
 
-Box Scene::bounds() const { return scene::sceneBounds(mImpl->upToDate()); }
-uint32_t Scene::renderableCount() const { return mImpl->data.renderables.count(); }
-uint32_t Scene::lightCount() const { return mImpl->data.lights.index.size(); }
+Box Scene::bounds() const {
+    const PublicCall call(mImpl, "Scene::bounds()");
+    return scene::sceneBounds(mImpl->upToDate());
+}
+uint32_t Scene::renderableCount() const {
+    const PublicCall call(mImpl, "Scene::renderableCount()");
+    return mImpl->data.renderables.count();
+}
+uint32_t Scene::lightCount() const {
+    const PublicCall call(mImpl, "Scene::lightCount()");
+    return mImpl->data.lights.index.size();
+}
 
 } // namespace filament

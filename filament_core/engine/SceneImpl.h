@@ -13,10 +13,17 @@
 namespace filament {
 
 struct Scene::Impl {
+    explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) { engine.scenes.push_back(this); }
+    ~Impl() {
+        if (!link.isAlive()) return;
+        std::erase(engine.scenes, this);
+        engine.aUseEnded = true;
+    }
+
     /// The parts of one copy of a model, for changes to the whole copy. Only for models with variants.
     struct ModelCopy {
         Node root;
-        Model::Impl const* model = nullptr;
+        std::shared_ptr<const Model::Impl> model;
         std::vector<Renderable> renderables; ///< parallel to the model's; some may have been removed
     };
 
@@ -35,7 +42,14 @@ struct Scene::Impl {
         return data;
     }
 
-    Engine::Impl& engine;
+    /// The same, to remove or replace what is in it.
+    scene::SceneData& changedUses() {
+        engine.aUseEnded = true;
+        return changed();
+    }
+
+    Engine::Impl& engine; ///< while the link is alive
+    engine::EngineLink link;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
     mutable uint64_t rasterChanges = 0;
     uint64_t changes = 0; ///< by the app

@@ -7,12 +7,17 @@
 
 namespace filament {
 
+using engine::PublicCall;
+
 Node Scene::add(NodeDesc const& desc) {
+    const PublicCall call(mImpl, "Scene::add(NodeDesc)", desc.name);
     return mImpl->changed().transforms.add(desc.parent, desc.parentFromNode, desc.name);
 }
 
 Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
-    Model::Impl const& parts = model.impl();
+    const PublicCall call(mImpl, "Scene::add(Model, double4x4)");
+    const std::shared_ptr<const Model::Impl> shared = engine::shareOf(model, mImpl->engine);
+    Model::Impl const& parts = *shared;
     const Node root = add(NodeDesc{ .parentFromNode = worldFromModel, .name = parts.name });
     std::vector<Node> nodes;
     nodes.reserve(parts.nodes.size());
@@ -38,34 +43,67 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     for (Model::Impl::PartLight const& part : parts.lights) {
         std::visit([&](auto const& light) { add(light, at(part.node)); }, part.light);
     }
-    if (!parts.variants.empty()) mImpl->copies.push_back({ root, &parts, std::move(renderables) });
+    if (!parts.variants.empty()) mImpl->copies.push_back({ root, shared, std::move(renderables) });
     return root;
 }
 
 void Scene::remove(Node node) {
-    scene::removeNode(mImpl->changed(), node);
+    const PublicCall call(mImpl, "Scene::remove(Node)");
+    scene::removeNode(mImpl->changedUses(), node);
     std::erase_if(mImpl->copies,
                   [&](Impl::ModelCopy const& copy) { return !mImpl->data.transforms.contains(copy.root); });
 }
 
 void Scene::setTransform(Node node, double4x4 const& parentFromNode) {
+    const PublicCall call(mImpl, "Scene::setTransform(Node, double4x4)");
     mImpl->changed().transforms.setTransform(node, parentFromNode);
 }
 
 void Scene::setParent(Node node, Node parent, Reparent keep) {
+    const PublicCall call(mImpl, "Scene::setParent(Node, Node, Reparent)");
     scene::Transforms& transforms = mImpl->changed().transforms;
     keep == Reparent::KeepWorld ? transforms.setParentKeepingWorld(node, parent) : transforms.setParent(node, parent);
 }
 
-double4x4 Scene::parentFromNode(Node node) const { return mImpl->data.transforms.parentFromNode(node); }
-double4x4 Scene::worldFromNode(Node node) const { return mImpl->data.transforms.worldFromNode(node); }
-std::string const& Scene::name(Node node) const { return mImpl->data.transforms.name(node); }
-Node Scene::parent(Node node) const { return mImpl->data.transforms.parent(node); }
-Node Scene::node(Renderable renderable) const { return scene::nodeOf(mImpl->data, renderable); }
-Node Scene::node(Light light) const { return scene::nodeOf(mImpl->data, light); }
-Node Scene::firstChild(Node node) const { return mImpl->data.transforms.firstChild(node); }
-Node Scene::nextSibling(Node node) const { return mImpl->data.transforms.nextSibling(node); }
-Node Scene::findNode(std::string_view name, Node root) const { return mImpl->data.transforms.find(name, root); }
-uint32_t Scene::nodeCount() const { return mImpl->data.transforms.count(); }
+double4x4 Scene::parentFromNode(Node node) const {
+    const PublicCall call(mImpl, "Scene::parentFromNode(Node)");
+    return mImpl->data.transforms.parentFromNode(node);
+}
+double4x4 Scene::worldFromNode(Node node) const {
+    const PublicCall call(mImpl, "Scene::worldFromNode(Node)");
+    return mImpl->data.transforms.worldFromNode(node);
+}
+std::string const& Scene::name(Node node) const {
+    const PublicCall call(mImpl, "Scene::name(Node)");
+    return mImpl->data.transforms.name(node);
+}
+Node Scene::parent(Node node) const {
+    const PublicCall call(mImpl, "Scene::parent(Node)");
+    return mImpl->data.transforms.parent(node);
+}
+Node Scene::node(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::node(Renderable)");
+    return scene::nodeOf(mImpl->data, renderable);
+}
+Node Scene::node(Light light) const {
+    const PublicCall call(mImpl, "Scene::node(Light)");
+    return scene::nodeOf(mImpl->data, light);
+}
+Node Scene::firstChild(Node node) const {
+    const PublicCall call(mImpl, "Scene::firstChild(Node)");
+    return mImpl->data.transforms.firstChild(node);
+}
+Node Scene::nextSibling(Node node) const {
+    const PublicCall call(mImpl, "Scene::nextSibling(Node)");
+    return mImpl->data.transforms.nextSibling(node);
+}
+Node Scene::findNode(std::string_view name, Node root) const {
+    const PublicCall call(mImpl, "Scene::findNode(string_view, Node)");
+    return mImpl->data.transforms.find(name, root);
+}
+uint32_t Scene::nodeCount() const {
+    const PublicCall call(mImpl, "Scene::nodeCount()");
+    return mImpl->data.transforms.count();
+}
 
 } // namespace filament

@@ -8,6 +8,9 @@
 #include <algorithm>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 using namespace backend;
@@ -190,12 +193,8 @@ SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
     return draft.keep();
 }
 
-void Engine::Impl::destroy(Texture texture) {
-    if (const TextureHandle handle = textureHandle(texture)) stream->destroy(pending, handle);
-    textures.remove(texture);
-}
-
 void Engine::Impl::destroy(SwapChain swapChain) {
+    if (!swapChain) return;
     for (Texture image : swapChains.get(swapChain).images) destroy(image);
     swapChains.remove(swapChain);
 }
@@ -203,18 +202,22 @@ void Engine::Impl::destroy(SwapChain swapChain) {
 // ---------------------------------------------------------------------------------------------- the public functions
 
 Texture Engine::create(filament::TextureDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(TextureDesc)", desc.name);
     return mImpl->orNone("texture", desc.name, [&] { return mImpl->createTexture(desc); });
 }
 
 VertexBuffer Engine::create(VertexBufferDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(VertexBufferDesc)", desc.name);
     return mImpl->orNone("vertex buffer", desc.name, [&] { return mImpl->createVertexBuffer(desc); });
 }
 
 IndexBuffer Engine::create(IndexBufferDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(IndexBufferDesc)", desc.name);
     return mImpl->orNone("index buffer", desc.name, [&] { return mImpl->createIndexBuffer(desc); });
 }
 
 IndirectLight Engine::create(IndirectLightDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(IndirectLightDesc)", desc.name);
     return mImpl->orNone("indirect light", desc.name, [&] {
         engine::Draft draft(mImpl->indirectLights);
         engine::IndirectLightState& state = draft.state();
@@ -232,6 +235,7 @@ IndirectLight Engine::create(IndirectLightDesc const& desc) {
 }
 
 Skybox Engine::create(SkyboxDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(SkyboxDesc)", desc.name);
     return mImpl->orNone("skybox", desc.name, [&] {
         engine::Draft draft(mImpl->skyboxes);
         engine::TextureState const& cube = mImpl->textures.get(desc.cube);
@@ -265,6 +269,7 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
 } // namespace
 
 RenderTarget Engine::create(RenderTargetDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(RenderTargetDesc)", desc.name);
     checkTarget(mImpl->textures, desc);
     return mImpl->orNone("render target", desc.name, [&] {
         engine::Draft draft(mImpl->renderTargets);
@@ -274,28 +279,55 @@ RenderTarget Engine::create(RenderTargetDesc const& desc) {
 }
 
 SwapChain Engine::create(SwapChainDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(SwapChainDesc)", desc.name);
     return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
 }
 
-Texture Engine::colorOf(RenderTarget target) const { return mImpl->renderTargets.get(target).color; }
-Texture Engine::depthOf(RenderTarget target) const { return mImpl->renderTargets.get(target).depth; }
+Texture Engine::colorOf(RenderTarget target) const {
+    const PublicCall call(mImpl, "Engine::colorOf(RenderTarget)");
+    const Texture color = mImpl->renderTargets.get(target).color;
+    return mImpl->textures.isLive(color) ? color : Texture{};
+}
 
-void Engine::destroy(Texture texture) { mImpl->destroy(texture); }
+Texture Engine::depthOf(RenderTarget target) const {
+    const PublicCall call(mImpl, "Engine::depthOf(RenderTarget)");
+    const Texture depth = mImpl->renderTargets.get(target).depth;
+    return mImpl->textures.isLive(depth) ? depth : Texture{};
+}
+
+void Engine::destroy(Texture texture) {
+    const PublicCall call(mImpl, "Engine::destroy(Texture)");
+    mImpl->destroy(texture);
+}
 
 void Engine::destroy(VertexBuffer buffer) {
-    mImpl->stream->destroy(mImpl->pending, mImpl->vertexBuffers.get(buffer).handle);
-    mImpl->vertexBuffers.remove(buffer);
+    const PublicCall call(mImpl, "Engine::destroy(VertexBuffer)");
+    mImpl->retire(mImpl->vertexBuffers, buffer);
 }
 
 void Engine::destroy(IndexBuffer buffer) {
-    mImpl->stream->destroy(mImpl->pending, mImpl->indexBuffers.get(buffer).handle);
-    mImpl->indexBuffers.remove(buffer);
+    const PublicCall call(mImpl, "Engine::destroy(IndexBuffer)");
+    mImpl->retire(mImpl->indexBuffers, buffer);
 }
 
-void Engine::destroy(IndirectLight light) { mImpl->indirectLights.remove(light); }
-void Engine::destroy(Skybox skybox) { mImpl->skyboxes.remove(skybox); }
-void Engine::destroy(RenderTarget target) { mImpl->renderTargets.remove(target); }
+void Engine::destroy(IndirectLight light) {
+    const PublicCall call(mImpl, "Engine::destroy(IndirectLight)");
+    mImpl->removeNow(mImpl->indirectLights, light);
+}
 
-void Engine::destroy(SwapChain swapChain) { mImpl->destroy(swapChain); }
+void Engine::destroy(Skybox skybox) {
+    const PublicCall call(mImpl, "Engine::destroy(Skybox)");
+    mImpl->removeNow(mImpl->skyboxes, skybox);
+}
+
+void Engine::destroy(RenderTarget target) {
+    const PublicCall call(mImpl, "Engine::destroy(RenderTarget)");
+    mImpl->removeNow(mImpl->renderTargets, target);
+}
+
+void Engine::destroy(SwapChain swapChain) {
+    const PublicCall call(mImpl, "Engine::destroy(SwapChain)");
+    mImpl->destroy(swapChain);
+}
 
 } // namespace filament

@@ -63,7 +63,7 @@ uint64_t hashEffects(Effects const& effects, uint64_t seed) {
                       exposure.maxStops, exposure.speedUp, exposure.speedDown);
     seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
                       grain.size, aberration.strength);
-    seed = hashWords(seed, bloom.enabled, bloom.dirt.bits, flare.enabled, focus.enabled, motion.enabled,
+    seed = hashWords(seed, bloom.enabled, bloom.dirt.number(), flare.enabled, focus.enabled, motion.enabled,
                      exposure.enabled, vignette.enabled, grain.enabled, aberration.enabled, resolution.dynamic,
                      resolution.uniform, sharpening.enabled, guardBand.enabled);
     seed = hashValues(seed, resolution.scale, resolution.targetMilliseconds, resolution.leastScale, resolution.headroom,

@@ -169,7 +169,7 @@ private:
     }
 
     uint64_t ownerOf(Caster const& caster, uint32_t part) const {
-        return uint64_t{ mScene.lights.index.handleAt(caster.record).bits } << 8 | part;
+        return mScene.lights.index.handleAt(caster.record).number() << 8 | part;
     }
 
     void place(std::span<const Caster> casters, PreparedShadows& out) {

@@ -22,7 +22,7 @@ public:
     static constexpr uint32_t kNone = ~0u;
 
     /// `node` is a slot of Transforms.
-    void attach(Handle<Tag> thing, uint32_t node) {
+    void attach(ObjectHandle<Tag> thing, uint32_t node) {
         FILAMENT_ASSERT(!isAttached(thing), "a renderable or light hangs at one node only");
         if (thing.index() >= mLinks.size()) mLinks.resize(thing.index() + 1);
         if (node >= mFirst.size()) mFirst.resize(node + 1, kNone);
@@ -33,7 +33,7 @@ public:
     }
 
     /// Does nothing to a thing that is not attached.
-    void detach(Handle<Tag> thing) {
+    void detach(ObjectHandle<Tag> thing) {
         if (!isAttached(thing)) return;
         const Link link = mLinks[thing.index()];
         (link.previous == kNone ? mFirst[link.node] : mLinks[link.previous].next) = link.next;
@@ -42,15 +42,15 @@ public:
     }
 
     /// kNone: it is not attached.
-    uint32_t nodeOf(Handle<Tag> thing) const {
+    uint32_t nodeOf(ObjectHandle<Tag> thing) const {
         return thing.index() < mLinks.size() ? mLinks[thing.index()].node : kNone;
     }
 
-    bool isAttached(Handle<Tag> thing) const { return nodeOf(thing) != kNone; }
+    bool isAttached(ObjectHandle<Tag> thing) const { return nodeOf(thing) != kNone; }
 
     /// none: nothing is attached to the node.
-    Handle<Tag> first(uint32_t node) const {
-        return node < mFirst.size() && mFirst[node] != kNone ? mLinks[mFirst[node]].thing : Handle<Tag>{};
+    ObjectHandle<Tag> first(uint32_t node) const {
+        return node < mFirst.size() && mFirst[node] != kNone ? mLinks[mFirst[node]].thing : ObjectHandle<Tag>{};
     }
 
     template <class F>
@@ -61,7 +61,7 @@ public:
 
 private:
     struct Link {
-        Handle<Tag> thing{};
+        ObjectHandle<Tag> thing{};
         uint32_t node = kNone, next = kNone, previous = kNone;
     };
 

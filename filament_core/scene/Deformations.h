@@ -12,10 +12,10 @@
 #pragma once
 
 #include "backend/api/Handles.h"
-#include "base/Handle.h"
 #include "base/math/Box.h"
 #include "filament_core/scene/Affine.h"
 #include "filament_core/scene/Drawables.h"
+#include "filament_core/scene/ObjectHandles.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <filament/Objects.h>
@@ -62,6 +62,8 @@ struct Deformation {
 
 class Deformations {
 public:
+    explicit Deformations(uint16_t owner = 0) : mSkinHandles(owner) {}
+
     Skin addSkin(SkinRecord data);
     void removeSkin(Skin skin);
     SkinRecord& skin(Skin skin) { return mSkins[at(skin)]; }
@@ -94,11 +96,11 @@ public:
 
 private:
     uint32_t at(Skin skin) const {
-        FILAMENT_ASSERT(mSkinHandles.isLive(skin), "the handle names a skin that was removed or never added");
+        if (!mSkinHandles.isLive(skin)) mSkinHandles.refuse(skin);
         return skin.index();
     }
 
-    HandleAllocator<SkinObject> mSkinHandles;
+    ObjectHandles<SkinObject> mSkinHandles;
     std::vector<SkinRecord> mSkins; // by handle index
     uint32_t mSkinCount = 0;
     std::vector<Deformation> mDeformations;

@@ -2,10 +2,10 @@
 /// DenseIndex: handles for the user, dense arrays for the frame.
 ///   Thread  the app thread between frames; at() on any number of threads while nothing is added or removed.
 ///   Memory  8 bytes an element; adding and removing is O(1), removal moves the last element into the gap.
-///   Fails   a handle that names nothing (any more) is an assertion.
+///   Fails   a handle that names nothing (any more) ends the process: ObjectHandles::refuse().
 #pragma once
 
-#include "base/Handle.h"
+#include "filament_core/scene/ObjectHandles.h"
 
 #include <cstdint>
 #include <utility>
@@ -17,8 +17,10 @@ namespace filament::scene {
 template <class Tag>
 class DenseIndex {
 public:
-    Handle<Tag> add() {
-        const Handle<Tag> handle = mHandles.allocate();
+    explicit DenseIndex(uint16_t owner = 0) : mHandles(owner) {}
+
+    ObjectHandle<Tag> add() {
+        const ObjectHandle<Tag> handle = mHandles.allocate();
         if (handle.index() >= mDense.size()) mDense.resize(handle.index() + 1);
         mDense[handle.index()] = static_cast<uint32_t>(mOwners.size());
         mOwners.push_back(handle);
@@ -26,9 +28,9 @@ public:
     }
 
     /// The position that the last element must be moved into; the caller then drops the last element.
-    uint32_t remove(Handle<Tag> handle) {
+    uint32_t remove(ObjectHandle<Tag> handle) {
         const uint32_t gap = at(handle);
-        const Handle<Tag> last = mOwners.back();
+        const ObjectHandle<Tag> last = mOwners.back();
         mOwners[gap] = last;
         mDense[last.index()] = gap;
         mOwners.pop_back();
@@ -36,17 +38,16 @@ public:
         return gap;
     }
 
-    uint32_t at(Handle<Tag> handle) const {
+    uint32_t at(ObjectHandle<Tag> handle) const {
         const uint32_t position = handle && handle.index() < mDense.size() ? mDense[handle.index()] : size();
-        FILAMENT_ASSERT(position < size() && mOwners[position] == handle,
-                        "the handle names something that was removed or never added");
+        if (position >= size() || mOwners[position] != handle) mHandles.refuse(handle);
         return position;
     }
 
     /// The handle of the element at `position`.
-    Handle<Tag> handleAt(uint32_t position) const { return mOwners[position]; }
+    ObjectHandle<Tag> handleAt(uint32_t position) const { return mOwners[position]; }
 
-    bool contains(Handle<Tag> handle) const {
+    bool contains(ObjectHandle<Tag> handle) const {
         if (!handle || handle.index() >= mDense.size()) return false;
         const uint32_t position = mDense[handle.index()];
         return position < size() && mOwners[position] == handle;
@@ -55,9 +56,9 @@ public:
     uint32_t size() const { return static_cast<uint32_t>(mOwners.size()); }
 
 private:
-    HandleAllocator<Tag> mHandles;
-    std::vector<uint32_t> mDense;     // by handle index
-    std::vector<Handle<Tag>> mOwners; // by dense position
+    ObjectHandles<Tag> mHandles;
+    std::vector<uint32_t> mDense;           // by handle index
+    std::vector<ObjectHandle<Tag>> mOwners; // by dense position
 };
 
 /// Moves the last element of a column into the gap and drops the last.

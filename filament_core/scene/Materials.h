@@ -27,6 +27,7 @@ struct Material {
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
     uint32_t instanceCount = 0;
+    uint32_t optionalAttributes = 0; ///< of package.requiredAttributes: read only where constants say so
     MaterialDescription description;
     /// Where an instance's parameters hold a float that its roughness does not exceed anywhere; none: not known.
     std::optional<uint32_t> roughnessBound{};

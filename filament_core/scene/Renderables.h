@@ -54,6 +54,8 @@ enum RenderableFlag : uint8_t {
 };
 
 struct Renderables {
+    explicit Renderables(uint16_t owner = 0) : index(owner) {}
+
     DenseIndex<RenderableObject> index;
     BoundsColumns bounds;
     std::vector<uint8_t> flags;     ///< RenderableFlag

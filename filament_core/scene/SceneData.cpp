@@ -3,15 +3,9 @@
 
 #include "filament_core/scene/SceneSkins.h"
 
-#include <atomic>
 #include <cmath>
 
 namespace filament::scene {
-
-uint64_t newSceneSerial() {
-    static std::atomic<uint64_t> next{ 1 };
-    return next.fetch_add(1, std::memory_order_relaxed);
-}
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 

@@ -45,6 +45,8 @@ struct LightRecord {
 };
 
 struct Lights {
+    explicit Lights(uint16_t owner = 0) : index(owner) {}
+
     DenseIndex<LightObject> index;
     std::vector<LightRecord> records;
 };
@@ -89,16 +91,13 @@ struct SkyboxRecord {
     float rotationRadians = 0;
 };
 
-/// Unlike any other in the process, and never 0.
-uint64_t newSceneSerial();
-
 struct SceneData {
-    uint64_t serial = newSceneSerial(); ///< handles of two scenes may be equal
-    Renderables renderables;
-    Lights lights;
-    Transforms transforms; ///< of the nodes
+    uint64_t serial = newOwnerSerial();
+    Renderables renderables{ ownerTag(serial) };
+    Lights lights{ ownerTag(serial) };
+    Transforms transforms{ ownerTag(serial) }; ///< of the nodes
     NodeContents atNodes;
-    Deformations deformations;
+    Deformations deformations{ ownerTag(serial) };
     IndirectLightRecord indirectLight; ///< specular: none means no indirect light
     SkyboxRecord skybox;               ///< cube: none means no skybox
 };

@@ -16,7 +16,7 @@ float3 turned(Affine const& world, float3 direction) {
 }
 
 template <class Tag>
-Node nodeOf(SceneData const& scene, Attachments<Tag> const& attachments, Handle<Tag> thing) {
+Node nodeOf(SceneData const& scene, Attachments<Tag> const& attachments, ObjectHandle<Tag> thing) {
     return attachments.isAttached(thing) ? scene.transforms.nodeAt(attachments.nodeOf(thing)) : Node{};
 }
 

@@ -12,7 +12,7 @@ constexpr size_t kPrefetchAhead = 6; // nodes
 
 } // namespace
 
-Transforms::Transforms() {
+Transforms::Transforms(uint16_t owner) : mHandles(owner) {
     mHandles.allocate(); // index 0 belongs to the scene
     growTo(1);
 }

@@ -11,11 +11,11 @@
 ///   Limits  2^20 - 1 nodes, any depth: nothing here is recursive.
 ///   Cost    add, setTransform: O(1). remove: its subtree. setParent: its subtree and the difference in depth. A world
 ///           transform on demand: O(1), or O(depth) while changes are pending. Updates: bench/filament_core/prepare.
-///   Fails   a stale handle, or a cycle, is an assertion. A transform that is not finite counts as zero.
+///   Fails   a stale handle (ObjectHandles::refuse()) and a cycle end the process. A transform that is not finite counts as zero.
 #pragma once
 
-#include "base/Handle.h"
 #include "filament_core/scene/Affine.h"
+#include "filament_core/scene/ObjectHandles.h"
 
 #include <filament/Objects.h>
 
@@ -33,7 +33,7 @@ public:
     /// for it as a parent or as the root of a search.
     static constexpr uint32_t kScene = 0;
 
-    Transforms();
+    explicit Transforms(uint16_t owner = 0);
 
     Node add(Node parent, double4x4 const& parentFromNode, std::string name);
     /// Removes the node and its descendants. Returns the freed slots, parents first, so that callers can drop data kept
@@ -61,8 +61,7 @@ public:
     size_t slotLimit() const { return mLinks.size(); }
 
     uint32_t slotOf(Node node) const {
-        FILAMENT_ASSERT(node && node.index() < mLinks.size() && mLinks[node.index()].node == node,
-                        "the handle names a node that was removed or never added");
+        if (!isAlive(node)) mHandles.refuse(node);
         return node.index();
     }
 
@@ -118,7 +117,7 @@ private:
     void listByDepth();
     void prefetch(uint32_t slot) const;
 
-    HandleAllocator<NodeObject> mHandles;
+    ObjectHandles<NodeObject> mHandles;
     uint32_t mCount = 0;
 
     std::vector<Links> mLinks;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace filament {
 namespace {
@@ -72,9 +73,9 @@ std::vector<Node> nodesOfCopy(Model::Impl const& model, scene::Transforms const&
 } // namespace
 
 struct Animator::Impl {
-    Impl(Model::Impl const& ofModel, Scene::Impl& inScene, Node root)
-            : model(ofModel), scene(inScene), nodes(nodesOfCopy(ofModel, inScene.data.transforms, root)),
-              rest(restPose(ofModel)), pose(rest), other(rest) {}
+    Impl(std::shared_ptr<const Model::Impl> ofModel, Scene& inScene, Node root)
+            : kept(std::move(ofModel)), model(*kept), scene(inScene.impl()), sceneLink(inScene.share()),
+              nodes(nodesOfCopy(model, scene.data.transforms, root)), rest(restPose(model)), pose(rest), other(rest) {}
 
     void sample(uint32_t animation, double seconds, Pose& into) const {
         FILAMENT_ASSERT(animation < model.animations.size(), "an animation is one of the model's");
@@ -124,26 +125,51 @@ struct Animator::Impl {
         });
     }
 
+    std::shared_ptr<const Model::Impl> kept;
     Model::Impl const& model;
-    Scene::Impl& scene;
+    Scene::Impl& scene; ///< while the link is not expired
+    std::weak_ptr<Scene::Impl> sceneLink;
     std::vector<Node> nodes;
     Pose rest, pose, other;
     std::vector<float> weights;
 };
 
-Animator::Animator(Model const& model, Scene& scene, Node root)
-        : mImpl(std::make_unique<Impl>(model.impl(), scene.impl(), root)) {}
+namespace {
+
+/// A function of an animator, from its first line to its last.
+class AnimatorCall {
+public:
+    AnimatorCall(Animator::Impl const* animator, const char* function) : mCall(function) {
+        if (!animator) misused("the animator was moved from; use the one that it was moved to");
+        if (animator->sceneLink.expired()) misused("its scene is gone");
+        mOfScene.emplace(&animator->scene, function);
+    }
+
+private:
+    ApiCall mCall;
+    std::optional<engine::PublicCall> mOfScene; ///< checks engine and thread
+};
+
+} // namespace
+
+Animator::Animator(Model const& model, Scene& scene, Node root) {
+    const auto ofScene = scene.share().lock();
+    const engine::PublicCall call(ofScene, "Animator::Animator(Model, Scene, Node)");
+    mImpl = std::make_unique<Impl>(engine::shareOf(model, ofScene->engine), scene, root);
+}
 Animator::Animator(Animator&&) noexcept = default;
 Animator& Animator::operator=(Animator&&) noexcept = default;
 Animator::~Animator() = default;
 
 void Animator::apply(uint32_t animation, double seconds) {
+    const AnimatorCall call(mImpl.get(), "Animator::apply(uint32_t, double)");
     mImpl->pose.forget();
     mImpl->sample(animation, seconds, mImpl->pose);
     mImpl->write();
 }
 
 void Animator::crossFade(uint32_t first, double firstSeconds, uint32_t second, double secondSeconds, double weight) {
+    const AnimatorCall call(mImpl.get(), "Animator::crossFade(uint32_t, double, uint32_t, double, double)");
     mImpl->pose.forget();
     mImpl->other.forget();
     mImpl->sample(first, firstSeconds, mImpl->pose);
@@ -153,6 +179,7 @@ void Animator::crossFade(uint32_t first, double firstSeconds, uint32_t second, d
 }
 
 void Animator::rest() {
+    const AnimatorCall call(mImpl.get(), "Animator::rest()");
     mImpl->pose = mImpl->rest;
     for (assets::AnimationData const& animation : mImpl->model.animations) {
         for (AnimationChannel const& channel : animation.channels) {

@@ -16,6 +16,9 @@
 #include <utility>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 using assets::kNone;
@@ -243,11 +246,10 @@ private:
 } // namespace
 
 Model::Impl::~Impl() {
+    if (!link.isAlive()) return;
     Engine& owner = Engine::of(engine);
     const auto destroyAll = [&](auto const& objects) {
-        for (auto object : objects) {
-            if (object) owner.destroy(object); // null: memory ran out while the model was loaded
-        }
+        for (auto object : objects) owner.destroy(object);
     };
     destroyAll(instances);
     destroyAll(materials);
@@ -258,30 +260,61 @@ Model::Impl::~Impl() {
     destroyAll(profiles);
 }
 
+std::shared_ptr<const Model::Impl> engine::shareOf(Model const& model, Engine::Impl const& engine) {
+    std::shared_ptr<const Model::Impl> shared = model.share();
+    if (!shared) misused("the model was moved from; use the one that it was moved to");
+    requireSame(engine, shared->engine, "model");
+    return shared;
+}
+
 Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
 Model::Model(Model&&) noexcept = default;
 Model& Model::operator=(Model&&) noexcept = default;
 Model::~Model() = default;
 
-std::string const& Model::name() const { return mImpl->name; }
-Box Model::bounds() const { return mImpl->bounds; }
-Environment const* Model::environment() const { return mImpl->environment ? &*mImpl->environment : nullptr; }
-size_t Model::renderableCount() const { return mImpl->renderables.size(); }
-std::vector<std::string> const& Model::variantNames() const { return mImpl->variants; }
-std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
-uint32_t Model::animationCount() const { return static_cast<uint32_t>(mImpl->animations.size()); }
+std::string const& Model::name() const {
+    const PublicCall call(mImpl, "Model::name()");
+    return mImpl->name;
+}
+Box Model::bounds() const {
+    const PublicCall call(mImpl, "Model::bounds()");
+    return mImpl->bounds;
+}
+Environment const* Model::environment() const {
+    const PublicCall call(mImpl, "Model::environment()");
+    return mImpl->environment ? &*mImpl->environment : nullptr;
+}
+size_t Model::renderableCount() const {
+    const PublicCall call(mImpl, "Model::renderableCount()");
+    return mImpl->renderables.size();
+}
+std::vector<std::string> const& Model::variantNames() const {
+    const PublicCall call(mImpl, "Model::variantNames()");
+    return mImpl->variants;
+}
+std::vector<std::string> const& Model::warnings() const {
+    const PublicCall call(mImpl, "Model::warnings()");
+    return mImpl->warnings;
+}
+uint32_t Model::animationCount() const {
+    const PublicCall call(mImpl, "Model::animationCount()");
+    return static_cast<uint32_t>(mImpl->animations.size());
+}
 
 std::string const& Model::animationName(uint32_t animation) const {
+    const PublicCall call(mImpl, "Model::animationName(uint32_t)");
     FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
     return mImpl->animations[animation].name;
 }
 
 double Model::animationSeconds(uint32_t animation) const {
+    const PublicCall call(mImpl, "Model::animationSeconds(uint32_t)");
     FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
     return mImpl->animations[animation].durationSeconds;
 }
 
 Result<uint32_t> Model::findAnimation(std::string_view name) const {
+    const PublicCall call(mImpl, "Model::findAnimation(string_view)");
     std::vector<std::string_view> names;
     for (assets::AnimationData const& animation : mImpl->animations) {
         if (animation.name == name) return static_cast<uint32_t>(names.size());
@@ -318,6 +351,7 @@ Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path 
 } // namespace
 
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    const PublicCall call(engine, "loadGltf(Engine, path)", path.native());
     auto model = orOutOfMemory("glTF", path.native(), [&] { return load(engine, path, options); });
     if (!model) return model.error();
     return Model(std::move(*model));

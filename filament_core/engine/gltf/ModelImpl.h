@@ -10,6 +10,7 @@
 #include <filament/Gltf.h>
 #include <filament/Light.h>
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -47,10 +48,11 @@ struct Model::Impl {
         uint32_t node = kRoot;
     };
 
-    explicit Impl(Engine& owner) : engine(owner.impl()) {}
+    explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) {}
     ~Impl();
 
-    Engine::Impl& engine;
+    Engine::Impl& engine; ///< while the link is alive
+    engine::EngineLink link;
     std::string name;
     std::vector<PartNode> nodes; ///< parents before children
     std::vector<PartSkin> skins;
@@ -70,4 +72,10 @@ struct Model::Impl {
     std::vector<MaterialInstance> instances;
 };
 
+namespace engine {
+
+/// A model for something of `engine`, which keeps it. Ends the process if it was moved from, or is of another engine.
+std::shared_ptr<const Model::Impl> shareOf(Model const& model, Engine::Impl const& engine);
+
+} // namespace engine
 } // namespace filament

@@ -7,6 +7,9 @@
 #include <cmath>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 bool isFinite(float3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -86,15 +89,14 @@ MorphTargets Engine::Impl::createMorphTargets(MorphTargetsDesc const& desc) {
     return draft.keep();
 }
 
-void Engine::Impl::destroy(MorphTargets targets) {
-    if (const Texture texture = morphTargets.get(targets).texture) destroy(texture);
-    morphTargets.remove(targets);
-}
-
 MorphTargets Engine::create(MorphTargetsDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(MorphTargetsDesc)", desc.name);
     return mImpl->orNone("morph targets", desc.name, [&] { return mImpl->createMorphTargets(desc); });
 }
 
-void Engine::destroy(MorphTargets targets) { mImpl->destroy(targets); }
+void Engine::destroy(MorphTargets targets) {
+    const PublicCall call(mImpl, "Engine::destroy(MorphTargets)");
+    mImpl->retire(mImpl->morphTargets, targets);
+}
 
 } // namespace filament

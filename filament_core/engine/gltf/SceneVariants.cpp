@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The materials of renderables: set one by one, or by the variants of their model.
 #include "filament_core/assets/gltf/ModelVariants.h"
+#include "filament_core/engine/RequiredAttributes.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
 
 #include <algorithm>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 constexpr uint32_t kNoVariant = ~0u;
@@ -19,10 +23,17 @@ MaterialInstance materialIn(Model::Impl::PartRenderable const& part, uint32_t va
 } // namespace
 
 void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
-    scene::setMaterial(mImpl->changed().renderables, renderable, mImpl->engine.instances.get(material));
+    const PublicCall call(mImpl, "Scene::setMaterial(Renderable, MaterialInstance)");
+    scene::Renderables& renderables = mImpl->changedUses().renderables;
+    scene::MaterialInstance const& instance = mImpl->engine.instances.get(material);
+    const uint32_t drawable = renderables.drawable[renderables.index.at(renderable)];
+    const uint32_t layout = renderables.drawables[drawable].geometry.layout;
+    engine::requireAttributes(*instance.material, mImpl->engine.layouts[layout].vertices);
+    scene::setMaterial(renderables, renderable, instance);
 }
 
 Result<void> Scene::setVariant(Node copy, std::string_view variant) {
+    const PublicCall call(mImpl, "Scene::setVariant(Node, string_view)");
     std::string const& name = mImpl->data.transforms.name(copy);
     const auto found = std::ranges::find(mImpl->copies, copy, &Impl::ModelCopy::root);
     if (found == mImpl->copies.end()) {

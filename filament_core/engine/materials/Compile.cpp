@@ -6,6 +6,9 @@
 #include <algorithm>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 using engine::CompileJob;
@@ -139,10 +142,12 @@ Result<Compilation> Engine::Impl::compile(Material handle, CompileDesc const& de
 }
 
 Result<Compilation> Engine::compile(Material material, CompileDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::compile(Material, CompileDesc)");
     return orOutOfMemory("compile", {}, [&] { return mImpl->compile(material, desc); });
 }
 
 CompileProgress Engine::progress(Compilation compilation) {
+    const PublicCall call(mImpl, "Engine::progress(Compilation)");
     try {
         mImpl->advanceCompilation();
     } catch (std::bad_alloc const&) {

@@ -16,6 +16,11 @@ namespace {
 
 using backend::ConstantValue;
 
+constexpr uint32_t bitOf(Attribute attribute) { return 1u << static_cast<uint32_t>(attribute); }
+
+/// Constants of the materials for glTF say which of these a mesh has.
+constexpr uint32_t kOptionalInGltf = bitOf(Attribute::Color) | bitOf(Attribute::Uv0) | bitOf(Attribute::Uv1);
+
 const char* typeName(ConstantValue::Type type) {
     switch (type) {
     case ConstantValue::Type::Bool:
@@ -53,7 +58,8 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     if (!package) {
         return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
     }
-    if (!isTrusted(desc.package)) {
+    const bool isEngines = isTrusted(desc.package);
+    if (!isEngines) {
         if (Result<void> checked = checkSpirv(*package); !checked) {
             return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
         }
@@ -63,6 +69,7 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     scene::Material material;
     material.name = desc.name.empty() ? package->name : desc.name;
     material.package = std::move(*package);
+    if (isEngines && material.package.name.starts_with("gltf_")) material.optionalAttributes = kOptionalInGltf;
     material.constants = std::move(*constants);
     shader::removeUnusedTextures(material.package, material.constants);
     material.description = describeMaterial(material);

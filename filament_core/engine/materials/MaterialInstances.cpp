@@ -13,6 +13,9 @@
 #include <utility>
 
 namespace filament {
+
+using engine::PublicCall;
+
 namespace {
 
 using namespace backend;
@@ -28,7 +31,7 @@ Error unknownParameter(scene::Material const& material, std::string_view name) {
 void Engine::Impl::useTextureFilter(TextureFilter filter) {
     bool& isInUse = filtersInUse[static_cast<size_t>(filter)];
     if (isInUse) return;
-    instances.forEachHandle([&](MaterialInstance handle, scene::MaterialInstance& instance) {
+    instances.forEachHeld([&](MaterialInstance handle, scene::MaterialInstance& instance) {
         if (instance.textures.empty()) return;
         markDirty(handle);
         instance.lacksGroups = true;
@@ -63,7 +66,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
 
 void Engine::Impl::markDirty(MaterialInstance handle) {
     ++instanceChanges;
-    scene::MaterialInstance const& instance = instances.get(handle);
+    scene::MaterialInstance const& instance = instances.held(handle);
     if (!instance.isDirty()) dirtyInstances.push_back(handle);
 }
 
@@ -115,7 +118,7 @@ Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, T
     if (!shown) shown = textureHandle(unsetTexture(*parameter));
     markDirty(handle);
     instance.textures[engine::textureSlot(package, *parameter)] = { shown, sampler };
-    instance.texturesDirty = true;
+    instance.texturesDirty = aUseEnded = true;
     return {};
 }
 
@@ -177,23 +180,28 @@ void Engine::Impl::destroyGroups(scene::MaterialInstance& instance, CommandBuffe
 }
 
 MaterialInstance Engine::createInstance(Material material, std::string name) {
+    const PublicCall call(mImpl, "Engine::createInstance(Material, string)");
     return mImpl->orNone("material instance", {}, [&] { return mImpl->createInstance(material, std::move(name)); });
 }
 
 Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterValue)", parameter);
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, value); });
 }
 
 Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                          uint32_t first) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterArray, uint32_t)", parameter);
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, values, first); });
 }
 
 Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, Texture, Sampler)", parameter);
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
 }
 
 Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
+    const PublicCall call(mImpl, "Engine::setDoubleSided(MaterialInstance, bool)");
     scene::MaterialInstance& instance = mImpl->instances.get(handle);
     shader::MaterialPackage const& package = instance.material->package;
     Parameter const* parameter = package.findParameter(shader::kDoubleSidedParameter);
@@ -212,6 +220,7 @@ Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
 }
 
 Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) {
+    const PublicCall call(mImpl, "Engine::setMaskThreshold(MaterialInstance, float)");
     scene::Material const& material = *mImpl->instances.get(handle).material;
     if (!material.package.findParameter(shader::kMaskThresholdParameter)) {
         return fail(ErrorCode::InvalidArgument, "material '{}' has no mask threshold: only blending : masked cuts out",
@@ -225,10 +234,12 @@ Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) 
 }
 
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
+    const PublicCall call(mImpl, "Engine::setCullingDisabled(MaterialInstance, bool)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.cullingDisabled = disabled; });
 }
 
 void Engine::setCulling(MaterialInstance handle, Culling culling) {
+    const PublicCall call(mImpl, "Engine::setCulling(MaterialInstance, Culling)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) {
         raster.culling = culling;
         raster.cullingDisabled = false;
@@ -236,34 +247,33 @@ void Engine::setCulling(MaterialInstance handle, Culling culling) {
 }
 
 void Engine::setShadowCulling(MaterialInstance handle, std::optional<Culling> culling) {
+    const PublicCall call(mImpl, "Engine::setShadowCulling(MaterialInstance, optional<Culling>)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.shadowCulling = culling; });
 }
 
 void Engine::setColorWrite(MaterialInstance handle, bool writes) {
+    const PublicCall call(mImpl, "Engine::setColorWrite(MaterialInstance, bool)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.colorWrite = writes; });
 }
 
 void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
+    const PublicCall call(mImpl, "Engine::setDepthWrite(MaterialInstance, bool)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.depthWrite = writes; });
 }
 
 void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
+    const PublicCall call(mImpl, "Engine::setDepthCulling(MaterialInstance, bool)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.depthCulling = tests; });
 }
 
 void Engine::setStencil(MaterialInstance handle, std::optional<StencilState> state) {
+    const PublicCall call(mImpl, "Engine::setStencil(MaterialInstance, optional<StencilState>)");
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.stencil = state; });
 }
 
-void Engine::Impl::destroy(MaterialInstance handle) {
-    scene::MaterialInstance& instance = instances.get(handle);
-    std::erase(dirtyInstances, handle);
-    destroyGroups(instance, pending);
-    if (instance.buffer) stream->destroy(pending, instance.buffer);
-    --instance.material->instanceCount;
-    instances.remove(handle);
+void Engine::destroy(MaterialInstance handle) {
+    const PublicCall call(mImpl, "Engine::destroy(MaterialInstance)");
+    mImpl->destroy(handle);
 }
-
-void Engine::destroy(MaterialInstance handle) { mImpl->destroy(handle); }
 
 } // namespace filament

@@ -13,6 +13,8 @@
 
 namespace filament {
 
+using engine::PublicCall;
+
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = engine::loadMaterial(desc);
     if (!loaded) return loaded.error();
@@ -83,19 +85,18 @@ scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package
 }
 
 Result<Material> Engine::create(MaterialDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(MaterialDesc)", desc.name);
     return orOutOfMemory("material", desc.name, [&] { return mImpl->createMaterial(desc); });
 }
 
 MaterialDescription const& Engine::describe(Material material) const {
+    const PublicCall call(mImpl, "Engine::describe(Material)");
     return mImpl->materials.get(material).description;
 }
 
 void Engine::destroy(Material material) {
-    scene::Material& state = mImpl->materials.get(material);
-    FILAMENT_ASSERT(state.instanceCount == 0, "the instances of a material are destroyed before it");
-    mImpl->compilations.forget(state);
-    mImpl->pipelines.forget(mImpl->pending, state);
-    mImpl->removeMaterial(material);
+    const PublicCall call(mImpl, "Engine::destroy(Material)");
+    mImpl->retire(mImpl->materials, material);
 }
 
 } // namespace filament

@@ -3,6 +3,7 @@
 #include "base/Result.h"
 #include "base/Suggest.h"
 #include "base/math/Half.h"
+#include "filament_core/engine/PublicCall.h"
 
 #include <filament/QualityCosts.h>
 #include <filament/Renderer.h>
@@ -246,6 +247,7 @@ Result<void> check(CostMeasurement const& measurement) {
 
 Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, View const& view,
                                          CostMeasurement const& measurement) {
+    const engine::PublicCall call(engine, "measureQualityCosts(Engine, Scene, View, CostMeasurement)");
     if (const Result<void> checked = check(measurement); !checked) return checked.error();
     CostMeter meter(engine, scene, view);
     if (const Result<void> drawn = meter.drawExact(); !drawn) return drawn.error();

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Engine: one device, its driver thread, its workers, and every object created from them.
-///   Thread    one thread per engine (the app thread); several engines may run on several threads.
+///   Thread    one thread per engine (the app thread): the one that creates it, unless useOnThisThread() says otherwise.
+///             Several engines may run on several threads.
 ///   Wait      creating objects never waits for the driver thread. Engine::create() and the destructor do.
 ///   Errors    Engine::create() says why there is no device and what to install. Later, takeErrors() returns the errors
 ///             of the device (out of memory, a rejected shader), one line each; objects that depend on them are not
 ///             drawn.
 ///   Memory    if host memory runs out, functions that return a Result return OutOfMemory. Functions that return a
 ///             handle return none and add a line to takeErrors(). Nothing else changes. Destroying always works.
+///   Life      an object may be destroyed at any time: its handle ends at once, and what it names lives on until nothing
+///             uses it any more: no renderable, material instance, environment or render target.
+///   Misuse    a null handle, one whose object was destroyed, one of another engine or scene, another thread, or an
+///             argument out of its range ends the process with one line: the function that was called, what for, and
+///             what is wrong. destroy() of a null handle does nothing.
 ///   Bits      with the default options the same calls give the same image bits with Mesa's CPU drivers for Vulkan and
 ///             OpenGL ES, for any number of workers.
 #pragma once
@@ -22,6 +28,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace filament {
@@ -106,8 +113,13 @@ public:
     static Result<Engine> create(EngineOptions const& options = {});
     Engine(Engine&&) noexcept;
     Engine& operator=(Engine&&) noexcept;
-    /// Waits for the device. A warning names objects that are still alive, and they are freed.
+    /// Waits for the device. A warning names objects that are still alive, and they are freed. What outlives its engine
+    /// may still be destroyed, but not be used.
     ~Engine();
+
+    /// The calling thread becomes the app thread, for this engine and all that belongs to it. The one before must have
+    /// stopped using them.
+    void useOnThisThread();
 
     DeviceDescription const& device() const;
     EngineStatistics statistics() const;
@@ -177,11 +189,12 @@ public:
     /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 
+    // Their handles end at once; what still uses the objects keeps them. A null handle: nothing happens.
     void destroy(Texture texture);
     void destroy(VertexBuffer buffer);
     void destroy(IndexBuffer buffer);
     void destroy(MorphTargets targets);
-    void destroy(Material material); ///< its instances must be destroyed first
+    void destroy(Material material); ///< its instances keep it
     void destroy(MaterialInstance instance);
     void destroy(IndirectLight light);
     void destroy(Skybox skybox);
@@ -195,23 +208,24 @@ public:
     struct Impl;
     Impl& impl() { return *mImpl; } ///< for the engine's own files; its address stays when the Engine is moved
     static Engine& of(Impl& impl);  ///< the Engine that holds it now
+    std::weak_ptr<Impl> share() const { return mImpl; }
 
 private:
-    explicit Engine(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> mImpl;
+    explicit Engine(std::shared_ptr<Impl> impl);
+    std::shared_ptr<Impl> mImpl; ///< shared with nobody; what belongs to the engine sees when it ends
 };
 
-/// Owns one object and destroys it at the end of the scope. The engine must outlive it, but may be moved.
+/// Owns one object and destroys it at the end of the scope. The engine may be moved, and may end before it.
 template <class T>
 class Owned {
 public:
     Owned() = default;
-    Owned(Engine& engine, T object) : mEngine(&engine.impl()), mObject(object) {}
-    Owned(Owned&& other) noexcept : mEngine(other.mEngine), mObject(other.release()) {}
+    Owned(Engine& engine, T object) : mEngine(engine.share()), mObject(object) {}
+    Owned(Owned&& other) noexcept : mEngine(std::move(other.mEngine)), mObject(other.release()) {}
     Owned& operator=(Owned&& other) noexcept {
         if (this != &other) {
             reset();
-            mEngine = other.mEngine;
+            mEngine = std::move(other.mEngine);
             mObject = other.release();
         }
         return *this;
@@ -226,11 +240,13 @@ public:
         return object;
     }
     void reset() {
-        if (mObject) Engine::of(*mEngine).destroy(release());
+        const T object = release();
+        if (const std::shared_ptr<Engine::Impl> engine = mEngine.lock(); engine && object)
+            Engine::of(*engine).destroy(object);
     }
 
 private:
-    Engine::Impl* mEngine = nullptr;
+    std::weak_ptr<Engine::Impl> mEngine;
     T mObject{};
 };
 

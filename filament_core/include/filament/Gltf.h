@@ -2,7 +2,7 @@
 /// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers.
 ///   Errors  NotFound, Unreadable, Corrupt, Unsupported: one line with file, element (accessors[3], images[0]) and
 ///           reason.
-///   Life    the Model owns its buffers, textures and materials; it must outlive the scenes it was added to.
+///   Life    the Model owns its buffers, textures and materials; copies of it in scenes keep what they need of it.
 #pragma once
 
 #include <filament/Engine.h>
@@ -62,11 +62,11 @@ public:
     Result<uint32_t> findAnimation(std::string_view name) const;
 
     struct Impl;
-    Impl const& impl() const { return *mImpl; }
+    std::shared_ptr<const Impl> share() const { return mImpl; } ///< for the engine's own files
     explicit Model(std::unique_ptr<Impl> impl);
 
 private:
-    std::unique_ptr<Impl> mImpl;
+    std::shared_ptr<Impl> mImpl; ///< copies in scenes and animators share it
 };
 
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options = {});

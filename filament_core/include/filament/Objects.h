@@ -24,27 +24,27 @@
 
 namespace filament {
 
-using Texture = Handle<struct TextureObject>;
-using VertexBuffer = Handle<struct VertexBufferObject>;
-using IndexBuffer = Handle<struct IndexBufferObject>;
-using Material = Handle<struct MaterialObject>;
-using MaterialInstance = Handle<struct MaterialInstanceObject>;
-using IndirectLight = Handle<struct IndirectLightObject>;
-using MorphTargets = Handle<struct MorphTargetsObject>;
-using LightProfile = Handle<struct LightProfileObject>;
-using Skybox = Handle<struct SkyboxObject>;
-using RenderTarget = Handle<struct RenderTargetObject>;
-using SwapChain = Handle<struct SwapChainObject>;
+using Texture = ObjectHandle<struct TextureObject>;
+using VertexBuffer = ObjectHandle<struct VertexBufferObject>;
+using IndexBuffer = ObjectHandle<struct IndexBufferObject>;
+using Material = ObjectHandle<struct MaterialObject>;
+using MaterialInstance = ObjectHandle<struct MaterialInstanceObject>;
+using IndirectLight = ObjectHandle<struct IndirectLightObject>;
+using MorphTargets = ObjectHandle<struct MorphTargetsObject>;
+using LightProfile = ObjectHandle<struct LightProfileObject>;
+using Skybox = ObjectHandle<struct SkyboxObject>;
+using RenderTarget = ObjectHandle<struct RenderTargetObject>;
+using SwapChain = ObjectHandle<struct SwapChainObject>;
 
 /// Refers to a request to Engine::compile().
 struct Compilation {
     uint64_t id = 0;
     explicit operator bool() const { return id != 0; }
 };
-using Renderable = Handle<struct RenderableObject>; ///< of one Scene
-using Light = Handle<struct LightObject>;           ///< of one Scene
-using Skin = Handle<struct SkinObject>;             ///< of one Scene
-using Node = Handle<struct NodeObject>;             ///< of one Scene
+using Renderable = ObjectHandle<struct RenderableObject>; ///< of one Scene
+using Light = ObjectHandle<struct LightObject>;           ///< of one Scene
+using Skin = ObjectHandle<struct SkinObject>;             ///< of one Scene
+using Node = ObjectHandle<struct NodeObject>;             ///< of one Scene
 
 /// Bit n: layer n. A view shows the renderables of its layers (View::visibleLayers): a renderable in view is drawn, and
 /// casts shadows, if it is in one of them. Lights have no layers, but LightChannels.

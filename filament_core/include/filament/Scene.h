@@ -4,7 +4,8 @@
 ///   Thread  the app thread, also for const functions: bounds() and Renderer::render() first update transforms. Do not
 ///           change the scene while Renderer::render runs (it returns once it has read the scene).
 ///   Memory  one array per field; adding and removing are O(1).
-///   Life    the scene does not own buffers, materials or models: they must outlive it, or be removed from it first.
+///   Life    what the scene shows may be destroyed: the scene keeps it until it is removed or replaced. Handles of a scene
+///           name things of that scene only.
 #pragma once
 
 #include <filament/Box.h>
@@ -157,9 +158,10 @@ public:
     struct Impl;
     Impl& impl() { return *mImpl; }
     Impl const& impl() const { return *mImpl; }
+    std::weak_ptr<Impl> share() { return mImpl; }
 
 private:
-    std::unique_ptr<Impl> mImpl;
+    std::shared_ptr<Impl> mImpl; ///< shared with nobody; animators see when it ends
 };
 
 } // namespace filament

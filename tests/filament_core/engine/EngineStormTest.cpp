@@ -129,7 +129,13 @@ TEST_P(EngineStorm, AnEngineRendersOnWhicheverThreadHasItsTurn) {
     auto engine = makeNullEngine(GetParam());
     ASSERT_TRUE(engine);
     Crowd crowd(*engine);
-    for (int turn = 0; turn < turns; ++turn) std::jthread([&] { crowd.render(1); }).join();
+    for (int turn = 0; turn < turns; ++turn) {
+        std::jthread([&] {
+            engine->useOnThisThread();
+            crowd.render(1);
+        }).join();
+    }
+    engine->useOnThisThread();
     EXPECT_EQ(crowd.hashes(), renderAlone(0, turns));
 }
 

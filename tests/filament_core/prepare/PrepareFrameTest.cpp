@@ -47,11 +47,11 @@ TEST_F(PrepareFrameTest, DropsWhatTheCameraCannotSeeAndSaysWhy) {
 
 TEST_F(PrepareFrameTest, PositionsAreRelativeToTheCameraAtAnyDistanceFromTheOrigin) {
     auto* opaque = material(shader::Blending::Opaque);
-    add({ 0.25, 0, 0 }, opaque);
+    const Renderable box = add({ 0.25, 0, 0 }, opaque);
     const shader::ObjectData reference = objectsOf(prepare())[0];
 
     const double3 far(1e7, -3e6, 5e6);
-    setTransform(scene, Renderable{ Renderable::make(0, 1) }, [&] {
+    setTransform(scene, box, [&] {
         double4x4 world(1.0);
         world[3] = double4(far + double3(0.25, 0, 0), 1);
         return world;

@@ -232,12 +232,12 @@ TEST_F(TransformsDeathTest, NamesTheRuleOfAStaleHandle) {
     const Node reused = add({}, 0);
     EXPECT_EQ(reused.index(), b.index());
     for (const Node stale : { a, b }) {
-        EXPECT_DEATH(transforms.setTransform(stale, double4x4(1.0)), "removed or never added");
-        EXPECT_DEATH(transforms.add(stale, double4x4(1.0), {}), "removed or never added");
-        EXPECT_DEATH(transforms.remove(stale), "removed or never added");
+        EXPECT_DEATH(transforms.setTransform(stale, double4x4(1.0)), "the node was removed from the scene");
+        EXPECT_DEATH(transforms.add(stale, double4x4(1.0), {}), "the node was removed from the scene");
+        EXPECT_DEATH(transforms.remove(stale), "the node was removed from the scene");
     }
-    EXPECT_DEATH(transforms.remove({}), "removed or never added");
-    EXPECT_DEATH(transforms.worldFromNode(Node::make(12345, 1)), "removed or never added");
+    EXPECT_DEATH(transforms.remove({}), "the node is null");
+    EXPECT_DEATH(transforms.worldFromNode(Node::make(12345, 1)), "the node was removed from the scene");
 }
 
 } // namespace

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/RequiredAttributes.h"
+
+#include "base/ApiCall.h"
+
+#include <filament/Objects.h>
+
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+
+namespace filament::engine {
+namespace {
+
+std::string nameOf(uint32_t location) {
+    constexpr const char* kNames[] = { "Position", "Tangents", "Color", "Uv0", "Uv1", "Joints", "Weights" };
+    if (location < std::size(kNames)) return kNames[location];
+    return fmt::format("Custom0 + {}", location - static_cast<uint32_t>(Attribute::Custom0));
+}
+
+std::string namesOf(uint32_t attributes) {
+    std::string names;
+    for (uint32_t location = 0; attributes >> location != 0; ++location)
+        if (attributes >> location & 1) names += (names.empty() ? "" : ", ") + nameOf(location);
+    return names;
+}
+
+} // namespace
+
+void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices) {
+    uint32_t missing = material.package.requiredAttributes & ~material.optionalAttributes;
+    for (backend::VertexAttribute const& attribute : std::span(vertices.attributes).first(vertices.attributeCount))
+        missing &= ~(1u << attribute.location);
+    if (missing != 0)
+        misused(fmt::format("the vertex buffer lacks what material '{}' reads: {}", material.name, namesOf(missing)));
+}
+
+} // namespace filament::engine

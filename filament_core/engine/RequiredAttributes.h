@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// RequiredAttributes: whether vertices have what a material reads.
+///   Fails   ends the process, with the material and the names of what is missing: shaders would read zeros.
+///   Thread  any; pure.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/scene/Materials.h"
+
+namespace filament::engine {
+
+void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
+
+} // namespace filament::engine

@@ -1,0 +1,593 @@
+// SPDX-License-Identifier: Apache-2.0
+// Size: a row for each public function that takes a handle.
+// Every public function that takes a handle, with a handle that is null, whose object is gone, or of another engine or
+// scene: the process ends with one line that names the function, the kind of object, its name, and what is wrong. And
+// functions on another thread, of objects that were moved from, and of those that outlived their engine.
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
+
+#include <filament/Animator.h>
+#include <filament/LightProfile.h>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace filament {
+namespace {
+
+constexpr const char* kProfile = "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n100 50\n";
+constexpr const char* kPaint = R"(material { name : paint, shadingModel : unlit,
+    parameters : [ { type : float4, name : tint }, { type : sampler2d, name : picture } ] }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
+    material.baseColor = materialParams.tint + texture(materialParams_picture, vec2(0.5)); } })";
+
+/// One of everything that a handle can name.
+struct Handles {
+    Texture texture, depth;
+    VertexBuffer vertices;
+    IndexBuffer indices;
+    MorphTargets targets;
+    Material material;
+    MaterialInstance instance;
+    IndirectLight light;
+    Skybox skybox;
+    LightProfile profile;
+    RenderTarget target;
+    SwapChain chain;
+    Renderable renderable;
+    Light lamp;
+    Skin skin;
+    Node node;
+};
+
+template <class T>
+T made(T handle) {
+    EXPECT_TRUE(handle);
+    return handle;
+}
+
+class World {
+public:
+    World() : engine(std::move(*Engine::create({ .backend = Backend::Null, .workers = 0 }))), scene(engine) {
+        all = make(engine, scene);
+    }
+    ~World() { destroy(engine, scene, all); }
+
+    static Handles make(Engine& engine, Scene& scene) {
+        Handles all;
+        makeResources(engine, all);
+        all.node = made(scene.add(NodeDesc{ .name = "arm" }));
+        all.renderable =
+                made(scene.add({ .vertices = all.vertices, .indices = all.indices, .material = all.instance }));
+        all.lamp = made(scene.add(PointLight{}));
+        all.skin = made(scene.add(SkinDesc{ .boneCount = 1 }));
+        return all;
+    }
+
+    static void destroy(Engine& engine, Scene& scene, Handles const& all) {
+        scene.remove(all.renderable);
+        scene.remove(all.lamp);
+        scene.remove(all.skin);
+        scene.remove(all.node);
+        engine.destroy(all.target), engine.destroy(all.chain), engine.destroy(all.light), engine.destroy(all.skybox);
+        engine.destroy(all.instance), engine.destroy(all.material), engine.destroy(all.targets);
+        engine.destroy(all.vertices), engine.destroy(all.indices), engine.destroy(all.profile);
+        engine.destroy(all.texture), engine.destroy(all.depth);
+    }
+
+    Engine engine;
+    Scene scene;
+    Handles all;
+
+private:
+    static void makeResources(Engine& engine, Handles& all) {
+        const std::array<float3, 3> points{ float3(0), float3(1, 0, 0), float3(0, 1, 0) };
+        const std::array<uint16_t, 3> order{ 0, 1, 2 };
+        all.texture = made(engine.create(TextureDesc{ .width = 4, .height = 4, .renderable = true, .name = "wood" }));
+        all.depth = made(engine.create(
+                TextureDesc{ .format = Format::R32F, .width = 4, .height = 4, .renderable = true, .name = "depths" }));
+        all.vertices =
+                made(engine.create(VertexBufferDesc{ .vertexCount = 3,
+                                                     .stride = sizeof(float3),
+                                                     .attributes = { { Attribute::Position, VertexFormat::Float3, 0 } },
+                                                     .data = std::as_bytes(std::span(points)),
+                                                     .name = "corners" }));
+        all.indices = made(engine.create(
+                IndexBufferDesc{ .indexCount = 3, .data = std::as_bytes(std::span(order)), .name = "order" }));
+        all.targets = made(engine.create(
+                MorphTargetsDesc{ .vertexCount = 3, .targets = { { .positions = points } }, .name = "smile" }));
+        all.material = made(*engine.create(MaterialDesc{ .package = test::compiledPackage(kPaint), .name = "paint" }));
+        all.instance = made(engine.createInstance(all.material, "red"));
+        all.light = made(engine.create(IndirectLightDesc{ .specular = all.texture, .name = "day" }));
+        all.skybox = made(engine.create(SkyboxDesc{ .cube = all.texture, .name = "blue" }));
+        all.profile = made(*engine.create(LightProfileDesc{
+                .file = std::as_bytes(std::span(kProfile, std::strlen(kProfile))), .name = "spotty" }));
+        all.target = made(engine.create(RenderTargetDesc{ .color = all.texture, .name = "mirror" }));
+        all.chain = made(engine.create(SwapChainDesc{ .size = { 4, 4 }, .name = "shop" }));
+    }
+};
+
+/// A function, and what it is given besides the bad handle: `good` is all of the world's own.
+struct Use {
+    const char* call;
+    const char* kind;
+    const char* name; ///< of the object that is gone; of a scene: its handles only
+    std::function<void(World& world, Handles const& bad)> run;
+    bool acceptsNull = false;
+};
+
+RenderableDesc descOf(Handles const& all) {
+    return { .vertices = all.vertices, .indices = all.indices, .material = all.instance, .name = "ball" };
+}
+
+RenderableDesc with(World& world, std::function<void(RenderableDesc&)> change) {
+    RenderableDesc desc = descOf(world.all);
+    change(desc);
+    return desc;
+}
+
+std::vector<Use> usesOfTextures() {
+    return {
+        { "Engine::destroy(Texture)", "texture", "wood",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.texture); }, true },
+        { "Engine::set(MaterialInstance, string_view, Texture, Sampler) of 'picture'", "texture", "wood",
+          [](World& world, Handles const& bad) {
+              (void)world.engine.set(world.all.instance, "picture", bad.texture);
+          } },
+        { "Engine::create(IndirectLightDesc) of 'x'", "texture", "wood",
+          [](World& world, Handles const& bad) {
+              world.engine.create(IndirectLightDesc{ .specular = bad.texture, .name = "x" });
+          } },
+        { "Engine::create(IndirectLightDesc) of 'x'", "texture", "wood",
+          [](World& world, Handles const& bad) {
+              world.engine.create(
+                      IndirectLightDesc{ .specular = world.all.texture, .irradiance = bad.texture, .name = "x" });
+          },
+          true },
+        { "Engine::create(SkyboxDesc) of 'x'", "texture", "wood",
+          [](World& world, Handles const& bad) {
+              world.engine.create(SkyboxDesc{ .cube = bad.texture, .name = "x" });
+          } },
+        { "Engine::create(RenderTargetDesc) of 'x'", "texture", "depths",
+          [](World& world, Handles const& bad) {
+              world.engine.create(RenderTargetDesc{ .color = world.all.texture, .depth = bad.depth, .name = "x" });
+          },
+          true },
+    };
+}
+
+std::vector<Use> usesOfGeometry() {
+    return {
+        { "Engine::destroy(VertexBuffer)", "vertex buffer", "corners",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.vertices); }, true },
+        { "Engine::destroy(IndexBuffer)", "index buffer", "order",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.indices); }, true },
+        { "Engine::destroy(MorphTargets)", "morph targets", "smile",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.targets); }, true },
+        { "Scene::add(RenderableDesc) of 'ball'", "vertex buffer", "corners",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.vertices = bad.vertices; }));
+          } },
+        { "Scene::add(RenderableDesc) of 'ball'", "index buffer", "order",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.indices = bad.indices; }));
+          } },
+        { "Scene::add(RenderableDesc) of 'ball'", "morph targets", "smile",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.morphTargets = bad.targets; }));
+          },
+          true },
+        { "Engine::compile(Material, CompileDesc)", "vertex buffer", "corners",
+          [](World& world, Handles const& bad) {
+              (void)world.engine.compile(world.all.material, { .vertices = { bad.vertices } });
+          } },
+    };
+}
+
+std::vector<Use> usesOfMaterials() {
+    return {
+        { "Engine::destroy(Material)", "material", "paint",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.material); }, true },
+        { "Engine::compile(Material, CompileDesc)", "material", "paint",
+          [](World& world, Handles const& bad) { (void)world.engine.compile(bad.material); } },
+        { "Engine::createInstance(Material, string)", "material", "paint",
+          [](World& world, Handles const& bad) { world.engine.createInstance(bad.material); } },
+        { "Engine::describe(Material)", "material", "paint",
+          [](World& world, Handles const& bad) { (void)world.engine.describe(bad.material); } },
+    };
+}
+
+std::vector<Use> usesOfInstances() {
+    const auto use = [](const char* call, std::function<void(Engine&, MaterialInstance)> run,
+                        bool acceptsNull = false) {
+        return Use{ call, "material instance", "red",
+                    [run = std::move(run)](World& world, Handles const& bad) { run(world.engine, bad.instance); },
+                    acceptsNull };
+    };
+    return {
+        use(
+                "Engine::destroy(MaterialInstance)", [](Engine& e, MaterialInstance bad) { e.destroy(bad); }, true),
+        use("Engine::set(MaterialInstance, string_view, ParameterValue) of 'tint'",
+            [](Engine& e, MaterialInstance bad) { (void)e.set(bad, "tint", ParameterValue(float4(1))); }),
+        use("Engine::set(MaterialInstance, string_view, ParameterArray, uint32_t) of 'tint'",
+            [](Engine& e, MaterialInstance bad) {
+                (void)e.set(bad, "tint", ParameterArray(std::span<const float4>()));
+            }),
+        use("Engine::set(MaterialInstance, string_view, Texture, Sampler) of 'picture'",
+            [](Engine& e, MaterialInstance bad) { (void)e.set(bad, "picture", Texture{}); }),
+        use("Engine::setDoubleSided(MaterialInstance, bool)",
+            [](Engine& e, MaterialInstance bad) { (void)e.setDoubleSided(bad, true); }),
+        use("Engine::setCullingDisabled(MaterialInstance, bool)",
+            [](Engine& e, MaterialInstance bad) { e.setCullingDisabled(bad, true); }),
+        use("Engine::setCulling(MaterialInstance, Culling)",
+            [](Engine& e, MaterialInstance bad) { e.setCulling(bad, Culling::None); }),
+        use("Engine::setShadowCulling(MaterialInstance, optional<Culling>)",
+            [](Engine& e, MaterialInstance bad) { e.setShadowCulling(bad, {}); }),
+        use("Engine::setColorWrite(MaterialInstance, bool)",
+            [](Engine& e, MaterialInstance bad) { e.setColorWrite(bad, true); }),
+        use("Engine::setDepthWrite(MaterialInstance, bool)",
+            [](Engine& e, MaterialInstance bad) { e.setDepthWrite(bad, true); }),
+        use("Engine::setDepthCulling(MaterialInstance, bool)",
+            [](Engine& e, MaterialInstance bad) { e.setDepthCulling(bad, true); }),
+        use("Engine::setStencil(MaterialInstance, optional<StencilState>)",
+            [](Engine& e, MaterialInstance bad) { e.setStencil(bad, {}); }),
+        use("Engine::setMaskThreshold(MaterialInstance, float)",
+            [](Engine& e, MaterialInstance bad) { (void)e.setMaskThreshold(bad, 0.5f); }),
+        { "Scene::add(RenderableDesc) of 'ball'", "material instance", "red",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.material = bad.instance; }));
+          } },
+        { "Scene::setMaterial(Renderable, MaterialInstance)", "material instance", "red",
+          [](World& world, Handles const& bad) { world.scene.setMaterial(world.all.renderable, bad.instance); } },
+    };
+}
+
+std::vector<Use> usesOfLight() {
+    return {
+        { "Engine::destroy(IndirectLight)", "indirect light", "day",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.light); }, true },
+        { "Engine::destroy(Skybox)", "skybox", "blue",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.skybox); }, true },
+        { "Engine::destroy(LightProfile)", "light profile", "spotty",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.profile); }, true },
+        { "Engine::describe(LightProfile)", "light profile", "spotty",
+          [](World& world, Handles const& bad) { (void)world.engine.describe(bad.profile); } },
+        { "Scene::setIndirectLight(IndirectLight, Lux, float)", "indirect light", "day",
+          [](World& world, Handles const& bad) { world.scene.setIndirectLight(bad.light, Lux{ 1 }); }, true },
+        { "Scene::setSkybox(Skybox, Lux, float)", "skybox", "blue",
+          [](World& world, Handles const& bad) { world.scene.setSkybox(bad.skybox, Lux{ 1 }); }, true },
+        { "Scene::add(PointLight, Node)", "light profile", "spotty",
+          [](World& world, Handles const& bad) { world.scene.add(PointLight{ .profile = bad.profile }); }, true },
+        { "Scene::add(SpotLight, Node)", "light profile", "spotty",
+          [](World& world, Handles const& bad) { world.scene.add(SpotLight{ .profile = bad.profile }); }, true },
+    };
+}
+
+View smallView() { return { .size = { 4, 4 } }; }
+
+std::vector<Use> usesOfTargets() {
+    return {
+        { "Engine::destroy(RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.target); }, true },
+        { "Engine::destroy(SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { world.engine.destroy(bad.chain); }, true },
+        { "Engine::colorOf(RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) { (void)world.engine.colorOf(bad.target); } },
+        { "Engine::depthOf(RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) { (void)world.engine.depthOf(bad.target); } },
+        { "Renderer::render(Scene, View, RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) {
+              Renderer(world.engine).render(world.scene, smallView(), bad.target);
+          } },
+        { "Renderer::render(Scene, View, SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) {
+              Renderer(world.engine).render(world.scene, smallView(), bad.chain);
+          } },
+        { "Renderer::expect(Scene, View, RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) {
+              Renderer(world.engine).expect(world.scene, smallView(), bad.target);
+          } },
+        { "Renderer::expect(Scene, View, SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) {
+              Renderer(world.engine).expect(world.scene, smallView(), bad.chain);
+          } },
+        { "Renderer::readPixels(RenderTarget)", "render target", "mirror",
+          [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.target); } },
+        { "Renderer::readPixels(SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.chain); } },
+    };
+}
+
+std::vector<Use> usesOfRenderables() {
+    const auto use = [](const char* call, std::function<void(Scene&, Renderable)> run) {
+        return Use{ call, "renderable", "",
+                    [run = std::move(run)](World& world, Handles const& bad) { run(world.scene, bad.renderable); } };
+    };
+    return {
+        use("Scene::remove(Renderable)", [](Scene& s, Renderable bad) { s.remove(bad); }),
+        { "Scene::setMaterial(Renderable, MaterialInstance)", "renderable", "",
+          [](World& world, Handles const& bad) { world.scene.setMaterial(bad.renderable, world.all.instance); } },
+        use("Scene::setLightChannels(Renderable, LightChannels)",
+            [](Scene& s, Renderable bad) { s.setLightChannels(bad, 1); }),
+        use("Scene::setLayers(Renderable, Layers, Layers)", [](Scene& s, Renderable bad) { s.setLayers(bad, 1, 1); }),
+        use("Scene::layers(Renderable)", [](Scene& s, Renderable bad) { (void)s.layers(bad); }),
+        use("Scene::setDrawPlace(Renderable, DrawPlace)", [](Scene& s, Renderable bad) { s.setDrawPlace(bad, {}); }),
+        use("Scene::drawPlace(Renderable)", [](Scene& s, Renderable bad) { (void)s.drawPlace(bad); }),
+        use("Scene::setTransform(Renderable, double4x4)",
+            [](Scene& s, Renderable bad) { s.setTransform(bad, double4x4(1)); }),
+        use("Scene::setMorphWeights(Renderable, span<float>)",
+            [](Scene& s, Renderable bad) { s.setMorphWeights(bad, {}); }),
+        use("Scene::node(Renderable)", [](Scene& s, Renderable bad) { (void)s.node(bad); }),
+    };
+}
+
+std::vector<Use> usesOfLampsAndSkins() {
+    return {
+        { "Scene::remove(Light)", "light", "", [](World& world, Handles const& bad) { world.scene.remove(bad.lamp); } },
+        { "Scene::setLightChannels(Light, LightChannels)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.setLightChannels(bad.lamp, 1); } },
+        { "Scene::node(Light)", "light", "",
+          [](World& world, Handles const& bad) { (void)world.scene.node(bad.lamp); } },
+        { "Scene::remove(Skin)", "skin", "", [](World& world, Handles const& bad) { world.scene.remove(bad.skin); } },
+        { "Scene::setBones(Skin, span<float4x4>)", "skin", "",
+          [](World& world, Handles const& bad) { world.scene.setBones(bad.skin, {}); } },
+        { "Scene::add(RenderableDesc) of 'ball'", "skin", "",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.skin = bad.skin; }));
+          },
+          true },
+    };
+}
+
+std::vector<Use> usesOfNodes() {
+    const auto use = [](const char* call, std::function<void(Scene&, Node)> run, bool acceptsNull = false) {
+        return Use{ call, "node", "",
+                    [run = std::move(run)](World& world, Handles const& bad) { run(world.scene, bad.node); },
+                    acceptsNull };
+    };
+    return {
+        use(
+                "Scene::add(SunLight, Node)", [](Scene& s, Node bad) { s.add(SunLight{}, bad); }, true),
+        use(
+                "Scene::add(PointLight, Node)", [](Scene& s, Node bad) { s.add(PointLight{}, bad); }, true),
+        use(
+                "Scene::add(SpotLight, Node)", [](Scene& s, Node bad) { s.add(SpotLight{}, bad); }, true),
+        use(
+                "Scene::add(RectLight, Node)", [](Scene& s, Node bad) { s.add(RectLight{}, bad); }, true),
+        use(
+                "Scene::add(DiscLight, Node)", [](Scene& s, Node bad) { s.add(DiscLight{}, bad); }, true),
+        use(
+                "Scene::add(TubeLight, Node)", [](Scene& s, Node bad) { s.add(TubeLight{}, bad); }, true),
+        use(
+                "Scene::add(NodeDesc) of 'x'",
+                [](Scene& s, Node bad) { s.add(NodeDesc{ .parent = bad, .name = "x" }); }, true),
+        use(
+                "Scene::add(SkinDesc)", [](Scene& s, Node bad) { s.add(SkinDesc{ .node = bad, .boneCount = 1 }); },
+                true),
+        use("Scene::add(SkinDesc)",
+            [](Scene& s, Node bad) {
+                const Node joints[] = { bad };
+                const float4x4 matrices[] = { float4x4(1) };
+                s.add(SkinDesc{ .joints = joints, .jointFromBind = matrices });
+            }),
+        { "Scene::add(RenderableDesc) of 'ball'", "node", "",
+          [](World& world, Handles const& bad) {
+              world.scene.add(with(world, [&](RenderableDesc& desc) { desc.node = bad.node; }));
+          },
+          true },
+        use("Scene::remove(Node)", [](Scene& s, Node bad) { s.remove(bad); }),
+        use("Scene::setTransform(Node, double4x4)", [](Scene& s, Node bad) { s.setTransform(bad, double4x4(1)); }),
+        use("Scene::setParent(Node, Node, Reparent)", [](Scene& s, Node bad) { s.setParent(bad, {}); }),
+        { "Scene::setParent(Node, Node, Reparent)", "node", "",
+          [](World& world, Handles const& bad) { world.scene.setParent(world.all.node, bad.node); }, true },
+        use("Scene::setLightChannels(Node, LightChannels)", [](Scene& s, Node bad) { s.setLightChannels(bad, 1); }),
+        use("Scene::setLayers(Node, Layers, Layers)", [](Scene& s, Node bad) { s.setLayers(bad, 1, 1); }),
+        use("Scene::setDrawPlace(Node, DrawPlace)", [](Scene& s, Node bad) { s.setDrawPlace(bad, {}); }),
+        use("Scene::setVariant(Node, string_view)", [](Scene& s, Node bad) { (void)s.setVariant(bad, "x"); }),
+        use("Scene::parentFromNode(Node)", [](Scene& s, Node bad) { (void)s.parentFromNode(bad); }),
+        use("Scene::worldFromNode(Node)", [](Scene& s, Node bad) { (void)s.worldFromNode(bad); }),
+        use("Scene::name(Node)", [](Scene& s, Node bad) { (void)s.name(bad); }),
+        use("Scene::parent(Node)", [](Scene& s, Node bad) { (void)s.parent(bad); }),
+        use(
+                "Scene::firstChild(Node)", [](Scene& s, Node bad) { (void)s.firstChild(bad); }, true),
+        use("Scene::nextSibling(Node)", [](Scene& s, Node bad) { (void)s.nextSibling(bad); }),
+        use(
+                "Scene::findNode(string_view, Node)", [](Scene& s, Node bad) { (void)s.findNode("x", bad); }, true),
+    };
+}
+
+std::string escaped(std::string_view text) {
+    std::string regex;
+    for (const char c : text) {
+        if (std::string_view("().[]{}*+?^$|\\").find(c) != std::string_view::npos) regex += '\\';
+        regex += c;
+    }
+    return regex;
+}
+
+/// The whole line.
+std::string lineOf(std::string const& text) { return "^" + escaped(text) + "\n$"; }
+
+class MisuseDeathTest : public testing::TestWithParam<std::vector<Use> (*)()> {
+protected:
+    void expectEnd(std::function<void(World&, Handles const&)> const& run, Handles const& bad,
+                   std::string const& line) {
+        EXPECT_DEATH(run(mWorld, bad), lineOf(line));
+    }
+    World mWorld;
+};
+
+TEST_P(MisuseDeathTest, ByAHandleThatIsNull) {
+    for (Use const& use : GetParam()()) {
+        if (use.acceptsNull) {
+            use.run(mWorld, {});
+            continue;
+        }
+        const bool isOfScene = use.name[0] == '\0';
+        const std::string why = isOfScene ? "none was added or found"
+                                          : "none was created, or Engine::takeErrors() says why creating it failed";
+        expectEnd(use.run, {}, fmt::format("{}: the {} is null: {}", use.call, use.kind, why));
+    }
+}
+
+TEST_P(MisuseDeathTest, ByAHandleWhoseObjectIsGone) {
+    const Handles dead = World::make(mWorld.engine, mWorld.scene);
+    World::destroy(mWorld.engine, mWorld.scene, dead);
+    for (Use const& use : GetParam()()) {
+        const bool isOfScene = use.name[0] == '\0';
+        const std::string what = isOfScene ? fmt::format("the {} was removed from the scene", use.kind)
+                                           : fmt::format("the {} '{}' was destroyed", use.kind, use.name);
+        expectEnd(use.run, dead, fmt::format("{}: {}", use.call, what));
+    }
+}
+
+TEST_P(MisuseDeathTest, ByAHandleWhosePlaceAnotherObjectTook) {
+    const Handles dead = World::make(mWorld.engine, mWorld.scene);
+    World::destroy(mWorld.engine, mWorld.scene, dead);
+    const Handles after = World::make(mWorld.engine, mWorld.scene);
+    EXPECT_EQ(after.texture.index() | after.depth.index(), dead.texture.index() | dead.depth.index());
+    for (Use const& use : GetParam()()) {
+        const bool isOfScene = use.name[0] == '\0';
+        const char* end = isOfScene ? "removed from the scene" : "destroyed";
+        expectEnd(use.run, dead, fmt::format("{}: the {} was {}", use.call, use.kind, end));
+    }
+    World::destroy(mWorld.engine, mWorld.scene, after);
+}
+
+TEST_P(MisuseDeathTest, ByAHandleOfAnother) {
+    const World other;
+    for (Use const& use : GetParam()()) {
+        const char* owner = use.name[0] == '\0' ? "scene" : "engine";
+        expectEnd(use.run, other.all, fmt::format("{}: the {} belongs to another {}", use.call, use.kind, owner));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Uses, MisuseDeathTest,
+                         testing::Values(usesOfTextures, usesOfGeometry, usesOfMaterials, usesOfInstances, usesOfLight,
+                                         usesOfTargets, usesOfRenderables, usesOfLampsAndSkins, usesOfNodes));
+
+// ---- scenes, models and environments of another engine; what was moved from
+
+TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
+    World world, other;
+    Renderer renderer(world.engine);
+    const View view{ .size = { 4, 4 } };
+    const auto line = [](const char* call) {
+        return lineOf(fmt::format("{}: the scene belongs to another engine", call));
+    };
+    EXPECT_DEATH(renderer.render(other.scene, view, world.all.chain), line("Renderer::render(Scene, View, SwapChain)"));
+    EXPECT_DEATH(renderer.render(other.scene, view, world.all.target),
+                 line("Renderer::render(Scene, View, RenderTarget)"));
+    EXPECT_DEATH(renderer.expect(other.scene, view, world.all.chain), line("Renderer::expect(Scene, View, SwapChain)"));
+    EXPECT_DEATH(renderer.expect(other.scene, view, world.all.target),
+                 line("Renderer::expect(Scene, View, RenderTarget)"));
+    EXPECT_DEATH(renderer.pick(other.scene, view, {}), line("Renderer::pick(Scene, View, uint2)"));
+    EXPECT_DEATH((void)renderer.renderToImage(other.scene, view), line("Renderer::renderToImage(Scene, View)"));
+}
+
+TEST(MisuseOfOwnersDeathTest, WhatWasMovedFromIsNotUsed) {
+    World world;
+    const auto line = [](const char* call) {
+        return lineOf(fmt::format("{}: the object was moved from; use the one that it was moved to", call));
+    };
+    Scene scene(world.engine);
+    const Scene taken(std::move(scene));
+    EXPECT_DEATH((void)scene.bounds(), line("Scene::bounds()"));
+    Renderer renderer(world.engine);
+    const Renderer other(std::move(renderer));
+    EXPECT_DEATH((void)renderer.statistics(), line("Renderer::statistics()"));
+    Engine engine = std::move(*Engine::create({ .backend = Backend::Null, .workers = 0 }));
+    const Engine moved(std::move(engine));
+    EXPECT_DEATH((void)engine.device(), line("Engine::device()"));
+}
+
+// ---- threads
+
+template <class F>
+void onAnotherThread(F&& run) {
+    std::thread(std::forward<F>(run)).join();
+}
+
+TEST(MisuseOfThreadsDeathTest, AnEngineAndAllThatBelongsToItStayOnItsThread) {
+    World world;
+    const auto line = [](const char* call) {
+        return lineOf(
+                fmt::format("{}: called on another thread than the engine's, which is the one that created it, or "
+                            "that called Engine::useOnThisThread() last",
+                            call));
+    };
+    EXPECT_DEATH(onAnotherThread([&] { (void)world.engine.create(TextureDesc{}); }),
+                 line("Engine::create(TextureDesc)"));
+    EXPECT_DEATH(onAnotherThread([&] { world.engine.destroy(world.all.texture); }), line("Engine::destroy(Texture)"));
+    EXPECT_DEATH(onAnotherThread([&] { world.scene.remove(world.all.node); }), line("Scene::remove(Node)"));
+    Renderer renderer(world.engine);
+    EXPECT_DEATH(onAnotherThread([&] {
+                     renderer.render(world.scene, { .size = { 4, 4 } }, world.all.chain);
+                 }),
+                 line("Renderer::render(Scene, View, SwapChain)"));
+    EXPECT_DEATH(onAnotherThread([&] { const Scene scene(std::move(world.scene)); }), line("Scene::~Scene()"));
+    EXPECT_DEATH(onAnotherThread([&] { const Engine engine(std::move(world.engine)); }), line("Engine::~Engine()"));
+}
+
+TEST(MisuseOfThreadsDeathTest, AnEngineMovesToTheThreadThatTakesIt) {
+    World world;
+    onAnotherThread([&] {
+        world.engine.useOnThisThread();
+        world.scene.setTransform(world.all.node, double4x4(1));
+    });
+    EXPECT_DEATH(world.scene.setTransform(world.all.node, double4x4(1)), "called on another thread than the engine's");
+    world.engine.useOnThisThread();
+    world.scene.setTransform(world.all.node, double4x4(1));
+}
+
+// ---- what outlives its engine
+
+TEST(MisuseOfEnginesDeathTest, WhatOutlivesItsEngineEndsInPeaceButIsNotUsed) {
+    std::optional<Engine> engine = std::move(*Engine::create({ .backend = Backend::Null, .workers = 0 }));
+    Scene scene(*engine);
+    Renderer renderer(*engine);
+    const Owned<Texture> texture = engine->own(engine->create(TextureDesc{}));
+    const Owned<SwapChain> chain = engine->own(engine->create(SwapChainDesc{ .size = { 4, 4 } }));
+    renderer.render(scene, { .size = { 4, 4 } }, chain);
+    (void)renderer.renderToImage(scene, { .size = { 4, 4 } });
+    engine.reset();
+    const auto line = [](const char* call) {
+        return lineOf(fmt::format("{}: its engine is gone; destroy engines last", call));
+    };
+    EXPECT_DEATH((void)scene.add(NodeDesc{}), line("Scene::add(NodeDesc)"));
+    EXPECT_DEATH((void)renderer.takeTimings(), line("Renderer::takeTimings()"));
+}
+
+// ---- vertices that lack what a material reads
+
+TEST(MisuseOfVerticesDeathTest, MaterialsAndWhatTheyReadFitTogether) {
+    World world;
+    const Owned<Material> lit = test::loadMaterial(world.engine, R"(material { name : chalk, shadingModel : lit,
+        requires : [ uv1, color ] }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
+    material.baseColor = getColor() + getUV1().xyxy; } })");
+    const Owned<MaterialInstance> chalk = world.engine.own(world.engine.createInstance(lit, "white"));
+    const auto line = [](const char* call) {
+        return lineOf(
+                fmt::format("{}: the vertex buffer lacks what material 'chalk' reads: Tangents, Color, Uv1", call));
+    };
+    EXPECT_DEATH(world.scene.add(with(world, [&](RenderableDesc& desc) { desc.material = chalk; })),
+                 line("Scene::add(RenderableDesc) of 'ball'"));
+    EXPECT_DEATH(world.scene.setMaterial(world.all.renderable, chalk),
+                 line("Scene::setMaterial(Renderable, MaterialInstance)"));
+}
+
+TEST(Misuse, DestroyingNothingDoesNothing) {
+    World world;
+    world.engine.destroy(Texture{}), world.engine.destroy(VertexBuffer{}), world.engine.destroy(IndexBuffer{});
+    world.engine.destroy(MorphTargets{}), world.engine.destroy(Material{}), world.engine.destroy(MaterialInstance{});
+    world.engine.destroy(IndirectLight{}), world.engine.destroy(Skybox{}), world.engine.destroy(LightProfile{});
+    world.engine.destroy(RenderTarget{}), world.engine.destroy(SwapChain{});
+    EXPECT_THAT(world.engine.takeErrors(), testing::IsEmpty());
+}
+
+} // namespace
+} // namespace filament
