@@ -52,6 +52,8 @@ struct VertexBufferState {
     backend::BufferHandle handle;
     backend::VertexLayout layout{};
     uint32_t vertexCount = 0;
+    scene::MinMax bounds;       ///< around all positions that it had since all of it was given; empty: it has none
+    uint64_t boundsVersion = 0; ///< grows when they change
     std::string name;
 };
 
@@ -155,6 +157,8 @@ struct Engine::Impl {
     void releaseRetired(backend::CommandBuffer& commands);
     /// Returns what `make` returns; none, and a line for takeErrors(), if memory runs out.
     template <class F>
+    void orReport(std::string_view doing, std::string_view object, F&& run);
+    template <class F>
     auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
     double secondsSinceStart(int64_t steadyNanoseconds) const;
 
@@ -163,6 +167,9 @@ struct Engine::Impl {
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
+    void update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex);
+    void update(engine::IndexBufferState const& state, std::span<const std::byte> data, uint32_t firstIndex);
+    void update(engine::TextureState& state, TextureUpdate const& update);
     LightProfile createLightProfile(assets::IesFile const& file, std::string name);
     MaterialInstance createInstance(Material material, std::string name);
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
@@ -230,6 +237,8 @@ struct Engine::Impl {
     uint32_t untoldErrors = 0; ///< errors whose lines found no memory
 
     scene::GeometryLayouts layouts;
+    scene::ContentVersions contentVersions;
+    uint64_t boundsChanges = 0; ///< of vertex buffers
     passes::PipelineCache pipelines;
     engine::CompileQueue compilations;
     engine::SamplerCache samplers;
@@ -262,6 +271,15 @@ struct Engine::Impl {
     engine::MaterialNumbers materialNumbers;
     uint32_t nextInstanceId = 0;
 };
+
+template <class F>
+void Engine::Impl::orReport(std::string_view doing, std::string_view object, F&& run) {
+    try {
+        run();
+    } catch (std::bad_alloc const& cause) {
+        reportOutOfMemory(doing, object, cause);
+    }
+}
 
 template <class F>
 auto Engine::Impl::orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&> {

@@ -2,11 +2,13 @@
 #include "filament_core/engine/RequiredAttributes.h"
 
 #include "base/ApiCall.h"
+#include "base/Assert.h"
 
 #include <filament/Objects.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 
@@ -26,7 +28,18 @@ std::string namesOf(uint32_t attributes) {
     return names;
 }
 
+bool hasAttribute(backend::VertexLayout const& layout, Attribute attribute) {
+    const auto attributes = std::span(layout.attributes).first(layout.attributeCount);
+    return std::ranges::count(attributes, static_cast<uint8_t>(attribute), &backend::VertexAttribute::location) > 0;
+}
+
 } // namespace
+
+uint8_t jointSetsOf(backend::VertexLayout const& vertices) {
+    FILAMENT_ASSERT(hasAttribute(vertices, Attribute::Joints) && hasAttribute(vertices, Attribute::Weights),
+                    "the vertices of a renderable with a skin have joints and weights");
+    return hasAttribute(vertices, Attribute::Joints1) && hasAttribute(vertices, Attribute::Weights1) ? 2 : 1;
+}
 
 void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices) {
     uint32_t missing = material.package.requiredAttributes & ~material.optionalAttributes;

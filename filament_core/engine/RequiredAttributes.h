@@ -9,6 +9,9 @@
 
 namespace filament::engine {
 
+/// 1 or 2; ends the process without any.
+uint8_t jointSetsOf(backend::VertexLayout const& vertices);
+
 void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
 
 } // namespace filament::engine

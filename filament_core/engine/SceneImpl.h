@@ -13,7 +13,10 @@
 namespace filament {
 
 struct Scene::Impl {
-    explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) { engine.scenes.push_back(this); }
+    explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) {
+        data.versions = &engine.contentVersions;
+        engine.scenes.push_back(this);
+    }
     ~Impl() {
         if (!link.isAlive()) return;
         std::erase(engine.scenes, this);
@@ -27,12 +30,19 @@ struct Scene::Impl {
         std::vector<Renderable> renderables; ///< parallel to the model's; some may have been removed
     };
 
+    /// A renderable whose bounds are those of its vertices.
+    struct FollowedBounds {
+        Renderable renderable;
+        VertexBuffer vertices;
+    };
+
     /// The data after all changes of nodes and material instances, from which frames and bounds are computed.
     scene::SceneData const& upToDate() const {
         if (std::exchange(rasterChanges, engine.rasterChanges) != engine.rasterChanges) {
             data.renderables.drawables.updateOrders();
         }
         prepare::updateTransforms(engine.jobs, data);
+        if (boundsChanges != engine.boundsChanges) followVertices();
         return data;
     }
 
@@ -48,11 +58,24 @@ struct Scene::Impl {
         return changed();
     }
 
+    /// With a node: the record is in the node's space.
+    Light add(scene::LightRecord const& record, Node node);
+    /// Ends the process if it lacks what the material reads, or its indices are not in the index buffer.
+    scene::Geometry geometryOf(GeometryDesc const& desc, scene::Material const& material) const;
+    /// Those that it names; otherwise those of its vertices, or of the origin if they have no positions.
+    scene::MinMax boundsOf(GeometryDesc const& desc) const;
+    /// From now on the renderable's bounds are those of its vertices, unless `desc` names others.
+    void follow(Renderable renderable, GeometryDesc const& desc);
+    /// Gives renderables whose bounds nobody named those that their vertices have now.
+    void followVertices() const;
+
     Engine::Impl& engine; ///< while the link is alive
     engine::EngineLink link;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
     mutable uint64_t rasterChanges = 0;
-    uint64_t changes = 0; ///< by the app
+    mutable std::vector<FollowedBounds> followed;
+    mutable uint64_t boundsChanges = 0; ///< of the engine, that `followed` have seen
+    uint64_t changes = 0;               ///< by the app
     std::vector<ModelCopy> copies;
 };
 

@@ -4,6 +4,7 @@
 #include "base/Log.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/scene/VertexPositions.h"
 
 #include <algorithm>
 
@@ -153,6 +154,7 @@ VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc) {
     state.layout.buffers[0].stride = static_cast<uint16_t>(desc.stride);
     state.layout.bufferCount = 1;
     state.vertexCount = desc.vertexCount;
+    state.bounds = scene::boundsOf(state.layout, desc.data);
     state.name = desc.name;
     state.handle = createBuffer(*this, BufferUsage::Vertex, desc.data, desc.name);
     return draft.keep();

@@ -64,13 +64,20 @@ uint64_t hashDeformation(scene::SceneData const& scene, uint32_t slot, uint64_t 
     return seed;
 }
 
+uint64_t hashVersions(scene::ContentVersions const* versions, scene::Geometry const& geometry, uint64_t seed) {
+    if (!versions) return seed;
+    const uint32_t vertices = versions->of(geometry.vertices), indices = versions->of(geometry.indices);
+    return (vertices | indices) != 0 ? hashWords(seed, vertices, indices) : seed; // most never change
+}
+
 /// What a material's own code can make of its depth.
 uint64_t hashDepthInputs(scene::MaterialInstance const& instance, shader::FrameUniforms const& frame, bool isColored,
-                         uint64_t seed) {
+                         scene::ContentVersions const* versions, uint64_t seed) {
     shader::MaterialPackage const& package = instance.material->package;
     if (!package.depthReadsParameters && !(isColored && shader::transmitsLight(package))) return seed;
     seed = hashBytes(instance.parameters, seed);
-    for (scene::TextureBinding const& texture : instance.textures) seed = hashWords(seed, texture.texture.bits);
+    for (scene::TextureBinding const& bound : instance.textures)
+        seed = hashWords(seed, bound.texture.bits, versions ? versions->of(bound.texture) : 0);
     if (!package.readsFrame) return seed;
     seed = hashBytes(std::as_bytes(std::span(&frame.time, 1)), seed);
     return hashBytes(std::as_bytes(std::span(frame.materialGlobals)), seed);
@@ -110,9 +117,10 @@ uint64_t hashShadowView(scene::SceneData const& scene, ViewPacket const& view, u
     hash = hashObjects(view.objects, hash);
     for (DrawCall const& draw : view.opaque) {
         hash = hashDraw(draw, hash);
+        hash = hashVersions(scene.versions, *draw.geometry, hash);
         const scene::InstanceRaster raster = scene::inShadowMaps(draw.material->raster);
         hash = hashWords(hash, static_cast<uint32_t>(raster.culling), static_cast<uint32_t>(raster.cullingDisabled));
-        hash = hashDepthInputs(*draw.material, view.uniforms, isColored, hash);
+        hash = hashDepthInputs(*draw.material, view.uniforms, isColored, scene.versions, hash);
         if (draw.deformation != scene::kNotDeformed) hash = hashDeformation(scene, draw.deformation, hash);
     }
     return hash;

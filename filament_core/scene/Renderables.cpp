@@ -29,7 +29,13 @@ int castingFlag(MaterialInstance const& instance) {
     return isInWorld && (!material.isBlended() || material.package.transparentShadow) ? 0 : kCannotCast;
 }
 
-bool isNeverDrawn(Geometry const& geometry, uint8_t layers) { return geometry.indexCount == 0 || layers == 0; }
+/// kNeverDrawn by what the renderable is now.
+void updateNeverDrawn(Renderables& renderables, uint32_t at) {
+    uint8_t& flags = renderables.flags[at];
+    Geometry const& geometry = renderables.drawables[renderables.drawable[at]].geometry;
+    const bool isDrawn = geometry.indexCount > 0 && renderables.layers[at] != 0 && !(flags & kHidden);
+    flags = static_cast<uint8_t>((flags & ~kNeverDrawn) | (isDrawn ? 0 : kNeverDrawn));
+}
 
 DrawPlace checked(DrawPlace place) {
     FILAMENT_ASSERT(place.priority <= DrawPlace::kLastPriority, "a priority is one of 0 to 7");
@@ -64,8 +70,8 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
             renderables.drawables.acquire({ input.geometry, input.material, input.deformation, input.receivesShadows,
                                             input.lightChannels, checked(input.place) });
     const Renderable handle = renderables.index.add();
-    const int flags = (input.culled ? kCulled : 0) | (isNeverDrawn(input.geometry, input.layers) ? kNeverDrawn : 0) |
-                      (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
+    const int flags =
+            (input.culled ? kCulled : 0) | (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
     renderables.bounds.add();
     renderables.flags.push_back(static_cast<uint8_t>(flags));
     renderables.layers.push_back(input.layers);
@@ -74,6 +80,7 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
     renderables.placement.push_back({ .side = static_cast<float>(input.instanceIndex + 1) });
     renderables.objectBounds.push_back(boxFromMinMax(input.boundsMin, input.boundsMax));
     renderables.name.push_back(input.name);
+    updateNeverDrawn(renderables, renderables.count() - 1);
     place(renderables, renderables.count() - 1, input.worldFromObject);
     return handle;
 }
@@ -112,6 +119,19 @@ void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstan
     flags = static_cast<uint8_t>((flags & ~kCannotCast) | castingFlag(material));
 }
 
+void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry) {
+    const uint32_t at = renderables.index.at(renderable);
+    changeDrawable(renderables, at, [&](Drawable& changed) { changed.geometry = geometry; });
+    updateNeverDrawn(renderables, at);
+}
+
+void setVisible(Renderables& renderables, Renderable renderable, bool isVisible) {
+    const uint32_t at = renderables.index.at(renderable);
+    uint8_t& flags = renderables.flags[at];
+    flags = static_cast<uint8_t>((flags & ~kHidden) | (isVisible ? 0 : kHidden));
+    updateNeverDrawn(renderables, at);
+}
+
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels) {
     changeDrawable(renderables, renderables.index.at(renderable),
                    [&](Drawable& changed) { changed.lightChannels = channels; });
@@ -126,9 +146,7 @@ void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, 
     const uint32_t at = renderables.index.at(renderable);
     uint8_t& own = renderables.layers[at];
     own = static_cast<uint8_t>((own & ~select) | (layers & select));
-    Geometry const& geometry = renderables.drawables[renderables.drawable[at]].geometry;
-    const int others = renderables.flags[at] & ~kNeverDrawn;
-    renderables.flags[at] = static_cast<uint8_t>(others | (isNeverDrawn(geometry, own) ? kNeverDrawn : 0));
+    updateNeverDrawn(renderables, at);
 }
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {

@@ -46,11 +46,12 @@ static_assert(sizeof(Placement) == 64, "one cache line a renderable");
 enum RenderableFlag : uint8_t {
     kCulled = 1,     ///< may be skipped when its box is out of view
     kMirrored = 2,   ///< transform and bones together turn front faces into back faces
-    kNeverDrawn = 4, ///< its geometry is empty, or it is in no layer
+    kNeverDrawn = 4, ///< its geometry is empty, it is in no layer, or it is hidden
     kCollapsed = 8,  ///< the transform collapses it to a point, so there is nothing to draw
     kBonesMirror = 16,
     kCastsNoShadows = 32, ///< the user says so
     kCannotCast = 64,     ///< its material blends, or places it in the view of a camera
+    kHidden = 128,        ///< the user says so; then kNeverDrawn, too
 };
 
 struct Renderables {
@@ -88,6 +89,8 @@ Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
 /// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
+void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry);
+void setVisible(Renderables& renderables, Renderable renderable, bool isVisible);
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
 void setDrawPlace(Renderables& renderables, Renderable renderable, DrawPlace place);
 /// Those of `select` become what they are in `layers`.

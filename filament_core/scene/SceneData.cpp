@@ -33,8 +33,26 @@ void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worl
     place(scene.renderables, at, worldFromObject);
 }
 
-Light addLight(SceneData& scene, LightRecord const& light) {
+void setBounds(SceneData& scene, Renderable renderable, MinMax const& bounds) {
+    Renderables& renderables = scene.renderables;
+    const uint32_t at = renderables.index.at(renderable);
+    const uint32_t deformation = deformationAt(renderables, at);
+    if (deformation != kNotDeformed) {
+        scene.deformations[deformation].restBounds = bounds;
+        return placeDeformed(scene, deformation);
+    }
+    setObjectBounds(renderables, at, boxFromMinMax(bounds.min, bounds.max), false);
+    const uint32_t node = scene.atNodes.renderables.nodeOf(renderable);
+    const bool isAttached = node != Attachments<RenderableObject>::kNone;
+    place(renderables, at, isAttached ? scene.transforms.worldAt(node) : worldFromObject(renderables, at));
+}
+
+void checkIntensity(LightRecord const& light) {
     FILAMENT_ASSERT(light.intensity >= 0 && std::isfinite(light.intensity), "a light's intensity is finite and >= 0");
+}
+
+Light addLight(SceneData& scene, LightRecord const& light) {
+    checkIntensity(light);
     scene.lights.records.push_back(light);
     return scene.lights.index.add();
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "filament_core/scene/Attachments.h"
+#include "filament_core/scene/ContentVersions.h"
 #include "filament_core/scene/Deformations.h"
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/Renderables.h"
@@ -98,8 +99,9 @@ struct SceneData {
     Transforms transforms{ ownerTag(serial) }; ///< of the nodes
     NodeContents atNodes;
     Deformations deformations{ ownerTag(serial) };
-    IndirectLightRecord indirectLight; ///< specular: none means no indirect light
-    SkyboxRecord skybox;               ///< cube: none means no skybox
+    ContentVersions const* versions = nullptr; ///< of buffers and textures; null: they never change
+    IndirectLightRecord indirectLight;         ///< specular: none means no indirect light
+    SkyboxRecord skybox;                       ///< cube: none means no skybox
 };
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
@@ -108,6 +110,9 @@ void removeRenderable(SceneData& scene, Renderable renderable);
 Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation);
 /// place() of Renderables.h, by handle. A renderable attached to a node is moved by its node instead.
 void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worldFromObject);
+/// In object space; of a deformed renderable: at rest.
+void setBounds(SceneData& scene, Renderable renderable, MinMax const& bounds);
+void checkIntensity(LightRecord const& light);
 Light addLight(SceneData& scene, LightRecord const& light);
 void removeLight(SceneData& scene, Light light);
 Box sceneBounds(SceneData const& scene);

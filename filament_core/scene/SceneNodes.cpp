@@ -50,6 +50,14 @@ void attach(SceneData& scene, Light light, Node node) {
     scene.transforms.markUnplaced(node);
 }
 
+void setLight(SceneData& scene, Light light, LightRecord const& record) {
+    checkIntensity(record);
+    scene.lights.records[scene.lights.index.at(light)] = record;
+    if (!scene.atNodes.lights.isAttached(light)) return;
+    scene.atNodes.lightPoses[light.index()] = { record.positionWorld, record.directionWorld, record.sideWorld };
+    scene.transforms.markUnplaced(scene.transforms.nodeAt(scene.atNodes.lights.nodeOf(light)));
+}
+
 Node nodeOf(SceneData const& scene, Renderable renderable) {
     scene.renderables.index.at(renderable);
     return nodeOf(scene, scene.atNodes.renderables, renderable);
@@ -72,6 +80,11 @@ void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers) {
 
 void setDrawPlace(SceneData& scene, Node node, DrawPlace place) {
     forEachRenderable(scene, node, [&](Renderable renderable) { setDrawPlace(scene.renderables, renderable, place); });
+}
+
+void setVisible(SceneData& scene, Node node, bool isVisible) {
+    forEachRenderable(scene, node,
+                      [&](Renderable renderable) { setVisible(scene.renderables, renderable, isVisible); });
 }
 
 void removeNode(SceneData& scene, Node node) {

@@ -14,6 +14,8 @@ namespace filament::scene {
 void attach(SceneData& scene, Renderable renderable, Node node);
 /// The current position and direction of the light's record are taken as being in the node's space.
 void attach(SceneData& scene, Light light, Node node);
+/// Replaces a light; if it is attached, its position and direction are in the node's space.
+void setLight(SceneData& scene, Light light, LightRecord const& record);
 
 /// The node it is attached to; none: it has its own transform.
 Node nodeOf(SceneData const& scene, Renderable renderable);
@@ -23,6 +25,7 @@ Node nodeOf(SceneData const& scene, Light light);
 void setLightChannels(SceneData& scene, Node node, uint8_t channels);
 void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers);
 void setDrawPlace(SceneData& scene, Node node, DrawPlace place);
+void setVisible(SceneData& scene, Node node, bool isVisible);
 
 /// Removes the node, its descendants, and every renderable, light and skin attached to them.
 void removeNode(SceneData& scene, Node node);

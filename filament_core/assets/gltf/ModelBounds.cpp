@@ -2,62 +2,14 @@
 #include "filament_core/assets/gltf/ModelBounds.h"
 
 #include "base/Assert.h"
-#include "base/math/Half.h"
+#include "filament_core/scene/VertexPositions.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 #include <span>
 
 namespace filament::assets {
 namespace {
-
-using backend::VertexFormat;
-
-template <class T>
-T componentOf(const std::byte* source, size_t index) {
-    T value;
-    std::memcpy(&value, source + index * sizeof(T), sizeof(T));
-    return value;
-}
-
-template <class Integer>
-double3 normalized(const std::byte* source) {
-    double3 position;
-    for (int i = 0; i < 3; ++i) {
-        const double value = componentOf<Integer>(source, static_cast<size_t>(i));
-        position[i] = std::max(value / std::numeric_limits<Integer>::max(), -1.0);
-    }
-    return position;
-}
-
-double3 halves(const std::byte* source) {
-    return double3(floatFromHalf(componentOf<uint16_t>(source, 0)), floatFromHalf(componentOf<uint16_t>(source, 1)),
-                   floatFromHalf(componentOf<uint16_t>(source, 2)));
-}
-
-/// The formats that models store positions in.
-double3 positionAt(const std::byte* source, VertexFormat format) {
-    switch (format) {
-    case VertexFormat::Float3:
-    case VertexFormat::Float4:
-        return double3(componentOf<float3>(source, 0));
-    case VertexFormat::Half4:
-        return halves(source);
-    case VertexFormat::UByte4N:
-        return normalized<uint8_t>(source);
-    case VertexFormat::Byte4N:
-        return normalized<int8_t>(source);
-    case VertexFormat::UShort4N:
-        return normalized<uint16_t>(source);
-    case VertexFormat::Short4N:
-        return normalized<int16_t>(source);
-    default:
-        FILAMENT_ASSERT(false, "positions of models are stored in one of GltfPack's formats");
-    }
-    return double3(0.0);
-}
 
 void growPoint(Box& box, double3 point) {
     box.min = glm::min(box.min, point);
@@ -88,7 +40,7 @@ void visitPositions(PrimitiveData const& primitive, Visit const& visit) {
     const double3 offset(primitive.positionOffset);
     for (size_t vertex = 0; vertex < primitive.vertexCount; ++vertex) {
         const std::byte* const source = &primitive.vertices[vertex * stride + found->offset];
-        visit(offset + double(primitive.positionScale) * positionAt(source, found->format));
+        visit(offset + double(primitive.positionScale) * *scene::positionAt(source, found->format));
     }
 }
 

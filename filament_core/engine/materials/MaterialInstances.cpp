@@ -200,6 +200,15 @@ Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, 
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
 }
 
+Result<void> Engine::setNumber(MaterialInstance instance, std::string_view parameter, ParameterNumber const& number) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterValue)", parameter);
+    return orOutOfMemory("parameter", parameter, [&] {
+        return mImpl->change(instance, parameter, [&](scene::MaterialInstance& state, Parameter const& known) {
+            return engine::writeNumber(*state.material, known, number, state.parameters);
+        });
+    });
+}
+
 Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
     const PublicCall call(mImpl, "Engine::setDoubleSided(MaterialInstance, bool)");
     scene::MaterialInstance& instance = mImpl->instances.get(handle);

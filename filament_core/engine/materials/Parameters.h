@@ -18,6 +18,9 @@ namespace filament::engine {
 
 Result<void> writeParameter(scene::Material const& material, shader::Parameter const& parameter,
                             ParameterValue const& value, std::span<std::byte> block);
+/// As the parameter's type, if that can hold it.
+Result<void> writeNumber(scene::Material const& material, shader::Parameter const& parameter,
+                         ParameterNumber const& number, std::span<std::byte> block);
 Result<void> writeParameters(scene::Material const& material, shader::Parameter const& parameter,
                              ParameterArray const& values, uint32_t first, std::span<std::byte> block);
 

@@ -26,8 +26,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -155,6 +157,15 @@ public:
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
+    // New contents, from the next frame on; frames before it show the old ones. Copied before the call returns, uploaded
+    // in the order of the calls; nothing waits. What does not fit ends the process; if memory runs out, the object keeps
+    // what it had, and takeErrors() says so.
+
+    /// `data`: whole vertices. Bounds that renderables did not name follow.
+    void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0);
+    void update(IndexBuffer buffer, std::span<const std::byte> data, uint32_t firstIndex = 0);
+    void update(Texture texture, TextureUpdate const& update);
+
     /// The textures of a render target, for parameters of materials. They are the app's own; depthOf() may be none.
     Texture colorOf(RenderTarget target) const;
     Texture depthOf(RenderTarget target) const;
@@ -165,6 +176,24 @@ public:
 
     /// NotFound names the nearest parameter; InvalidArgument names the parameter's type and the type given.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    /// A number, or a value of any type of ParameterValue. Parameters of float take doubles, rounded, and integers;
+    /// integer parameters take integers of any type. InvalidArgument if the parameter cannot hold the number: 1e39 or
+    /// 2^24 + 1 in a float, -1 in an unsigned one.
+    template <class T>
+    requires(!std::is_constructible_v<ParameterArray, T const&> && !std::is_convertible_v<T const&, Texture> &&
+             !std::is_same_v<T, ParameterValue>) Result<void> set(MaterialInstance instance, std::string_view parameter,
+                                                                  T const& value) {
+        static_assert(std::is_arithmetic_v<T> || std::is_constructible_v<ParameterValue, T const&>,
+                      "a material's parameter takes a bool, a number, a vector or a matrix: see ParameterValue");
+        if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool> || std::is_same_v<T, float>)
+            return set(instance, parameter, ParameterValue(value));
+        else if constexpr (std::is_floating_point_v<T>)
+            return setNumber(instance, parameter, static_cast<double>(value));
+        else if constexpr (std::is_signed_v<T>)
+            return setNumber(instance, parameter, static_cast<int64_t>(value));
+        else
+            return setNumber(instance, parameter, static_cast<uint64_t>(value));
+    }
     /// Sets elements [first, first + values.size()) of an array. InvalidArgument also if the array is too short.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                      uint32_t first = 0);
@@ -212,6 +241,8 @@ public:
 
 private:
     explicit Engine(std::shared_ptr<Impl> impl);
+    Result<void> setNumber(MaterialInstance instance, std::string_view parameter, ParameterNumber const& number);
+
     std::shared_ptr<Impl> mImpl; ///< shared with nobody; what belongs to the engine sees when it ends
 };
 

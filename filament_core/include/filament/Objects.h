@@ -79,6 +79,17 @@ struct TextureDesc {
     std::string name{};
 };
 
+/// Which part of a texture changes, and to what.
+struct TextureUpdate {
+    std::span<const std::byte> pixels{}; ///< tightly packed rows, row 0 at the top, layer after layer
+    uint32_t level = 0;
+    uint32_t firstLayer = 0, layerCount = 1;
+    uint2 offset{ 0 }, size{ 0 }; ///< texels, from the left and the top; a size of 0: up to the edge
+    /// Then computes levels 1.. from level 0; of RGBA8Srgb only if `pixels` is all of level 0. On the device, or for
+    /// RGBA8Srgb before the upload.
+    bool generateMips = false;
+};
+
 /// The attribute's name in the shaders.
 enum class Attribute : uint8_t {
     Position = 0, ///< float3
@@ -149,6 +160,9 @@ struct MaterialDesc {
 /// Value of a parameter. The C++ type has the same name as the parameter's type (ParameterType).
 using ParameterValue = std::variant<bool, bool2, bool3, bool4, float, float2, float3, float4, int32_t, int2, int3, int4,
                                     uint32_t, uint2, uint3, uint4, float3x3, float4x4>;
+
+/// A number of C++ for a parameter of another type: Engine::set().
+using ParameterNumber = std::variant<int64_t, uint64_t, double>;
 
 /// Values of consecutive elements of an array parameter.
 using ParameterArray =

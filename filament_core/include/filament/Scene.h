@@ -35,23 +35,38 @@ struct SkinDesc {
     uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
 };
 
+/// Bounds in object space whose minimum exceeds their maximum are not given.
+inline constexpr float3 kNoBoundsMin{ 3e38f }, kNoBoundsMax{ -3e38f };
+
+/// What a renderable draws.
+struct GeometryDesc {
+    VertexBuffer vertices{};
+    IndexBuffer indices{};
+    PrimitiveType primitive = PrimitiveType::Triangles;
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0;                                   ///< 0: all
+    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax; ///< as of RenderableDesc
+};
+
 struct RenderableDesc {
     VertexBuffer vertices{};
     IndexBuffer indices{};
     MaterialInstance material{};
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;               ///< 0: all
-    float3 boundsMin{ 0 }, boundsMax{ 0 }; ///< of the positions, in object space
-    double4x4 worldFromObject{ 1.0 };      ///< affine; must stay the identity if there is a node
-    Node node{};                           ///< gives the renderable its transform; none: worldFromObject
-    uint32_t instanceIndex = 0;            ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
-    Skin skin{};                           ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
-    std::vector<BoneBounds> boneBounds{};  ///< one per bone: makes culling exact; empty: the bounds above for all bones
-    MorphTargets morphTargets{};           ///< with as many vertices as the vertex buffer
-    std::vector<float> morphWeights{};     ///< initial weights; missing ones are 0
-    bool culled = true;                    ///< false: drawn even when its box is out of view
-    bool castsShadows = true;              ///< if its material is opaque or masked
+    uint32_t indexCount = 0; ///< 0: all
+    /// Of the positions, in object space, without skin and morph targets. Not given: those of all vertices of the buffer,
+    /// which follow Engine::update().
+    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax;
+    double4x4 worldFromObject{ 1.0 };     ///< affine; must stay the identity if there is a node
+    Node node{};                          ///< gives the renderable its transform; none: worldFromObject
+    uint32_t instanceIndex = 0;           ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
+    Skin skin{};                          ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
+    std::vector<BoneBounds> boneBounds{}; ///< one per bone: makes culling exact; empty: the bounds above for all bones
+    MorphTargets morphTargets{};          ///< with as many vertices as the vertex buffer
+    std::vector<float> morphWeights{};    ///< initial weights; missing ones are 0
+    bool culled = true;                   ///< false: drawn even when its box is out of view
+    bool castsShadows = true;             ///< if its material is opaque or masked
     bool receivesShadows = true;
     LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
     Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
@@ -82,6 +97,23 @@ public:
     Light add(TubeLight const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
+    /// Replaces the light, of whatever kind it was. Its node stays, and what is given is in the node's space.
+    void set(Light light, SunLight const& desc);
+    void set(Light light, PointLight const& desc);
+    void set(Light light, SpotLight const& desc);
+    void set(Light light, RectLight const& desc);
+    void set(Light light, DiscLight const& desc);
+    void set(Light light, TubeLight const& desc);
+    /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they have.
+    void setGeometry(Renderable renderable, GeometryDesc const& geometry);
+    /// In object space, as of RenderableDesc. What is outside of them may be missing at the edges of the view, in shadow
+    /// maps and in effects that look for objects.
+    void setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax);
+    /// Hidden renderables are not drawn and cast no shadows; they keep everything else. Visible by default.
+    void setVisible(Renderable renderable, bool isVisible);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setVisible(Node node, bool isVisible);
+    bool isVisible(Renderable renderable) const;
     /// Takes effect with the next frame.
     void setMaterial(Renderable renderable, MaterialInstance material);
     /// Takes effect with the next frame. Renderables that differ in their channels share no instanced draw.

@@ -147,6 +147,8 @@ std::vector<Use> usesOfTextures() {
                       IndirectLightDesc{ .specular = world.all.texture, .irradiance = bad.texture, .name = "x" });
           },
           true },
+        { "Engine::update(Texture, TextureUpdate)", "texture", "wood",
+          [](World& world, Handles const& bad) { world.engine.update(bad.texture, {}); } },
         { "Engine::create(SkyboxDesc) of 'x'", "texture", "wood",
           [](World& world, Handles const& bad) {
               world.engine.create(SkyboxDesc{ .cube = bad.texture, .name = "x" });
@@ -167,6 +169,18 @@ std::vector<Use> usesOfGeometry() {
           [](World& world, Handles const& bad) { world.engine.destroy(bad.indices); }, true },
         { "Engine::destroy(MorphTargets)", "morph targets", "smile",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.targets); }, true },
+        { "Engine::update(VertexBuffer, span<byte>, uint32_t)", "vertex buffer", "corners",
+          [](World& world, Handles const& bad) { world.engine.update(bad.vertices, {}); } },
+        { "Engine::update(IndexBuffer, span<byte>, uint32_t)", "index buffer", "order",
+          [](World& world, Handles const& bad) { world.engine.update(bad.indices, {}); } },
+        { "Scene::setGeometry(Renderable, GeometryDesc)", "vertex buffer", "corners",
+          [](World& world, Handles const& bad) {
+              world.scene.setGeometry(world.all.renderable, { .vertices = bad.vertices, .indices = world.all.indices });
+          } },
+        { "Scene::setGeometry(Renderable, GeometryDesc)", "index buffer", "order",
+          [](World& world, Handles const& bad) {
+              world.scene.setGeometry(world.all.renderable, { .vertices = world.all.vertices, .indices = bad.indices });
+          } },
         { "Scene::add(RenderableDesc) of 'ball'", "vertex buffer", "corners",
           [](World& world, Handles const& bad) {
               world.scene.add(with(world, [&](RenderableDesc& desc) { desc.vertices = bad.vertices; }));
@@ -310,6 +324,14 @@ std::vector<Use> usesOfRenderables() {
         use("Scene::remove(Renderable)", [](Scene& s, Renderable bad) { s.remove(bad); }),
         { "Scene::setMaterial(Renderable, MaterialInstance)", "renderable", "",
           [](World& world, Handles const& bad) { world.scene.setMaterial(bad.renderable, world.all.instance); } },
+        { "Scene::setGeometry(Renderable, GeometryDesc)", "renderable", "",
+          [](World& world, Handles const& bad) {
+              world.scene.setGeometry(bad.renderable, { .vertices = world.all.vertices, .indices = world.all.indices });
+          } },
+        use("Scene::setBounds(Renderable, float3, float3)",
+            [](Scene& s, Renderable bad) { s.setBounds(bad, float3(0), float3(1)); }),
+        use("Scene::setVisible(Renderable, bool)", [](Scene& s, Renderable bad) { s.setVisible(bad, true); }),
+        use("Scene::isVisible(Renderable)", [](Scene& s, Renderable bad) { (void)s.isVisible(bad); }),
         use("Scene::setLightChannels(Renderable, LightChannels)",
             [](Scene& s, Renderable bad) { s.setLightChannels(bad, 1); }),
         use("Scene::setLayers(Renderable, Layers, Layers)", [](Scene& s, Renderable bad) { s.setLayers(bad, 1, 1); }),
@@ -327,6 +349,18 @@ std::vector<Use> usesOfRenderables() {
 std::vector<Use> usesOfLampsAndSkins() {
     return {
         { "Scene::remove(Light)", "light", "", [](World& world, Handles const& bad) { world.scene.remove(bad.lamp); } },
+        { "Scene::set(Light, SunLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SunLight{}); } },
+        { "Scene::set(Light, PointLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, PointLight{}); } },
+        { "Scene::set(Light, SpotLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SpotLight{}); } },
+        { "Scene::set(Light, RectLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, RectLight{}); } },
+        { "Scene::set(Light, DiscLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, DiscLight{}); } },
+        { "Scene::set(Light, TubeLight)", "light", "",
+          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, TubeLight{}); } },
         { "Scene::setLightChannels(Light, LightChannels)", "light", "",
           [](World& world, Handles const& bad) { world.scene.setLightChannels(bad.lamp, 1); } },
         { "Scene::node(Light)", "light", "",
@@ -384,6 +418,7 @@ std::vector<Use> usesOfNodes() {
         { "Scene::setParent(Node, Node, Reparent)", "node", "",
           [](World& world, Handles const& bad) { world.scene.setParent(world.all.node, bad.node); }, true },
         use("Scene::setLightChannels(Node, LightChannels)", [](Scene& s, Node bad) { s.setLightChannels(bad, 1); }),
+        use("Scene::setVisible(Node, bool)", [](Scene& s, Node bad) { s.setVisible(bad, true); }),
         use("Scene::setLayers(Node, Layers, Layers)", [](Scene& s, Node bad) { s.setLayers(bad, 1, 1); }),
         use("Scene::setDrawPlace(Node, DrawPlace)", [](Scene& s, Node bad) { s.setDrawPlace(bad, {}); }),
         use("Scene::setVariant(Node, string_view)", [](Scene& s, Node bad) { (void)s.setVariant(bad, "x"); }),

@@ -182,7 +182,7 @@ TEST_P(MaterialParameters, SayWhatTheyAreWhenTheyAreGivenSomethingElse) {
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
     EXPECT_EQ(refusal(instance, "f3", float2(1)),
               "parameter 'f3' of material 'everyType' is float3, but was given float2");
-    EXPECT_EQ(refusal(instance, "i1", 1u), "parameter 'i1' of material 'everyType' is int, but was given uint");
+    EXPECT_EQ(refusal(instance, "i1", 1.0f), "parameter 'i1' of material 'everyType' is int, but was given float");
     EXPECT_EQ(refusal(instance, "f3", std::array{ float3(1) }),
               "parameter 'f3' of material 'everyType' is float3, but was given an array of float3");
     EXPECT_EQ(refusal(instance, "weights", 1.0f),

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LightRecords: lights as apps describe them -> as scenes keep them. Directions and axes become unit vectors.
+///   Fails   a value out of the range that <filament/Light.h> gives ends the process.
+///   Thread  the app thread.
+#pragma once
+
+#include "filament_core/engine/EngineImpl.h"
+
+#include <filament/Light.h>
+
+namespace filament::engine {
+
+scene::LightRecord recordOf(Engine::Impl const& engine, SunLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, PointLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, SpotLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, RectLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, DiscLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, TubeLight const& light);
+
+} // namespace filament::engine

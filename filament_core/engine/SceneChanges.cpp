@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Changes of what a scene has: lights, geometry, bounds, visibility.
+#include "filament_core/engine/LightRecords.h"
+#include "filament_core/engine/RequiredAttributes.h"
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/scene/SceneNodes.h"
+
+#include <cmath>
+
+namespace filament {
+
+using engine::PublicCall;
+
+namespace {
+
+bool hasBounds(GeometryDesc const& desc) { return desc.boundsMin.x <= desc.boundsMax.x; }
+
+/// The deformation of a renderable fits other vertices, too.
+void checkDeformation(Engine::Impl const& engine, scene::Deformation const& deformation, VertexBuffer vertices) {
+    engine::VertexBufferState const& state = engine.vertexBuffers.get(vertices);
+    FILAMENT_ASSERT(!deformation.morph || deformation.morph->vertexCount == state.vertexCount,
+                    "morph targets have as many vertices as the vertex buffer that they go with");
+    FILAMENT_ASSERT(!deformation.skin || engine::jointSetsOf(state.layout) == deformation.jointSets,
+                    "the vertices of a renderable with a skin keep their sets of joints and weights");
+}
+
+} // namespace
+
+scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Material const& material) const {
+    engine::VertexBufferState const& vertices = engine.vertexBuffers.get(desc.vertices);
+    engine::IndexBufferState const& indices = engine.indexBuffers.get(desc.indices);
+    FILAMENT_ASSERT(desc.firstIndex <= indices.indexCount && desc.indexCount <= indices.indexCount - desc.firstIndex,
+                    "a renderable's indices lie inside of its index buffer");
+    engine::requireAttributes(material, vertices.layout);
+    return { vertices.handle,
+             indices.handle,
+             engine.layouts.intern({ vertices.layout, desc.primitive }),
+             desc.firstIndex,
+             desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
+             indices.format };
+}
+
+scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {
+    if (hasBounds(desc)) return { desc.boundsMin, desc.boundsMax };
+    scene::MinMax const& bounds = engine.vertexBuffers.get(desc.vertices).bounds;
+    return bounds.empty() ? scene::MinMax{ float3(0), float3(0) } : bounds;
+}
+
+void Scene::Impl::follow(Renderable renderable, GeometryDesc const& desc) {
+    std::erase_if(followed, [&](FollowedBounds const& one) { return one.renderable == renderable; });
+    if (!hasBounds(desc)) followed.push_back({ renderable, desc.vertices });
+}
+
+void Scene::Impl::followVertices() const {
+    std::erase_if(followed,
+                  [&](FollowedBounds const& one) { return !data.renderables.index.contains(one.renderable); });
+    for (FollowedBounds const& one : followed) {
+        engine::VertexBufferState const& state = engine.vertexBuffers.held(one.vertices);
+        if (state.boundsVersion > boundsChanges && !state.bounds.empty())
+            scene::setBounds(data, one.renderable, state.bounds);
+    }
+    boundsChanges = engine.boundsChanges;
+}
+
+void Scene::set(Light light, SunLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, SunLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::set(Light light, PointLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, PointLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::set(Light light, SpotLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, SpotLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::set(Light light, RectLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, RectLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::set(Light light, DiscLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, DiscLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::set(Light light, TubeLight const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, TubeLight)");
+    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
+}
+
+void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {
+    const PublicCall call(mImpl, "Scene::setGeometry(Renderable, GeometryDesc)");
+    scene::Renderables& renderables = mImpl->changedUses().renderables;
+    scene::Drawable const& drawable = renderables.drawables[renderables.drawable[renderables.index.at(renderable)]];
+    if (drawable.deformation != scene::kNotDeformed)
+        checkDeformation(mImpl->engine, mImpl->data.deformations[drawable.deformation], desc.vertices);
+    scene::setGeometry(renderables, renderable, mImpl->geometryOf(desc, *drawable.material->material));
+    scene::setBounds(mImpl->data, renderable, mImpl->boundsOf(desc));
+    mImpl->follow(renderable, desc);
+}
+
+void Scene::setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax) {
+    const PublicCall call(mImpl, "Scene::setBounds(Renderable, float3, float3)");
+    const GeometryDesc named{ .boundsMin = boundsMin, .boundsMax = boundsMax };
+    FILAMENT_ASSERT(hasBounds(named), "bounds have a minimum below their maximum");
+    scene::setBounds(mImpl->changed(), renderable, { boundsMin, boundsMax });
+    mImpl->follow(renderable, named);
+}
+
+void Scene::setVisible(Renderable renderable, bool isVisible) {
+    const PublicCall call(mImpl, "Scene::setVisible(Renderable, bool)");
+    scene::setVisible(mImpl->changed().renderables, renderable, isVisible);
+}
+
+void Scene::setVisible(Node node, bool isVisible) {
+    const PublicCall call(mImpl, "Scene::setVisible(Node, bool)");
+    scene::setVisible(mImpl->changed(), node, isVisible);
+}
+
+bool Scene::isVisible(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::isVisible(Renderable)");
+    scene::Renderables const& renderables = mImpl->data.renderables;
+    return (renderables.flags[renderables.index.at(renderable)] & scene::kHidden) == 0;
+}
+
+} // namespace filament
