@@ -142,7 +142,7 @@ bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<co
     return !checked.sparse || checkSparse(document, checked, path, diagnostics);
 }
 
-void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float> out, Diagnostics& diagnostics) {
+void readFloatsAsStored(GltfDocument const& document, uint32_t accessor, std::span<float> out) {
     GltfAccessor const& source = document.accessors[accessor];
     withComponentType(source.component, [&]<class Component>(Component) {
         forEachElement(document, source, [&](uint64_t first, std::byte const* bytes) {
@@ -151,7 +151,11 @@ void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float
             }
         });
     });
-    if (source.component != ComponentType::Float) return;
+}
+
+void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float> out, Diagnostics& diagnostics) {
+    readFloatsAsStored(document, accessor, out);
+    if (document.accessors[accessor].component != ComponentType::Float) return;
     if (const size_t broken = replaceNonFinite(out); broken > 0) {
         diagnostics.warn("accessors[{}]: {} numbers are not finite and became 0", accessor, broken);
     }

@@ -25,6 +25,8 @@ bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<co
 
 /// Reads a checked accessor into `out`, which has accessor.count * accessor.components numbers.
 void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float> out, Diagnostics& diagnostics);
+/// The same, but floats that are not finite stay as they are.
+void readFloatsAsStored(GltfDocument const& document, uint32_t accessor, std::span<float> out);
 void readIntegers(GltfDocument const& document, uint32_t accessor, std::span<uint32_t> out);
 
 /// Checks and reads vectors of floats: T is float, float2, float3, float4 or float4x4. Empty on failure and for kNone.

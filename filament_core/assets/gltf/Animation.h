@@ -2,8 +2,8 @@
 /// Animation: keys over time as plain values, and interpolation between them (glTF 2.0, section 3.11 and appendix C).
 ///   Thread  plain values; the functions are pure.
 ///   Times   seconds. Times outside the range use the first or last key. At the time of a key the result is the key, to
-///           the bit.
-///   Fails   never: the loader has checked the counts, and that times increase.
+///           the bit; of several keys at one time the last one.
+///   Fails   never: the loader has checked the counts, and that times are finite and never decrease (KeyTimes.h).
 #pragma once
 
 #include "base/math/Math.h"

@@ -2,6 +2,7 @@
 #include "filament_core/assets/gltf/GltfAnimation.h"
 
 #include "filament_core/assets/gltf/Accessor.h"
+#include "filament_core/assets/gltf/KeyTimes.h"
 
 #include <algorithm>
 #include <map>
@@ -22,9 +23,9 @@ uint32_t morphTargetCount(GltfMesh const& mesh) {
 /// Reads one animation; a sampler is read when a channel first needs it.
 class Reader {
 public:
-    Reader(GltfDocument const& document, GltfScene const& scene, uint32_t index, uint64_t& numbersLeft,
-           Diagnostics& diagnostics)
-            : mDocument(document), mScene(scene), mSource(document.animations[index]),
+    Reader(GltfDocument const& document, GltfScene const& scene, uint32_t index, std::string_view file,
+           uint64_t& numbersLeft, Diagnostics& diagnostics)
+            : mDocument(document), mScene(scene), mSource(document.animations[index]), mFile(file),
               mPath(fmt::format("animations[{}]", index)), mNumbersLeft(numbersLeft), mDiagnostics(diagnostics) {}
 
     AnimationData read() {
@@ -33,6 +34,7 @@ public:
         for (AnimationSampler const& sampler : mData.samplers) {
             mData.durationSeconds = std::max(mData.durationSeconds, static_cast<double>(sampler.times.back()));
         }
+        warnAboutTimes();
         return std::move(mData);
     }
 
@@ -52,6 +54,7 @@ private:
         }
         const std::optional<uint32_t> sampler = samplerFor(channel, width, path);
         if (!sampler) return;
+        if (mRepairs[*sampler].any()) mMended.push_back(index);
         const auto add = [&](uint32_t node) { mData.channels.push_back({ *sampler, node, channel.path }); };
         if (isWeights) {
             for (const uint32_t node : mScene.meshNodes[channel.node]) add(node);
@@ -65,7 +68,13 @@ private:
         if (!isNew) return known->second;
         AnimationSampler sampler = readSampler(mSource.samplers[channel.sampler], width);
         sampler.isRotation = channel.path == AnimationPath::Rotation;
-        if (!mDiagnostics.ok() || !isUsable(sampler, path)) return std::nullopt;
+        if (!mDiagnostics.ok() || !hasItsValues(sampler, path)) return std::nullopt;
+        const KeyRepairs repairs = mendKeys(sampler);
+        if (sampler.times.empty()) {
+            mDiagnostics.warn("{}: no key has a finite time; the channel is left out", path);
+            return std::nullopt;
+        }
+        mRepairs.push_back(repairs);
         mData.samplers.push_back(std::move(sampler));
         known->second = static_cast<uint32_t>(mData.samplers.size() - 1);
         return known->second;
@@ -82,8 +91,11 @@ private:
             return sampler;
         }
         mNumbersLeft -= numbers;
-        sampler.times = readVectors<float>(mDocument, source.input, "the times of an animation", mDiagnostics);
-        if (!mDiagnostics.ok()) return sampler;
+        const uint8_t one = 1;
+        if (!checkAccessor(mDocument, source.input, { &one, 1 }, "the times of an animation", mDiagnostics))
+            return sampler;
+        sampler.times.resize(keys);
+        readFloatsAsStored(mDocument, source.input, sampler.times); // mendKeys() drops those that are not finite
         const uint8_t components = output.components;
         if (!checkAccessor(mDocument, source.output, { &components, 1 }, "the values of an animation", mDiagnostics))
             return sampler;
@@ -92,43 +104,45 @@ private:
         return sampler;
     }
 
-    bool isUsable(AnimationSampler const& sampler, std::string const& path) {
+    bool hasItsValues(AnimationSampler const& sampler, std::string const& path) {
         const size_t keys = sampler.times.size();
         const size_t rows = sampler.interpolation == Interpolation::CubicSpline ? 3 : 1;
-        if (keys == 0 || sampler.values.size() != keys * rows * sampler.width) {
-            mDiagnostics.warn("{}: {} values for {} keys of {} numbers{}; the channel is left out", path,
-                              sampler.values.size(), keys, sampler.width, rows == 3 ? " with their tangents" : "");
-            return false;
-        }
-        for (size_t i = 0; i < keys; ++i) {
-            const bool grows = i == 0 ? sampler.times[0] >= 0 : sampler.times[i] > sampler.times[i - 1];
-            if (grows) continue;
-            mDiagnostics.warn(
-                    "{}: the time of key {} is {}, which is not later than the one before; the channel is left out",
-                    path, i, sampler.times[i]);
-            return false;
-        }
-        return true;
+        if (keys > 0 && sampler.values.size() == keys * rows * sampler.width) return true;
+        mDiagnostics.warn("{}: {} values for {} keys of {} numbers{}; the channel is left out", path,
+                          sampler.values.size(), keys, sampler.width, rows == 3 ? " with their tangents" : "");
+        return false;
+    }
+
+    /// One line for all channels: files with this fault have it everywhere.
+    void warnAboutTimes() {
+        if (mMended.empty()) return;
+        KeyRepairs all;
+        for (KeyRepairs const& repairs : mRepairs) all += repairs;
+        mDiagnostics.warn("{}: {} '{}': the times of channels {} do not grow from 0 on: {}", mFile, mPath,
+                          mSource.name.substr(0, 80), listOfNumbers(mMended), toString(all));
     }
 
     GltfDocument const& mDocument;
     GltfScene const& mScene;
     GltfAnimation const& mSource;
+    std::string_view mFile;
     std::string mPath;
     uint64_t& mNumbersLeft;
     Diagnostics& mDiagnostics;
     AnimationData mData;
+    std::vector<KeyRepairs> mRepairs; // parallel to mData.samplers
+    std::vector<size_t> mMended;      // channels of these
     std::map<std::tuple<uint32_t, AnimationPath, uint32_t>, std::optional<uint32_t>> mKnown;
 };
 
 } // namespace
 
-std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene,
+std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene, std::string_view file,
                                           Diagnostics& diagnostics) {
     std::vector<AnimationData> animations;
     uint64_t numbersLeft = kMaxNumbers;
     for (uint32_t i = 0; i < document.animations.size() && diagnostics.ok(); ++i) {
-        animations.push_back(Reader(document, scene, i, numbersLeft, diagnostics).read());
+        animations.push_back(Reader(document, scene, i, file, numbersLeft, diagnostics).read());
     }
     return animations;
 }

@@ -2,11 +2,12 @@
 /// GltfAnimation: the animations of a file, as far as they move parts of the scene (glTF 2.0, section 3.11).
 ///   In      a document whose buffers are loaded, and the mapping of its nodes.
 ///   Out     one AnimationData each, in the order of the file. Empty ones are kept, because indices identify
-///           animations. Weights apply to every node that shows the mesh of their node.
+///           animations. Weights apply to every node that shows the mesh of their node. Times that do not grow are
+///           mended (KeyTimes.h), with one warning for each animation, which names `file`, animation and channels.
 ///   Limits  2^26 numbers in all animations together.
-///   Fails   Corrupt: an accessor that leaves its buffer. A channel that is invalid by itself (times that do not
-///           increase, counts that do not match, a node without morph targets) is dropped, with a warning that names
-///           it.
+///   Fails   Corrupt: an accessor that leaves its buffer. A channel that is invalid by itself (no key with a
+///           finite time, counts that do not match, a node without morph targets) is dropped, with a warning that
+///           names it.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -14,11 +15,12 @@
 #include "filament_core/assets/gltf/GltfDocument.h"
 #include "filament_core/assets/gltf/GltfScene.h"
 
+#include <string_view>
 #include <vector>
 
 namespace filament::assets {
 
-std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene,
+std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene, std::string_view file,
                                           Diagnostics& diagnostics);
 
 } // namespace filament::assets

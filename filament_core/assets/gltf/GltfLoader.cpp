@@ -166,7 +166,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     content.mergeDiagnostics(diagnostics);
     ModelData model;
     if (options.deformation == GltfDeformation::Kept)
-        model.animations = readAnimations(document, scene, diagnostics);
+        model.animations = readAnimations(document, scene, options.name, diagnostics);
     else
         warnAboutAnimations(document, diagnostics);
     if (!diagnostics.ok()) return {};

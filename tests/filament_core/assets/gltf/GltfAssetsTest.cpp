@@ -133,6 +133,20 @@ TEST(GltfAssets, TheSheenChairHasTwoFabricsAsVariants) {
     EXPECT_EQ(std::ranges::count_if(model.materials, [](MaterialData const& m) { return m.sheen.isUsed(); }), 2);
 }
 
+// 71 of its channels have keys that share a time with the one before: cuts of its exporter.
+TEST(GltfAssets, LittlestTokyoMovesInAllOfItsChannels) {
+    REQUIRE_ASSETS();
+    jobs::JobSystem jobs;
+    const Result<ModelData> model =
+            loadGltf(modelFolder() / "LittlestTokyo/LittlestTokyo.glb", jobs, { .deformation = GltfDeformation::Kept });
+    ASSERT_TRUE(model) << model.error().message;
+    ASSERT_EQ(model->animations.size(), 1u);
+    EXPECT_EQ(model->animations[0].channels.size(), 96u);
+    EXPECT_THAT(model->warnings,
+                testing::Contains(testing::HasSubstr(
+                        "LittlestTokyo.glb: animations[0] 'Take 001': the times of channels 2, 4, 6")));
+}
+
 TEST(GltfAssets, ModelsThatTestExtensionsLoadWithoutWarnings) {
     REQUIRE_ASSETS();
     for (const char* name :

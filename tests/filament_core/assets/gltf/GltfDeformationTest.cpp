@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 namespace filament::assets::test {
 namespace {
 
@@ -246,9 +249,9 @@ TEST(GltfAnimation, WhatMakesNoSenseIsLeftOutByName) {
         EXPECT_THAT(model.animations[0].channels, IsEmpty());
         EXPECT_THAT(model.warnings, ElementsAre(HasSubstr(reason)));
     };
-    expectLeftOut(movingTriangle({ 0, 1, 1 }, std::vector<float>(9)),
-                  "animations[0].channels[0]: the time of key 2 is 1, which is not later than the one before");
-    expectLeftOut(movingTriangle({ -1, 1 }, std::vector<float>(6)), "the time of key 0 is -1");
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    expectLeftOut(movingTriangle({ kInfinity, NAN }, std::vector<float>(6)),
+                  "animations[0].channels[0]: no key has a finite time; the channel is left out");
     expectLeftOut(movingTriangle({ 0, 1 }, std::vector<float>(9)), "9 values for 2 keys of 3 numbers");
     expectLeftOut(movingTriangle({}, {}), "0 values for 0 keys");
     TestFile cubic = movingTriangle({ 0, 1 }, std::vector<float>(6));
@@ -257,6 +260,27 @@ TEST(GltfAnimation, WhatMakesNoSenseIsLeftOutByName) {
     TestFile weights = movingTriangle({ 0, 1 }, std::vector<float>(6));
     weights.root["animations"][0]["channels"][0]["target"]["path"] = "weights";
     expectLeftOut(weights, "nodes[0] has no morph targets");
+}
+
+// One line for an animation, however many of its channels are broken.
+TEST(GltfAnimation, TimesThatDoNotGrowAreMendedAndNamed) {
+    TestFile file = movingTriangle({ 2, 0, NAN, 2 }, { 5, 0, 0, 1, 2, 3, 9, 9, 9, 4, 0, 0 });
+    Json& animation = file.root["animations"][0];
+    animation["samplers"].push_back({ { "input", file.add(std::vector<float>{ -1, 1 }, kFloat, "SCALAR", 1) },
+                                      { "output", file.add(std::vector<float>(6), kFloat, "VEC3", 3) } });
+    animation["channels"].push_back({ { "sampler", 1 }, { "target", { { "node", 0 }, { "path", "scale" } } } });
+    animation["channels"].push_back(animation["channels"][0]);
+    const ModelData model = kept(file);
+    ASSERT_EQ(model.animations[0].channels.size(), 3u);
+    AnimationSampler const& first = model.animations[0].samplers[0];
+    EXPECT_THAT(first.times, ElementsAre(0, 2, 2));
+    EXPECT_THAT(first.values, ElementsAre(1, 2, 3, 5, 0, 0, 4, 0, 0));
+    EXPECT_THAT(model.animations[0].samplers[1].times, ElementsAre(-1, 1));
+    EXPECT_EQ(model.animations[0].durationSeconds, 2);
+    EXPECT_THAT(model.warnings,
+                ElementsAre("model: animations[0] 'go': the times of channels 0-2 do not grow from 0 on: 1 at the time "
+                            "of another (the last of them holds from there on), 1 earlier than the one before "
+                            "(sorted), 1 before 0, 1 without a finite time (left out)"));
 }
 
 TEST(GltfAnimation, WhatPointsNowhereIsRefusedByName) {

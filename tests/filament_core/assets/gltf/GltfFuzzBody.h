@@ -145,6 +145,9 @@ inline const char* brokenPromise(ModelData const& model, AnimationData const& an
         if (channel.node >= model.nodes.size() || channel.sampler >= animation.samplers.size()) return "channel";
         AnimationSampler const& sampler = animation.samplers[channel.sampler];
         value.resize(sampler.width);
+        if (sampler.times.empty() || !std::isfinite(sampler.times.front()) || !std::isfinite(sampler.times.back()) ||
+            !std::ranges::is_sorted(sampler.times))
+            return "key times";
         for (const double seconds : { -1.0, 0.0, animation.durationSeconds / 3, animation.durationSeconds, 1e9 })
             sampleAnimation(sampler, seconds, value);
     }

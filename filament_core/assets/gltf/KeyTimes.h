@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// KeyTimes: mends keys whose times do not grow, as glTF 2.0, section 3.11.2 asks of them, so that they can be played.
+///   In      a sampler with as many values as its times ask for; times may be any floats.
+///   Out     times are finite and never decrease, and each key has the values that it had. Keys without a finite time
+///           are left out, the others are sorted; of equal times all stay, in the order of the file.
+///   Why     other loaders play such files. gltfio sorts keys by time and keeps the last of equal ones (a map from times
+///           to keys); three.js plays the interval that contains the time, so that equal times are a jump. Both show
+///           the last of equal keys at its time. Before it this loader shows what three.js does: the way to the first
+///           of them, because exporters write two keys at one time for a cut.
+///   Thread  any; pure.   Cost: one pass over the times of a sampler that is in order.
+#pragma once
+
+#include "filament_core/assets/gltf/Animation.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace filament::assets {
+
+/// What was wrong with the times of keys.
+struct KeyRepairs {
+    size_t endless = 0;  ///< not finite: left out
+    size_t earlier = 0;  ///< earlier than the key before
+    size_t repeated = 0; ///< at the time of another key
+    size_t negative = 0; ///< before 0; they stay, and act on what follows
+
+    bool any() const { return endless + earlier + repeated + negative > 0; }
+    KeyRepairs& operator+=(KeyRepairs const& other);
+};
+
+/// The sampler is left without keys if no time is finite.
+KeyRepairs mendKeys(AnimationSampler& sampler);
+
+/// "58 keys at the time of another (the last of them holds from there on), 2 out of order (sorted)".
+std::string toString(KeyRepairs const& repairs);
+
+/// "2, 4, 6-9" of growing numbers; at most 16 numbers and ranges, and a count of the rest.
+std::string listOfNumbers(std::span<const size_t> numbers);
+
+} // namespace filament::assets
