@@ -167,6 +167,7 @@ struct Engine::Impl {
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
+    void updateBuffer(backend::BufferHandle buffer, uint64_t offset, std::span<const std::byte> data);
     void update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex);
     void update(engine::IndexBufferState const& state, std::span<const std::byte> data, uint32_t firstIndex);
     void update(engine::TextureState& state, TextureUpdate const& update);

@@ -5,8 +5,6 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/scene/SceneNodes.h"
 
-#include <cmath>
-
 namespace filament {
 
 using engine::PublicCall;
@@ -47,14 +45,16 @@ scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {
 }
 
 void Scene::Impl::follow(Renderable renderable, GeometryDesc const& desc) {
-    std::erase_if(followed, [&](FollowedBounds const& one) { return one.renderable == renderable; });
-    if (!hasBounds(desc)) followed.push_back({ renderable, desc.vertices });
+    if (renderable.index() >= followed.size()) {
+        if (hasBounds(desc)) return;
+        followed.resize(renderable.index() + 1);
+    }
+    followed[renderable.index()] = hasBounds(desc) ? FollowedBounds{} : FollowedBounds{ renderable, desc.vertices };
 }
 
 void Scene::Impl::followVertices() const {
-    std::erase_if(followed,
-                  [&](FollowedBounds const& one) { return !data.renderables.index.contains(one.renderable); });
     for (FollowedBounds const& one : followed) {
+        if (!data.renderables.index.contains(one.renderable)) continue; // none, or removed
         engine::VertexBufferState const& state = engine.vertexBuffers.held(one.vertices);
         if (state.boundsVersion > boundsChanges && !state.bounds.empty())
             scene::setBounds(data, one.renderable, state.bounds);

@@ -73,9 +73,9 @@ struct Scene::Impl {
     engine::EngineLink link;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
     mutable uint64_t rasterChanges = 0;
-    mutable std::vector<FollowedBounds> followed;
-    mutable uint64_t boundsChanges = 0; ///< of the engine, that `followed` have seen
-    uint64_t changes = 0;               ///< by the app
+    std::vector<FollowedBounds> followed; ///< by the index of the renderable
+    mutable uint64_t boundsChanges = 0;   ///< of the engine, that `followed` have seen
+    uint64_t changes = 0;                 ///< by the app
     std::vector<ModelCopy> copies;
 };
 

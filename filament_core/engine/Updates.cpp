@@ -77,30 +77,30 @@ void uploadLevelsMadeHere(CommandBuffer& commands, TextureHandle texture, Device
 
 } // namespace
 
+void Engine::Impl::updateBuffer(BufferHandle buffer, uint64_t offset, std::span<const std::byte> data) {
+    AllOrNothing all(pending);
+    pending.record(CmdUpdateBuffer{ buffer, offset, data });
+    contentVersions.changed(buffer);
+    all.complete();
+    ++instanceChanges;
+}
+
 void Engine::Impl::update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex) {
     const size_t stride = state.layout.buffers[0].stride;
     requireWhole(data.size(), stride, "vertices");
     requireInside(firstVertex, data.size() / stride, state.vertexCount, "vertices");
-    AllOrNothing all(pending);
-    pending.record(CmdUpdateBuffer{ state.handle, firstVertex * stride, data });
-    contentVersions.changed(state.handle);
-    all.complete();
+    updateBuffer(state.handle, firstVertex * stride, data);
     const scene::MinMax changed = scene::boundsOf(state.layout, data);
     if (data.size() / stride == state.vertexCount) state.bounds = {};
     if (!changed.empty()) state.bounds.add(changed.min), state.bounds.add(changed.max);
     state.boundsVersion = ++boundsChanges;
-    ++instanceChanges;
 }
 
 void Engine::Impl::update(engine::IndexBufferState const& state, std::span<const std::byte> data, uint32_t firstIndex) {
     const size_t each = state.format == IndexFormat::UInt16 ? 2 : 4;
     requireWhole(data.size(), each, "indices");
     requireInside(firstIndex, data.size() / each, state.indexCount, "indices");
-    AllOrNothing all(pending);
-    pending.record(CmdUpdateBuffer{ state.handle, firstIndex * each, data });
-    contentVersions.changed(state.handle);
-    all.complete();
-    ++instanceChanges;
+    updateBuffer(state.handle, firstIndex * each, data);
 }
 
 void Engine::Impl::update(engine::TextureState& state, TextureUpdate const& update) {

@@ -280,9 +280,8 @@ TEST_P(ModelLifetimeTest, CopiesAndAnimatorsKeepTheirModel) {
     test::expectNoErrors(*engine);
 }
 
-TEST_P(ModelLifetimeTest, ModelsAndEnvironmentsMayOutliveTheirEngine) {
+TEST_P(ModelLifetimeTest, ModelsScenesAndAnimatorsMayOutliveTheirEngine) {
     std::optional<Model> model;
-    std::optional<Environment> environment;
     std::optional<Scene> scene;
     std::optional<Animator> animator;
     {

@@ -10,7 +10,7 @@
 
 namespace filament {
 
-/// Radiance 1 from everywhere. It must live as long as the scenes that it lights.
+/// Radiance 1 from everywhere.
 class WhiteEnvironment {
 public:
     explicit WhiteEnvironment(Engine& engine) {
