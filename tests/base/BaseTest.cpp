@@ -8,6 +8,8 @@
 #include "base/Result.h"
 #include "base/Suggest.h"
 
+#include <filament/Version.h>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -209,6 +211,21 @@ TEST(Log, GivesWholeLinesToTheSinkAndDropsWhatIsBelowTheThreshold) {
     log(Severity::Warning, "seen {}", 2);
     setLogSink(before);
     EXPECT_EQ(lines, std::vector<std::string>{ "seen 2" });
+}
+
+TEST(Version, OfTheLibraryIsThatOfItsHeadersAsNumbersAndAsText) {
+    EXPECT_EQ(version(), kHeaderVersion);
+    std::string dotted = std::to_string(FILAMENT_CORE_VERSION_MAJOR);
+    dotted += '.' + std::to_string(FILAMENT_CORE_VERSION_MINOR) + '.' + std::to_string(FILAMENT_CORE_VERSION_PATCH);
+    EXPECT_EQ(versionText(), dotted);
+}
+
+TEST(Version, NumbersComparePartByPart) {
+    static_assert(FILAMENT_CORE_MAKE_VERSION(0, 2, 0) > FILAMENT_CORE_MAKE_VERSION(0, 1, 999));
+    static_assert(FILAMENT_CORE_MAKE_VERSION(1, 0, 0) > FILAMENT_CORE_MAKE_VERSION(0, 999, 999));
+    static_assert(FILAMENT_CORE_VERSION >= FILAMENT_CORE_MAKE_VERSION(0, 1, 0));
+    EXPECT_LT((Version{ 0, 1, 999 }), (Version{ 0, 2, 0 }));
+    EXPECT_LT((Version{ 0, 999, 999 }), (Version{ 1, 0, 0 }));
 }
 
 } // namespace

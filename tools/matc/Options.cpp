@@ -4,6 +4,8 @@
 #include "shaders/package/PackageFormat.h"
 #include "tools/common/StandardOutput.h"
 
+#include <filament/Version.h>
+
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
@@ -110,8 +112,8 @@ Parsed parseOptions(int argc, char** argv) {
     bool writesDependencies = false;
     CLI::App app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
     app.footer(kEpilogue);
-    app.set_version_flag("--version",
-                         fmt::format("matc of filament_core 0.1.0, package format {}", shader::format::kVersion));
+    app.set_version_flag("--version", fmt::format("matc of filament_core {}, package format {}", versionText(),
+                                                  shader::format::kVersion));
     app.add_option("input", options.input, "the material definition; - reads it from the standard input")->required();
     addOutputs(app, options, writesDependencies);
     addCompilation(app, options);

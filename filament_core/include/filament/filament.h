@@ -33,4 +33,5 @@
 #include <filament/Scene.h>
 #include <filament/Stencil.h>
 #include <filament/Units.h>
+#include <filament/Version.h>
 #include <filament/View.h>

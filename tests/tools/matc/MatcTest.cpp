@@ -2,6 +2,8 @@
 #include "shaders/package/Package.h"
 #include "tools/paths/Paths.h"
 
+#include <filament/Version.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -366,7 +368,7 @@ TEST_F(Matc, EndsWithTheStatusThatItsHelpNames) {
     EXPECT_THAT(help.output, HasSubstr("Exit status: 0 written or printed; 1 the material"));
     const Outcome version = matc("--version");
     EXPECT_EQ(version.status, 0);
-    EXPECT_THAT(version.output, HasSubstr("matc of filament_core"));
+    EXPECT_THAT(version.output, HasSubstr("matc of filament_core " + std::string(filament::versionText())));
     EXPECT_EQ(matc(input).status, 2) << "no -o";
     EXPECT_EQ(matc("--no-such-option " + input).status, 2);
     EXPECT_EQ(matc("-a metal -o x " + input).status, 2);
