@@ -2,6 +2,8 @@
 // Writes the JSON of JobTrace.h: one event per line, so that text tools can compare and search it.
 #include "jobsystem/JobTrace.h"
 
+#include "base/Result.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -15,7 +15,7 @@
 ///   Source  "Trace Event Format", Google 2016: complete events ("X") and thread names ("M").
 #pragma once
 
-#include "base/Result.h"
+#include <filament/Result.h>
 
 #include <atomic>
 #include <chrono>

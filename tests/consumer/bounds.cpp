@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bounds of an empty scene, for the pkg-config routes: what they must get right is flags and libraries.
+#include <filament/Engine.h>
+#include <filament/Scene.h>
+#include <filament/Version.h>
+
+#include <cstdio>
+
+int main() {
+    using namespace filament;
+    Result<Engine> engine = Engine::create({ .backend = Backend::Null });
+    if (!engine) return std::fprintf(stderr, "%s\n", engine.error().message.c_str()), 1;
+    const Scene scene(*engine);
+    std::printf("bounds: filament_core %s, %u lights\n", versionText(), scene.lightCount());
+    return version() == kHeaderVersion && scene.lightCount() == 0 ? 0 : 1;
+}

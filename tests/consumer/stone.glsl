@@ -1,0 +1,3 @@
+vec3 stoneColor(vec3 tint) {
+    return 0.5 * tint;
+}
