@@ -97,11 +97,26 @@ struct DeviceTextureDesc {
 /// Of all levels, layers and samples, tightly packed.
 uint64_t textureBytes(DeviceTextureDesc const& desc);
 
-using filament::CompareOp;
 using filament::Filter;
 using filament::MipFilter;
 using filament::WrapMode;
-using SamplerDesc = filament::Sampler;
+
+/// `None`: an ordinary sampler without comparison.
+enum class CompareOp : uint8_t { None, Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
+
+/// Unlike the public Sampler it filters and repeats nothing by default: passes read most textures texel by texel, and
+/// traces leave out what is as here.
+struct SamplerDesc {
+    Filter magFilter = Filter::Nearest;
+    Filter minFilter = Filter::Nearest;
+    MipFilter mipFilter = MipFilter::None;
+    WrapMode wrapU = WrapMode::ClampToEdge;
+    WrapMode wrapV = WrapMode::ClampToEdge;
+    WrapMode wrapW = WrapMode::ClampToEdge;
+    CompareOp compare = CompareOp::None;
+    uint8_t anisotropy = 1; ///< 1..16
+    friend bool operator==(SamplerDesc const&, SamplerDesc const&) = default;
+};
 
 // ---------------------------------------------------------------------------------------------- programs
 

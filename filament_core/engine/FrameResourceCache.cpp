@@ -10,11 +10,11 @@ namespace {
 
 using passes::FrameResources;
 
-constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
-constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
-constexpr Sampler kNearest{};
-constexpr Sampler kBilinearOfLevels{ Filter::Linear, Filter::Linear, MipFilter::Nearest };
-constexpr Sampler kNearestOfLevels{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest };
+constexpr backend::SamplerDesc kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
+constexpr backend::SamplerDesc kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
+constexpr backend::SamplerDesc kNearest{};
+constexpr backend::SamplerDesc kBilinearOfLevels{ Filter::Linear, Filter::Linear, MipFilter::Nearest };
+constexpr backend::SamplerDesc kNearestOfLevels{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest };
 
 uint32_t toneTableSize(ToneMapping mapping) {
     return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;

@@ -4,16 +4,27 @@
 
 #include "backend/stream/CommandStream.h"
 
+#include <filament/Sampler.h>
+
 #include <utility>
 #include <vector>
 
 namespace filament::engine {
 
+inline backend::SamplerDesc descOf(Sampler const& sampler) {
+    return { .magFilter = sampler.magFilter,
+             .minFilter = sampler.minFilter,
+             .mipFilter = sampler.mipFilter,
+             .wrapU = sampler.wrapU,
+             .wrapV = sampler.wrapV,
+             .anisotropy = sampler.anisotropy };
+}
+
 class SamplerCache {
 public:
     explicit SamplerCache(backend::CommandStream& stream) : mStream(stream) {}
 
-    backend::SamplerHandle get(Sampler const& sampler, backend::CommandBuffer& commands) {
+    backend::SamplerHandle get(backend::SamplerDesc const& sampler, backend::CommandBuffer& commands) {
         for (auto const& [known, handle] : mSamplers) {
             if (known == sampler) return handle;
         }
@@ -35,7 +46,7 @@ public:
 
 private:
     backend::CommandStream& mStream;
-    std::vector<std::pair<Sampler, backend::SamplerHandle>> mSamplers; // a handful: linear search
+    std::vector<std::pair<backend::SamplerDesc, backend::SamplerHandle>> mSamplers; // a handful: linear search
 };
 
 } // namespace filament::engine

@@ -17,6 +17,11 @@ constexpr Sampler kTrilinear{ .magFilter = Filter::Linear,
                               .mipFilter = MipFilter::Linear,
                               .wrapU = WrapMode::Repeat,
                               .wrapV = WrapMode::Repeat };
+constexpr Sampler kBilinear{ .magFilter = Filter::Linear,
+                             .minFilter = Filter::Linear,
+                             .mipFilter = MipFilter::None,
+                             .wrapU = WrapMode::ClampToEdge,
+                             .wrapV = WrapMode::ClampToEdge };
 
 std::byte code(float value) { return std::byte{ static_cast<uint8_t>(glm::clamp(value, 0.0f, 1.0f) * 255 + 0.5f) }; }
 
@@ -107,7 +112,7 @@ MaterialPicture gradientCube(Engine& engine, std::string const& name) {
         pixels.insert(pixels.end(), own.begin(), own.end());
     }
     return upload(engine, { .kind = TextureKind::Cube, .width = kSide, .height = kSide, .layers = 6, .name = name },
-                  pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+                  pixels, kBilinear);
 }
 
 MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
@@ -125,14 +130,14 @@ MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
     return upload(
             engine,
             { .kind = TextureKind::Texture2DArray, .width = kSide, .height = kSide, .layers = kLayers, .name = name },
-            pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+            pixels, kBilinear);
 }
 
 /// 0 to 63 along u.
 MaterialPicture wholeNumbers(Engine& engine, std::string const& name, Format format) {
     std::vector<std::byte> pixels;
     for (uint32_t x = 0; x < 64; ++x) pixels.push_back(static_cast<std::byte>(x));
-    return upload(engine, { .format = format, .width = 64, .name = name }, pixels, {});
+    return upload(engine, { .format = format, .width = 64, .name = name }, pixels, kUnfilteredSampler);
 }
 
 } // namespace

@@ -21,7 +21,7 @@ std::array<double, 256> makeCodes(bool isSrgb) {
 
 class Texels {
 public:
-    Texels(assets::Image const& image, backend::SamplerDesc const& sampler)
+    Texels(assets::Image const& image, Sampler const& sampler)
             : mImage(image), mSampler(sampler), mWidth(static_cast<int>(image.width)),
               mHeight(static_cast<int>(image.height)) {}
 
@@ -40,7 +40,7 @@ public:
 
 private:
     assets::Image const& mImage;
-    backend::SamplerDesc const& mSampler;
+    Sampler const& mSampler;
     int mWidth, mHeight;
 };
 
@@ -61,14 +61,14 @@ int wrapped(int coordinate, int size, backend::WrapMode mode) {
     return std::clamp(coordinate, 0, size - 1);
 }
 
-double4 lookUp(assets::Image const& image, backend::SamplerDesc const& sampler, double2 uv) {
+double4 lookUp(assets::Image const& image, Sampler const& sampler, double2 uv) {
     const Texels texels(image, sampler);
     // Coordinates far outside, as in damaged files, show nothing meaningful.
     constexpr double kFarthest = 1e8;
     const double x = std::clamp(uv.x * texels.width(), -kFarthest, kFarthest);
     const double y = std::clamp(uv.y * texels.height(), -kFarthest, kFarthest);
     if (!(x == x) || !(y == y)) return texels.at(0, 0);
-    if (sampler.magFilter == backend::Filter::Nearest) {
+    if (sampler.magFilter == Filter::Nearest) {
         return texels.at(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
     }
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);

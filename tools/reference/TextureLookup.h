@@ -11,7 +11,7 @@
 
 namespace filament::reference {
 
-double4 lookUp(assets::Image const& image, backend::SamplerDesc const& sampler, double2 uv);
+double4 lookUp(assets::Image const& image, Sampler const& sampler, double2 uv);
 
 /// The texel for a coordinate outside [0, size).
 int wrapped(int coordinate, int size, backend::WrapMode mode);

@@ -210,7 +210,7 @@ struct GltfDocument {
     std::vector<GltfSkin> skins;
     std::vector<GltfMaterial> materials;
     std::vector<GltfTexture> textures;
-    std::vector<backend::SamplerDesc> samplers;
+    std::vector<Sampler> samplers;
     std::vector<GltfImage> images;
     std::vector<LightData> lights;
     std::vector<GltfProfile> profiles;

@@ -378,7 +378,7 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
     document.nodes = parseAll<GltfNode>(root["nodes"], with(parseNode));
     document.skins = parseAll<GltfSkin>(root["skins"], with(parseSkin));
     document.images = parseAll<GltfImage>(root["images"], with(parseImage));
-    document.samplers = parseAll<backend::SamplerDesc>(root["samplers"], parseGltfSampler);
+    document.samplers = parseAll<Sampler>(root["samplers"], parseGltfSampler);
     document.materials = parseAll<GltfMaterial>(
             root["materials"], [&](JsonNode const& node) { return parseGltfMaterial(node, counts.textures); });
     document.textures = parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) {

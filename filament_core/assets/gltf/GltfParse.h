@@ -24,7 +24,7 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount);
 /// KHR_materials_variants of a primitive. A second mapping of the same variant is dropped, with a warning.
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,
                                                    size_t variantCount);
-backend::SamplerDesc parseGltfSampler(JsonNode const& node);
+Sampler parseGltfSampler(JsonNode const& node);
 LightData parseGltfLight(JsonNode const& node);
 GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount);
 std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, size_t profileCount); ///< of a node

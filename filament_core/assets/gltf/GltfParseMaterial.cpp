@@ -132,8 +132,7 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
 }
 
 /// Section 3.8.4: OpenGL's numbers. If filters are missing, the choice is ours: trilinear.
-backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
-    using backend::Filter, backend::MipFilter;
+Sampler parseGltfSampler(JsonNode const& node) {
     struct MinFilter {
         uint64_t number;
         Filter filter;
@@ -144,7 +143,7 @@ backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
         { 9984, Filter::Nearest, MipFilter::Nearest }, { 9985, Filter::Linear, MipFilter::Nearest },
         { 9986, Filter::Nearest, MipFilter::Linear },  { 9987, Filter::Linear, MipFilter::Linear },
     };
-    backend::SamplerDesc sampler;
+    Sampler sampler;
     sampler.magFilter = node["magFilter"].integer(9729) == 9728 ? Filter::Nearest : Filter::Linear;
     auto const* found = std::ranges::find(kMinFilters, node["minFilter"].integer(9987), &MinFilter::number);
     if (found == std::end(kMinFilters)) {

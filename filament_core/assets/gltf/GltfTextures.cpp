@@ -12,11 +12,11 @@ namespace filament::assets {
 namespace {
 
 /// Section 3.8.4: without a sampler, repeat; the filters are implementation-defined.
-constexpr backend::SamplerDesc kDefaultSampler{ .magFilter = backend::Filter::Linear,
-                                                .minFilter = backend::Filter::Linear,
-                                                .mipFilter = backend::MipFilter::Linear,
-                                                .wrapU = backend::WrapMode::Repeat,
-                                                .wrapV = backend::WrapMode::Repeat };
+constexpr Sampler kDefaultSampler{ .magFilter = Filter::Linear,
+                                   .minFilter = Filter::Linear,
+                                   .mipFilter = MipFilter::Linear,
+                                   .wrapU = WrapMode::Repeat,
+                                   .wrapV = WrapMode::Repeat };
 
 class TexturePlanner {
 public:

@@ -32,7 +32,7 @@ int wrapNumber(backend::WrapMode wrap) {
     return 10497;
 }
 
-Json samplerJson(backend::SamplerDesc const& sampler) {
+Json samplerJson(Sampler const& sampler) {
     const bool isNearest = sampler.minFilter == backend::Filter::Nearest;
     int minFilter = isNearest ? 9728 : 9729;
     if (sampler.mipFilter == backend::MipFilter::Nearest) minFilter = isNearest ? 9984 : 9985;

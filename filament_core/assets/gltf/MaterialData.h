@@ -9,6 +9,8 @@
 #include "base/math/Math.h"
 #include "filament_core/assets/files/NoIndex.h"
 
+#include <filament/Sampler.h>
+
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -18,7 +20,7 @@ namespace filament::assets {
 
 struct TextureRef {
     uint32_t image = kNone; ///< into ModelData::images; kNone: the factor alone
-    backend::SamplerDesc sampler{};
+    Sampler sampler{};
     uint32_t uvSet = 0;           ///< 0 or 1
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;

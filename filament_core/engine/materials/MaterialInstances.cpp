@@ -56,7 +56,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
     }
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type))
-            instance.textures.push_back({ textureHandle(unsetTexture(parameter)), {} });
+            instance.textures.push_back({ textureHandle(unsetTexture(parameter)), kUnfilteredSampler });
     }
     dirtyInstances.push_back(draft.handle()); // the last call that can fail
     instance.id = nextInstanceId++;
@@ -161,7 +161,7 @@ BindGroupHandle Engine::Impl::makeGroup(scene::MaterialInstance const& instance,
         if (!shader::isTexture(parameter.type)) continue;
         const scene::TextureBinding bound = instance.textures[slot++];
         if (!parameter.isBound) continue; // the constants that use it are false
-        const Sampler sampler = engine::samplerFor(parameter, bound.sampler, filter);
+        const SamplerDesc sampler = engine::descOf(engine::samplerFor(parameter, bound.sampler, filter));
         entries[count++] = { .binding = parameter.binding,
                              .texture = bound.texture,
                              .sampler = samplers.get(sampler, commands) };

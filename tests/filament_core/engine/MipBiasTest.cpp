@@ -36,9 +36,10 @@ public:
                                                      properties),
                                          code))),
               mInstance(engine.own(engine.createInstance(mMaterial))), mTexture(noise()), scene(engine) {
-        EXPECT_TRUE(
-                engine.set(mInstance, "photo", mTexture, Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear })
-                        .ok());
+        EXPECT_TRUE(engine.set(mInstance, "photo", mTexture,
+                               Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear, WrapMode::ClampToEdge,
+                                        WrapMode::ClampToEdge })
+                            .ok());
         mSquare.add(scene, mInstance, glm::rotate(double4x4(1.5), -0.9, double3(1, 0.2, 0)));
         view.camera = Camera::lookAt({ 0, 0, 2 }, { 0, 0, 0 }, { .verticalFovDegrees = 50 });
         view.size = kPlaneSize;

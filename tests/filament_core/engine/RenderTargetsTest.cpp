@@ -64,7 +64,7 @@ struct TargetStage {
         return textures.back();
     }
     Owned<RenderTarget> target(RenderTargetDesc const& desc) { return engine.own(engine.create(desc)); }
-    void show(Texture film) { EXPECT_TRUE(engine.set(screen, "picture", film, Sampler{})); }
+    void show(Texture film) { EXPECT_TRUE(engine.set(screen, "picture", film, kUnfilteredSampler)); }
     Image room16() { return test::renderLinear(engine, room, shown); }
 };
 
@@ -141,7 +141,8 @@ TEST_P(RenderTargetsTest, MipsFollowEveryView) {
     const Owned<RenderTarget> film =
             target({ .color = texture(Format::RGBA8, 6), .generateMips = true, .name = "mips" });
     EXPECT_TRUE(engine.set(screen, "picture", engine.colorOf(film),
-                           Sampler{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest }));
+                           Sampler{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest, WrapMode::ClampToEdge,
+                                    WrapMode::ClampToEdge }));
     for (int frame = 0; frame < 2; ++frame) {
         filmed.clearColor.x = 0.7f * static_cast<float>(frame);
         camera.render(scene, filmed, film);
@@ -185,7 +186,8 @@ TEST(RenderTargets, BothApisShowTheSameBits) {
         const Owned<RenderTarget> film =
                 stage.target({ .color = stage.texture(Format::RGBA8, 6), .generateMips = true });
         EXPECT_TRUE(stage.engine.set(stage.screen, "picture", stage.engine.colorOf(film),
-                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear }));
+                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear, WrapMode::ClampToEdge,
+                                              WrapMode::ClampToEdge }));
         EXPECT_TRUE(stage.engine.set(stage.screen, "level", 1.5f));
         stage.camera.render(stage.scene, stage.filmed, film);
         const Image seen = stage.room16();

@@ -30,7 +30,7 @@ struct TwoSquares {
         photo = loadInstance(kPhoto, photoMaterial);
         paint = loadInstance(kPaint, paintMaterial);
         EXPECT_TRUE(engine.set(photo, "gain", 1.0f).ok());
-        EXPECT_TRUE(engine.set(photo, "picture", picture, Sampler{}).ok());
+        EXPECT_TRUE(engine.set(photo, "picture", picture, kUnfilteredSampler).ok());
         square.add(scene, photo, { 0, 0, -0.5 });
         square.add(scene, paint, { 0.7, 0.7, 0 }, 0.3);
         view = test::SquareMesh::view();
@@ -136,7 +136,11 @@ TEST(SeveralViews, AChangedTextureIsBoundAnewForEveryFilterInUseAndNoOther) {
     };
     for (int i = 0; i < 4; ++i) drawAndCount(TextureFilter::AsAuthored);
     EXPECT_EQ(drawAndCount(TextureFilter::Trilinear).bindGroups, 1u) << "the photo's; the paint has no textures";
-    ASSERT_TRUE(stage.engine.set(stage.photo, "picture", stage.picture, Sampler{ .magFilter = Filter::Linear }).ok());
+    ASSERT_TRUE(stage.engine
+                        .set(stage.photo, "picture", stage.picture,
+                             Sampler{ Filter::Linear, Filter::Nearest, MipFilter::None, WrapMode::ClampToEdge,
+                                      WrapMode::ClampToEdge })
+                        .ok());
     const Creations changed = drawAndCount(TextureFilter::AsAuthored);
     EXPECT_EQ(changed.bindGroups, 2u);
     EXPECT_EQ(changed.ended, 2u);

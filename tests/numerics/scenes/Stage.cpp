@@ -134,7 +134,7 @@ Renderable Stage::add(Mesh const& mesh, double4x4 const& worldFromObject, Look c
     setLook(engine, mInstances.back(), look);
     if (look.bumpy) {
         EXPECT_TRUE(engine.set(mInstances.back(), "normalScale", 1.0f));
-        EXPECT_TRUE(engine.set(mInstances.back(), "normalMap", mDevice.waves()));
+        EXPECT_TRUE(engine.set(mInstances.back(), "normalMap", mDevice.waves(), kUnfilteredSampler));
     }
     const float extent = largestOf(mesh.vertices);
     return scene.add({ .vertices = mVertices.back(),

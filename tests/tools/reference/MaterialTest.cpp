@@ -22,7 +22,7 @@ assets::Image makeImage(uint32_t width, uint32_t height, std::vector<std::array<
     return image;
 }
 
-constexpr backend::SamplerDesc kLinear{
+constexpr Sampler kLinear{
     .magFilter = Filter::Linear, .minFilter = Filter::Linear, .wrapU = WrapMode::Repeat, .wrapV = WrapMode::Repeat
 };
 
@@ -52,7 +52,7 @@ TEST(TextureLookup, FiltersBetweenTexelCentresInLinearLight) {
 
 TEST(TextureLookup, NearestTakesTheTexelAndBadCoordinatesAreHarmless) {
     const assets::Image image = makeImage(2, 1, { { 0, 0, 0, 0 }, { 255, 0, 0, 0 } });
-    backend::SamplerDesc sampler = kLinear;
+    Sampler sampler = kLinear;
     sampler.magFilter = Filter::Nearest;
     EXPECT_EQ(lookUp(image, sampler, { 0.49, 0.5 }).x, 0);
     EXPECT_EQ(lookUp(image, sampler, { 0.51, 0.5 }).x, 1);

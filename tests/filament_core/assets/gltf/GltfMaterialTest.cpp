@@ -119,7 +119,7 @@ TEST(GltfMaterial, SamplersTranslateEveryModeOfOpenGl) {
             { { "minFilter", c.minFilter }, { "magFilter", 9728 }, { "wrapS", 33071 }, { "wrapT", 33648 } }
         };
         file.root["textures"][0]["sampler"] = 0;
-        const backend::SamplerDesc sampler = loaded(file).materials.at(0).emissive.sampler;
+        const Sampler sampler = loaded(file).materials.at(0).emissive.sampler;
         EXPECT_EQ(sampler.minFilter, c.filter) << c.minFilter;
         EXPECT_EQ(sampler.mipFilter, c.mips) << c.minFilter;
         EXPECT_EQ(sampler.magFilter, Filter::Nearest);

@@ -9,11 +9,11 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr backend::SamplerDesc kClamped{ .magFilter = backend::Filter::Nearest,
-                                         .minFilter = backend::Filter::Linear,
-                                         .mipFilter = backend::MipFilter::Nearest,
-                                         .wrapU = backend::WrapMode::ClampToEdge,
-                                         .wrapV = backend::WrapMode::MirroredRepeat };
+constexpr Sampler kClamped{ .magFilter = backend::Filter::Nearest,
+                            .minFilter = backend::Filter::Linear,
+                            .mipFilter = backend::MipFilter::Nearest,
+                            .wrapU = backend::WrapMode::ClampToEdge,
+                            .wrapV = backend::WrapMode::MirroredRepeat };
 
 GlbImage checkerboard(uint8_t alpha) {
     const std::array<uint8_t, 16> pixels{ 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, alpha };

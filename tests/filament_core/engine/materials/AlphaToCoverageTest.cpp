@@ -154,7 +154,8 @@ fragment {{ void material(inout MaterialInputs material) {{
                                                                .pixels = std::as_bytes(std::span(texels)) }));
             EXPECT_TRUE(stage.engine
                                 .set(instance, "leaf", texture,
-                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear })
+                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear, WrapMode::ClampToEdge,
+                                              WrapMode::ClampToEdge })
                                 .ok());
             stage.add(instance, { { .halfSide = 1.6f } },
                       glm::rotate(glm::rotate(double4x4(1.0), 0.4, double3(0, 0, 1)), 0.7, double3(1, 0, 0)));

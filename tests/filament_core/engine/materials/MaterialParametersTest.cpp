@@ -111,7 +111,7 @@ TEST_P(MaterialParameters, OfEveryTypeArriveInTheShader) {
                                                                             .layers = 2,
                                                                             .pixels = std::as_bytes(std::span(kLayers)),
                                                                             .name = "layers" }));
-    EXPECT_TRUE(mEngine->set(instance, "layers", layers));
+    EXPECT_TRUE(mEngine->set(instance, "layers", layers, kUnfilteredSampler));
     EXPECT_EQ(test::shownBy(*mEngine, instance), float4(0, 1, 0, 1)) << "red: the first value that is wrong";
 }
 
@@ -154,7 +154,7 @@ fragment {
                                                                            .layers = 12,
                                                                            .pixels = std::as_bytes(std::span(texels)),
                                                                            .name = "cubes" }));
-    EXPECT_TRUE(mEngine->set(instance, "cubes", cubes));
+    EXPECT_TRUE(mEngine->set(instance, "cubes", cubes, kUnfilteredSampler));
     EXPECT_EQ(test::shownBy(*mEngine, instance), float4(1, 1, 0, 1));
     const Owned<Texture> flat = mEngine->own(mEngine->create(TextureDesc{ .name = "flat" }));
     EXPECT_EQ(refusal(instance, "cubes", flat.get()),

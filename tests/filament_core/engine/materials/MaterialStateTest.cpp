@@ -213,7 +213,9 @@ fragment {{ void material(inout MaterialInputs material) {{
                 .format = textureFormat, .width = 2, .height = 1, .pixels = std::as_bytes(std::span(texels)) }));
         const Sampler linear{ .magFilter = Filter::Linear,
                               .minFilter = Filter::Linear,
-                              .mipFilter = MipFilter::Linear };
+                              .mipFilter = MipFilter::Linear,
+                              .wrapU = WrapMode::ClampToEdge,
+                              .wrapV = WrapMode::ClampToEdge };
         const Result<void> done = stage.engine.set(instance, "ids", ids, linear);
         EXPECT_TRUE(done) << (done ? "" : done.error().message);
         stage.view.quality.textureFilter = TextureFilter::Anisotropic;

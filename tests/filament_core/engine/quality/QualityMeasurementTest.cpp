@@ -20,7 +20,8 @@ public:
     explicit Floor(Engine& engine) : mTexture(checker(engine)), mPatch(engine, 80, textured()) {
         mPatch.setSurface({ 0.9f, 0.6f, 0.3f, 1 }, 0.5f, 0.5f);
         EXPECT_TRUE(engine.set(mPatch.instance(), "baseColorMap", mTexture,
-                               Sampler{ .minFilter = Filter::Linear, .mipFilter = MipFilter::Linear }));
+                               Sampler{ Filter::Nearest, Filter::Linear, MipFilter::Linear, WrapMode::ClampToEdge,
+                                        WrapMode::ClampToEdge }));
         mPatch.addSun({ 0, 0, 1 });
         mPatch.addEnvironment({ float4(0.5f), float4(0.1f), float4(0.3f), float4(0.2f), float4(0.1f) }, 5);
         mPatch.view.size = { 192, 192 };

@@ -34,11 +34,11 @@ MaterialDesc textured() {
 MaterialDesc plain() { return { .package = shader::engineMaterial("gltf_unlit_opaque") }; }
 
 /// The centre of a patch with stepTexture(), in levels.
-float levelSeen(Engine& engine, double viewDegrees, TextureFilter filter) {
+float levelSeen(Engine& engine, double viewDegrees, TextureFilter filter, Sampler const& sampler = kUnfilteredSampler) {
     const Owned<Texture> texture = stepTexture(engine);
     Patch patch(engine, viewDegrees, textured());
     EXPECT_TRUE(engine.set(patch.instance(), "baseColorFactor", float4(1)));
-    EXPECT_TRUE(engine.set(patch.instance(), "baseColorMap", texture));
+    EXPECT_TRUE(engine.set(patch.instance(), "baseColorMap", texture, sampler));
     patch.view.quality.textureFilter = filter;
     return patch.renderCenter().x / kStep;
 }
@@ -57,13 +57,23 @@ TEST_P(QualityViewTest, EachTextureFilterReadsTheLevelsThatItsNameSays) {
     test::expectNoErrors(*engine);
 }
 
+TEST_P(QualityViewTest, ASamplerIsTrilinearAndRepeatsUnlessItSaysOtherwise) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    EXPECT_EQ(levelSeen(*engine, 60, TextureFilter::AsAuthored, Sampler{}),
+              levelSeen(*engine, 60, TextureFilter::Trilinear));
+    EXPECT_EQ(Sampler{}.wrapU, WrapMode::Repeat);
+    EXPECT_EQ(Sampler{}.wrapV, WrapMode::Repeat);
+    test::expectNoErrors(*engine);
+}
+
 TEST_P(QualityViewTest, ATextureFilterMayChangeFromFrameToFrame) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
     const Owned<Texture> texture = stepTexture(*engine);
     Patch patch(*engine, 60, textured());
     ASSERT_TRUE(engine->set(patch.instance(), "baseColorFactor", float4(1)));
-    ASSERT_TRUE(engine->set(patch.instance(), "baseColorMap", texture));
+    ASSERT_TRUE(engine->set(patch.instance(), "baseColorMap", texture, kUnfilteredSampler));
     const float authored = patch.renderCenter().x;
     patch.view.quality.textureFilter = TextureFilter::Trilinear;
     EXPECT_GT(patch.renderCenter().x, authored);
