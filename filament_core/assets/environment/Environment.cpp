@@ -35,10 +35,16 @@ void report(EnvironmentOptions const& options, std::string_view stage, size_t do
     if (options.progress) options.progress(stage, done, total);
 }
 
-void warnAboutRepairs(std::filesystem::path const& path, HdrRepairs const& repairs) {
+/// The error of a load that nobody wants any more.
+Result<void> goesOn(EnvironmentOptions const& options) {
+    if (!options.cancellation || !options.cancellation->isRequested()) return {};
+    return fail(ErrorCode::Timeout, "loading the environment was cancelled");
+}
+
+void warnAboutRepairs(std::string_view name, HdrRepairs const& repairs) {
     if (repairs.total() == 0) return;
-    log(Severity::Warning, "'{}': replaced {} NaN, {} infinite and {} negative components", path.string(),
-        repairs.notANumber, repairs.infinite, repairs.negative);
+    log(Severity::Warning, "'{}': replaced {} NaN, {} infinite and {} negative components", name, repairs.notANumber,
+        repairs.infinite, repairs.negative);
 }
 
 std::filesystem::path cacheFile(std::filesystem::path const& directory, uint64_t key) {
@@ -51,16 +57,17 @@ Result<EnvironmentData> readCached(std::filesystem::path const& file, uint64_t k
     return decodeEnvironment(*bytes, key);
 }
 
-Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::filesystem::path const& path,
-                                    jobs::JobSystem& jobs, EnvironmentOptions const& options) {
+Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::string_view name, jobs::JobSystem& jobs,
+                                    EnvironmentOptions const& options) {
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     report(options, "decode", 0, 1);
-    const Result<HdrImage> image = decodeHdrImage(picture, path.string());
+    const Result<HdrImage> image = decodeHdrImage(picture, name);
     if (!image) return image.error();
     report(options, "decode", 1, 1);
     return bakeEnvironment(*image, jobs, options);
 }
 
-Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::filesystem::path const& path) {
+Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::string_view name) {
     constexpr std::array kMappings{ RoughnessMapping::Quadratic, RoughnessMapping::Logarithmic,
                                     RoughnessMapping::Linear };
     for (const RoughnessMapping mapping : kMappings) {
@@ -69,20 +76,17 @@ Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::filesys
         if (data) return data;
     }
     return fail(ErrorCode::Corrupt,
-                "'{}' is a damaged baked environment, or one of another version; bake it again with cmgen",
-                path.string());
+                "'{}' is a damaged baked environment, or one of another version; bake it again with cmgen", name);
 }
 
-Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs::JobSystem& jobs,
-                                         EnvironmentOptions const& options) {
-    const Result<std::vector<std::byte>> picture = readFileBytes(path);
-    if (!picture) return picture.error();
-    if (isBakedEnvironment(*picture)) return readBaked(*picture, path);
+Result<EnvironmentData> loadThroughCache(std::span<const std::byte> picture, std::string_view name,
+                                         jobs::JobSystem& jobs, EnvironmentOptions const& options) {
+    if (isBakedEnvironment(picture)) return readBaked(picture, name);
     const std::filesystem::path directory =
             options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
-    if (directory.empty()) return bakePicture(*picture, path, jobs, options);
+    if (directory.empty()) return bakePicture(picture, name, jobs, options);
 
-    const uint64_t key = environmentKey(*picture, options);
+    const uint64_t key = environmentKey(picture, options);
     const std::filesystem::path file = cacheFile(directory, key);
     Result<EnvironmentData> cached = readCached(file, key);
     if (cached) cached->mapping = options.mapping;
@@ -90,7 +94,7 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
     if (cached.error().code == ErrorCode::Corrupt) {
         log(Severity::Warning, "'{}': {}; baking again", file.string(), cached.error().message);
     }
-    Result<EnvironmentData> baked = bakePicture(*picture, path, jobs, options);
+    Result<EnvironmentData> baked = bakePicture(picture, name, jobs, options);
     if (!baked) return baked;
     if (Result<void> written = replaceFile(file, encodeEnvironment(*baked, key)); !written) {
         log(Severity::Warning, "environment is not cached: {}", written.error().message);
@@ -135,8 +139,10 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     }
     const uint32_t skySize = skyFaceSize(image.width);
     report(options, "project", 0, 1);
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     const IblCube cube = cubeFromEquirect(image, std::max(skySize, options.faceSize), jobs);
     report(options, "project", 1, 1);
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
 
     EnvironmentData data;
     data.statistics.sourceWidth = image.width;
@@ -148,6 +154,7 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
             [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
     data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
     data.mapping = options.mapping;
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     EncodedCube specular = encodeCube(levels, options.format, jobs);
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
     EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
@@ -165,11 +172,21 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options) try {
     if (auto checked = checkOptions(options); !checked) return checked.error();
-    Result<EnvironmentData> data = loadThroughCache(path, jobs, options);
-    if (data) warnAboutRepairs(path, data->statistics.repairs);
-    return data;
+    const Result<std::vector<std::byte>> file = readFileBytes(path);
+    if (!file) return file.error();
+    return loadEnvironmentFromMemory(*file, path.string(), jobs, options);
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "not enough memory to load '{}'; make it smaller", path.string());
+}
+
+Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> file, std::string_view name,
+                                                  jobs::JobSystem& jobs, EnvironmentOptions const& options) try {
+    if (auto checked = checkOptions(options); !checked) return checked.error();
+    Result<EnvironmentData> data = loadThroughCache(file, name, jobs, options);
+    if (data) warnAboutRepairs(name, data->statistics.repairs);
+    return data;
+} catch (std::bad_alloc const&) {
+    return fail(ErrorCode::OutOfMemory, "not enough memory to load '{}'; make it smaller", name);
 }
 
 } // namespace filament::assets

@@ -14,6 +14,7 @@
 
 #include "base/Result.h"
 #include "filament_core/assets/environment/IblBaker.h"
+#include "jobsystem/Cancellation.h"
 
 #include <array>
 #include <filesystem>
@@ -35,6 +36,8 @@ struct EnvironmentOptions {
     backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8: RGBM
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
     EnvironmentProgress progress{};
+    /// Requested from any thread: the load ends before its next step, with Timeout. Must outlive it.
+    jobs::Cancellation const* cancellation = nullptr;
 };
 
 struct EnvironmentStatistics {
@@ -62,6 +65,10 @@ struct EnvironmentData {
 
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options = {});
+
+/// The bytes of such a file; `name` stands for it in messages.
+Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> file, std::string_view name,
+                                                  jobs::JobSystem& jobs, EnvironmentOptions const& options = {});
 
 /// For generated skies, without file and cache.
 Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,

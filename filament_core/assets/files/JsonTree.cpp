@@ -131,6 +131,18 @@ std::vector<float> JsonNode::numberList() const {
     return values;
 }
 
+std::vector<std::string> JsonNode::textsOf(const char* key) const {
+    if (!mValue || !mValue->is_object()) return {};
+    const auto member = mValue->find(key);
+    if (member == mValue->end() || !member->is_array()) return {};
+    std::vector<std::string> texts;
+    for (json const& element : *member) {
+        if (!element.is_string()) return {};
+        texts.push_back(element.get<std::string>());
+    }
+    return texts;
+}
+
 void JsonNode::refuse(std::string_view expected) const {
     const char* found = mValue ? mValue->type_name() : "nothing";
     mDiagnostics->refuse(ErrorCode::Corrupt, "{}: must be {}, found {}", mPath.empty() ? "the file" : mPath, expected,

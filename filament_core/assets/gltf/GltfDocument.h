@@ -104,6 +104,7 @@ struct GltfMesh {
     std::string name;
     std::vector<GltfPrimitive> primitives;
     std::vector<float> weights;
+    std::vector<std::string> targetNames{}; ///< "extras": { "targetNames": [...] }, as exporters agreed
 };
 
 /// EXT_mesh_gpu_instancing: one transform per instance, below the node's own.
@@ -140,7 +141,7 @@ struct GltfNode {
     NodePose pose{};        ///< of the same transform
     bool hasMatrix = false; ///< the pose was decomposed from a matrix
     std::vector<uint32_t> children;
-    uint32_t mesh = kNone, skin = kNone, light = kNone;
+    uint32_t mesh = kNone, skin = kNone, light = kNone, camera = kNone;
     bool isVisible = true; ///< KHR_node_visibility: false hides it and its descendants
     std::vector<float> weights;
     std::optional<GltfInstancing> instancing;
@@ -213,6 +214,7 @@ struct GltfDocument {
     std::vector<Sampler> samplers;
     std::vector<GltfImage> images;
     std::vector<LightData> lights;
+    std::vector<CameraData> cameras;
     std::vector<GltfProfile> profiles;
     std::vector<std::string> variants; ///< KHR_materials_variants: their names
     std::vector<uint32_t> roots;       ///< of the default scene

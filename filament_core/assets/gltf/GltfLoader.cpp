@@ -43,6 +43,14 @@ private:
     std::mutex mMutex;
 };
 
+bool isCancelled(GltfOptions const& options) { return options.cancellation && options.cancellation->isRequested(); }
+
+/// Whether the load may go on.
+bool goesOn(GltfOptions const& options, Diagnostics& diagnostics) {
+    if (isCancelled(options)) diagnostics.refuse(ErrorCode::Timeout, "loading was cancelled");
+    return diagnostics.ok();
+}
+
 std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& scene) {
     std::vector<bool> used(document.materials.size(), false);
     for (GltfMeshRequest const& request : scene.meshes) {
@@ -89,24 +97,28 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, Content& 
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
         group.run<"decode image">([&document, &textures, &options, &progress, &job] {
+            if (isCancelled(options)) return;
             decodeImageJob(document, textures, options.maxTextureSize, job);
             progress.step();
         });
     }
     for (GltfPackJob& job : textures.packs) {
         group.run<"pack images">([&document, &textures, &options, &progress, &job] {
+            if (isCancelled(options)) return;
             packImagesJob(document, textures, options.maxTextureSize, job);
             progress.step();
         });
     }
     for (GltfFaceJob& job : content.environment.faces) {
-        group.run<"decode face">([&document, &content, &progress, &job] {
+        group.run<"decode face">([&document, &content, &options, &progress, &job] {
+            if (isCancelled(options)) return;
             decodeFace(document, job, content.environment.light);
             progress.step();
         });
     }
     for (GltfPrimitiveJob& job : content.primitives) {
         group.run<"build primitive">([&document, &scene, &options, &progress, &job] {
+            if (isCancelled(options)) return;
             buildPrimitive(document, scene, options.storage, job);
             progress.step();
         });
@@ -115,13 +127,14 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, Content& 
 }
 
 void readImages(GltfDocument const& document, GltfFolder const& folder, Content& content, jobs::JobSystem& jobs,
-                Diagnostics& diagnostics) {
+                GltfOptions const& options, Diagnostics& diagnostics) {
     std::vector<GltfImageSource*> sources;
     for (GltfImageSource& source : content.textures.sources) sources.push_back(&source);
     for (GltfFaceJob& job : content.environment.faces) sources.push_back(&job.source);
     jobs::parallelFor<"read image">(jobs, sources.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) readImage(document, folder, *sources[i]);
+        for (size_t i = begin; i < end && !isCancelled(options); ++i) readImage(document, folder, *sources[i]);
     });
+    if (!goesOn(options, diagnostics)) return;
     for (GltfImageSource* source : sources) diagnostics.merge(std::move(source->diagnostics));
     if (diagnostics.ok()) checkImageBudget(content.textures, diagnostics);
     if (diagnostics.ok()) checkFaces(document, content.environment, diagnostics);
@@ -147,8 +160,9 @@ GltfDocument loadDocument(std::span<const std::byte> file, GltfFolder const& fol
 ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
                GltfOptions const& options, Diagnostics& diagnostics) {
     Progress structure(options, GltfStage::Structure, 1);
+    if (!goesOn(options, diagnostics)) return {};
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
-    if (!diagnostics.ok()) return {};
+    if (!goesOn(options, diagnostics)) return {};
     GltfScene scene = planScene(document, options.deformation, diagnostics);
     Content content;
     content.primitives = listPrimitives(document, scene, diagnostics);
@@ -158,11 +172,12 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     std::vector<uint32_t> newMaterial;
     content.textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
     content.environment = planEnvironment(document);
-    readImages(document, folder, content, jobs, diagnostics);
+    readImages(document, folder, content, jobs, options, diagnostics);
     GltfProfiles profiles;
     if (diagnostics.ok()) profiles = readProfiles(document, folder, scene.profiledLights, diagnostics);
     if (!diagnostics.ok()) return {};
     loadContent(document, scene, content, jobs, options);
+    if (!goesOn(options, diagnostics)) return {};
     content.mergeDiagnostics(diagnostics);
     ModelData model;
     if (options.deformation == GltfDeformation::Kept)
@@ -183,6 +198,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
         }
     }
     model.nodes = std::move(scene.nodes);
+    model.cameras = std::move(document.cameras);
     model.skins = std::move(scene.skins);
     addProfiledLights(std::move(scene.profiledLights), std::move(profiles), document.lights, model);
     model.variants = std::move(document.variants);
@@ -209,7 +225,8 @@ Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::files
                                      jobs::JobSystem& jobs, GltfOptions const& options) {
     try {
         Diagnostics diagnostics;
-        ModelData model = load(file, GltfFolder(baseDirectory, options.files), jobs, options, diagnostics);
+        ModelData model =
+                load(file, GltfFolder(baseDirectory, options.files, options.resolve), jobs, options, diagnostics);
         if (!diagnostics.ok())
             return fail(diagnostics.error().code, "{}: {}", options.name, diagnostics.error().message);
         return model;

@@ -20,7 +20,9 @@
 
 #include "base/Result.h"
 #include "filament_core/assets/files/PathInside.h"
+#include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/gltf/ModelData.h"
+#include "jobsystem/Cancellation.h"
 #include "jobsystem/JobSystem.h"
 
 #include <filesystem>
@@ -42,7 +44,10 @@ struct GltfOptions {
     GeometryStorage storage{};
     GltfDeformation deformation = GltfDeformation::AtRest;
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
-    std::string name = "model";          ///< name of a file in memory in messages; loadGltf() fills it in
+    GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files
+    /// Requested from any thread: the load ends before its next image or primitive, with Timeout. Must outlive it.
+    jobs::Cancellation const* cancellation = nullptr;
+    std::string name = "model"; ///< name of a file in memory in messages; loadGltf() fills it in
 };
 
 Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& jobs, GltfOptions options = {});

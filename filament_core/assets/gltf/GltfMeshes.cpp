@@ -108,7 +108,10 @@ void buildPrimitive(GltfDocument const& document, GltfScene const& scene, Geomet
 std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,
                                     std::vector<GltfPrimitiveJob>& jobs) {
     std::vector<MeshData> meshes;
-    for (GltfMeshRequest const& request : scene.meshes) meshes.push_back({ document.meshes[request.mesh].name, {} });
+    for (GltfMeshRequest const& request : scene.meshes) {
+        GltfMesh const& mesh = document.meshes[request.mesh];
+        meshes.push_back({ mesh.name, {}, mesh.targetNames });
+    }
     for (GltfPrimitiveJob& job : jobs) {
         if (job.data.indexCount == 0) continue;
         GltfPrimitive const& primitive = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive];

@@ -169,7 +169,10 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
 }
 
 GltfMesh parseMesh(JsonNode const& node, Counts const& counts) {
-    GltfMesh mesh{ .name = node["name"].text(), .primitives = {}, .weights = node["weights"].numberList() };
+    GltfMesh mesh{ .name = node["name"].text(),
+                   .primitives = {},
+                   .weights = node["weights"].numberList(),
+                   .targetNames = node["extras"].textsOf("targetNames") };
     for (JsonNode const& primitive : node["primitives"].elements()) {
         mesh.primitives.push_back(parsePrimitive(primitive, counts));
     }
@@ -214,11 +217,11 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .mesh = node["mesh"].index(counts.meshes, "meshes"),
                      .skin = node["skin"].index(counts.skins, "skins"),
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
+                     .camera = node["camera"].index(counts.cameras, "cameras"),
                      .isVisible = node.extension("KHR_node_visibility")["visible"].boolean(true),
                      .weights = node["weights"].numberList(),
                      .instancing = {},
                      .profiledLight = parseGltfProfiledLight(node.extension("EXT_lights_ies"), counts.profiles) };
-    node["camera"].index(counts.cameras, "cameras"); // checked, although cameras are not read
     parseTransform(node, parsed);
     for (JsonNode const& child : node["children"].elements()) {
         parsed.children.push_back(child.requiredIndex(counts.nodes, "nodes"));
@@ -386,6 +389,7 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
                             node["source"].index(counts.images, "images") };
     });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
+    document.cameras = parseAll<CameraData>(root["cameras"], parseGltfCamera);
     document.profiles = parseAll<GltfProfile>(root.extension("EXT_lights_ies")["lights"], [&](JsonNode const& node) {
         return parseGltfProfile(node, counts.views);
     });

@@ -196,6 +196,7 @@ public:
                                      .parentFromNode = source.parentFromNode,
                                      .worldFromNode = mWorldFromNode[node],
                                      .light = isShown ? source.light : kNone,
+                                     .camera = requests ? source.camera : kNone,
                                      .morphWeights = {},
                                      .pose = source.pose });
             if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);

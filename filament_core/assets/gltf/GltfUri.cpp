@@ -98,6 +98,7 @@ Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder cons
     if (hasScheme(uri)) {
         return fail(ErrorCode::Unsupported, "'{}' is not a file beside the model; store it there", uri.substr(0, 80));
     }
+    if (folder.resolve) return folder.resolve(percentDecoded(uri));
     const Result<std::filesystem::path> file = fileInside(folder.directory, percentDecoded(uri), folder.from);
     if (!file) return file.error();
     return readGltfFile(*file);

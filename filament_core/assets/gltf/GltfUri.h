@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,14 +21,18 @@
 
 namespace filament::assets {
 
+/// Gives the bytes of a relative URI, percent-decoded; from any thread, also from several at once.
+using GltfResolver = std::function<Result<std::vector<std::byte>>(std::string_view uri)>;
+
 /// Where relative URIs start, and which files they may name.
 struct GltfFolder {
     // NOLINTNEXTLINE(google-explicit-constructor): a folder alone is one that nothing leaves
-    GltfFolder(std::filesystem::path folder, FilesFrom files = FilesFrom::Folder)
-            : directory(std::move(folder)), from(files) {}
+    GltfFolder(std::filesystem::path folder, FilesFrom files = FilesFrom::Folder, GltfResolver resolver = {})
+            : directory(std::move(folder)), from(files), resolve(std::move(resolver)) {}
 
     std::filesystem::path directory;
     FilesFrom from;
+    GltfResolver resolve; ///< takes the place of the file system
 };
 
 Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder const& folder);

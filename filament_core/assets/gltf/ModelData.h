@@ -81,6 +81,7 @@ struct PrimitiveData {
 struct MeshData {
     std::string name;
     std::vector<PrimitiveData> primitives;
+    std::vector<std::string> targetNames{}; ///< of morph targets, as many as the file names ("extras": "targetNames")
 };
 
 enum class LightType : uint8_t { Directional, Point, Spot };
@@ -95,6 +96,17 @@ struct LightData {
     float innerConeRadians = 0, outerConeRadians = 0.7853982f;
     uint32_t profile =
             kNone; ///< EXT_lights_ies, points: into ModelData::profiles; `intensity` is then that of its peak
+};
+
+/// Looks along -Z of its node, with +Y up (glTF 2.0, section 3.10).
+struct CameraData {
+    std::string name;
+    bool isParallel = false;
+    float verticalFovRadians = 0.7853982f; ///< perspective; in (0, pi)
+    float halfHeightMeters = 1;            ///< parallel; > 0
+    float nearMeters = 0.01f;              ///< > 0, or 0 if parallel
+    float farMeters = 0;                   ///< parallel: > nearMeters. Perspective: not kept
+    float aspect = 0;                      ///< width / height; 0: that of the picture
 };
 
 /// EXT_lights_ies: forward is -Z of the node.
@@ -116,6 +128,7 @@ struct NodeData {
     double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
     uint32_t mesh = kNone;
     uint32_t light = kNone;
+    uint32_t camera = kNone;         ///< into ModelData::cameras
     uint32_t profiledLight = kNone;  ///< EXT_lights_ies: another one, also into ModelData::lights
     std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: already applied by the loader
     uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
@@ -135,6 +148,7 @@ struct ModelData {
     std::vector<MeshData> meshes;
     std::vector<NodeData> nodes; ///< of the default scene, parents before children
     std::vector<LightData> lights;
+    std::vector<CameraData> cameras;
     std::vector<LightProfileData> profiles;
     std::optional<ImageBasedLightData> imageBasedLight; ///< of the default scene
     std::vector<SkinData> skins;                        ///< with GltfDeformation::Kept

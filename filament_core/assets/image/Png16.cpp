@@ -13,7 +13,7 @@
 namespace filament::assets {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using PngBytes = std::vector<std::byte>;
 
 constexpr size_t kPixelBytes = 6;
 
@@ -28,9 +28,9 @@ void storePixel(uint32_t pixel, std::byte* to) {
 }
 
 /// Rows as PNG compresses them: each byte less that of the pixel to its left (filter 1, "Sub", section 9.2).
-Bytes filteredRows(uint32_t width, uint32_t height, std::span<const std::byte> rgb10a2) {
+PngBytes filteredRows(uint32_t width, uint32_t height, std::span<const std::byte> rgb10a2) {
     const size_t rowBytes = size_t{ width } * kPixelBytes;
-    Bytes row(kPixelBytes + rowBytes), rows; // before the first pixel are zeros
+    PngBytes row(kPixelBytes + rowBytes), rows; // before the first pixel are zeros
     rows.reserve((rowBytes + 1) * height);
     for (size_t y = 0; y < height; ++y) {
         for (size_t x = 0; x < width; ++x) {
@@ -47,9 +47,9 @@ Bytes filteredRows(uint32_t width, uint32_t height, std::span<const std::byte> r
     return rows;
 }
 
-Bytes compressed(Bytes const& bytes) {
+PngBytes compressed(PngBytes const& bytes) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    Bytes out(size);
+    PngBytes out(size);
     auto* const to = reinterpret_cast<Bytef*>(out.data());
     const auto* const from = reinterpret_cast<const Bytef*>(bytes.data());
     if (compress2(to, &size, from, static_cast<uLong>(bytes.size()), Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
@@ -66,7 +66,7 @@ std::vector<std::byte> encodePng16(uint32_t width, uint32_t height, std::span<co
     constexpr std::array kSignificant{ std::byte{ 10 }, std::byte{ 10 }, std::byte{ 10 } };
     constexpr std::array kPerceptual{ std::byte{ 0 } };
     const auto signature = std::as_bytes(std::span(kSignature));
-    Bytes png(signature.begin(), signature.end()), header;
+    PngBytes png(signature.begin(), signature.end()), header;
     appendPngWord(header, width);
     appendPngWord(header, height);
     for (const std::byte byte : kDepthAndColor) header.push_back(byte);

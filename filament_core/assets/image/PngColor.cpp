@@ -13,7 +13,7 @@
 namespace filament::assets {
 namespace {
 
-using Bytes = std::vector<std::byte>;
+using PngBytes = std::vector<std::byte>;
 
 constexpr size_t kSignature = 8, kFrame = 12; // a chunk's length, name and checksum
 
@@ -24,34 +24,34 @@ uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
 }
 
 /// Code points of ITU-T H.273: primaries, transfer function, no matrix, full range.
-void appendCicp(Bytes& bytes, uint8_t primaries, uint8_t transfer) {
+void appendCicp(PngBytes& bytes, uint8_t primaries, uint8_t transfer) {
     const std::array data{ std::byte{ primaries }, std::byte{ transfer }, std::byte{ 0 }, std::byte{ 1 } };
     appendPngChunk(bytes, "cICP", data);
 }
 
 /// The encoding exponent times 100 000.
-void appendGamma(Bytes& bytes, uint32_t gamma) {
-    Bytes data;
+void appendGamma(PngBytes& bytes, uint32_t gamma) {
+    PngBytes data;
     appendPngWord(data, gamma);
     appendPngChunk(bytes, "gAMA", data);
 }
 
 /// x and y of D65 and of the primaries, times 100 000.
-void appendChromaticities(Bytes& bytes, std::array<uint32_t, 6> const& primaries) {
-    Bytes data;
+void appendChromaticities(PngBytes& bytes, std::array<uint32_t, 6> const& primaries) {
+    PngBytes data;
     for (const uint32_t value : { 31270u, 32900u }) appendPngWord(data, value);
     for (const uint32_t value : primaries) appendPngWord(data, value);
     appendPngChunk(bytes, "cHRM", data);
 }
 
 /// cICP first; the others are for decoders that do not know it. PQ has no gamma.
-void appendColor(Bytes& bytes, OutputSpace space) {
-    constexpr uint8_t kRec709 = 1, kRec2020 = 9, kP3 = 12, kLinear = 8, kSrgb = 13, kPq = 16;
+void appendColor(PngBytes& bytes, OutputSpace space) {
+    constexpr uint8_t kPrimaries709 = 1, kRec2020 = 9, kP3 = 12, kLinear = 8, kSrgb = 13, kPq = 16;
     switch (space) {
     case OutputSpace::Srgb:
         return;
     case OutputSpace::LinearRec709:
-        appendCicp(bytes, kRec709, kLinear);
+        appendCicp(bytes, kPrimaries709, kLinear);
         appendGamma(bytes, 100'000);
         return appendChromaticities(bytes, { 64000, 33000, 30000, 60000, 15000, 6000 });
     case OutputSpace::DisplayP3:
@@ -69,7 +69,7 @@ void appendColor(Bytes& bytes, OutputSpace space) {
 std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace space) {
     if (space == OutputSpace::Srgb) return png;
     constexpr std::array<std::string_view, 5> kReplaced{ "sRGB", "gAMA", "cHRM", "iCCP", "cICP" };
-    Bytes result(png.begin(), png.begin() + kSignature);
+    PngBytes result(png.begin(), png.begin() + kSignature);
     for (size_t at = kSignature; at + kFrame <= png.size();) {
         const size_t size = wordAt(png, at) + kFrame;
         const std::string_view name(reinterpret_cast<const char*>(png.data() + at + 4), 4);

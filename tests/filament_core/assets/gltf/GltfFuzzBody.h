@@ -132,6 +132,14 @@ inline const char* brokenPromise(ModelData const& model, LightData const& light)
     return std::isfinite(light.intensity) && light.intensity >= 0 ? nullptr : "light intensity";
 }
 
+inline const char* brokenPromise(ModelData const&, CameraData const& camera) {
+    if (!(camera.verticalFovRadians > 0 && camera.verticalFovRadians < 3.1415927f)) return "field of view";
+    if (!(camera.nearMeters >= 0 && camera.aspect >= 0 && std::isfinite(camera.nearMeters + camera.aspect)))
+        return "lens";
+    if (!camera.isParallel) return camera.nearMeters > 0 ? nullptr : "near plane";
+    return camera.farMeters > camera.nearMeters && camera.halfHeightMeters > 0 ? nullptr : "box of a camera";
+}
+
 inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
     if (skin.joints.empty() || skin.joints.size() > shader::kMaxBones) return "joint count";
     if (skin.joints.size() != skin.jointFromBind.size()) return "bind matrices";
@@ -189,6 +197,7 @@ inline const char* brokenPromise(ModelData const& model) {
     check(model.lights);
     check(model.skins);
     check(model.animations);
+    check(model.cameras);
     for (MeshData const& mesh : model.meshes) check(mesh.primitives);
     if (!broken && model.imageBasedLight) broken = brokenPromise(*model.imageBasedLight);
     return broken;
