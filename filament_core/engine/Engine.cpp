@@ -145,6 +145,7 @@ Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> c
 }
 
 Engine::Impl::~Impl() {
+    loads.abandon();
     for (engine::Dependent* dependent : dependents) dependent->release();
     destroyDefaultObjects(*this);
     scenes.clear(); // they show nothing without it

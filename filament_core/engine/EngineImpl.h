@@ -8,6 +8,7 @@
 
 #include "backend/stream/CommandStream.h"
 #include "filament_core/engine/HandleTable.h"
+#include "filament_core/engine/LoadTask.h"
 #include "filament_core/engine/PublicCall.h"
 #include "filament_core/engine/SamplerCache.h"
 #include "filament_core/engine/Uses.h"
@@ -271,6 +272,7 @@ struct Engine::Impl {
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
     engine::MaterialNumbers materialNumbers;
     uint32_t nextInstanceId = 0;
+    engine::LoadTasks loads; ///< of LoadTickets
 };
 
 template <class F>

@@ -9,6 +9,8 @@
 
 #include <filament/Environment.h>
 
+#include <cstddef>
+#include <memory>
 #include <string>
 
 namespace filament {
@@ -26,8 +28,28 @@ struct Environment::Impl {
 
 namespace engine {
 
-/// The textures travel with the next flush.
-Environment uploadEnvironment(Engine& engine, assets::EnvironmentData const& data, std::string const& name);
+/// Creates the objects of an environment, a texture a step. They travel with the next flush.
+class EnvironmentUpload {
+public:
+    static constexpr size_t kSteps = 3;
+
+    EnvironmentUpload(Engine::Impl& engine, assets::EnvironmentData data, std::string name);
+    /// Returns the bytes that it copied.
+    size_t step(size_t index);
+    /// After all steps.
+    Environment finish();
+
+private:
+    Engine::Impl& mEngine;
+    assets::EnvironmentData mData;
+    std::string mName;
+    std::unique_ptr<Environment::Impl> mParts;
+};
+
+assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, EnvironmentLoadOptions const& options);
+
+/// All steps at once.
+Environment uploadEnvironment(Engine& engine, assets::EnvironmentData data, std::string name);
 
 } // namespace engine
 } // namespace filament

@@ -3,6 +3,7 @@
 #include "filament_core/engine/EnvironmentImpl.h"
 
 #include <new>
+#include <utility>
 
 namespace filament {
 
@@ -36,23 +37,50 @@ Environment::Impl::~Impl() {
     for (const Texture texture : { irradiance, sky, specular }) owner.destroy(texture);
 }
 
-Environment engine::uploadEnvironment(Engine& engine, assets::EnvironmentData const& data, std::string const& name) {
-    Engine::Impl& impl = engine.impl();
-    std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl, engine::EngineLink(engine) });
-    parts->specular = uploadCube(impl, data.specular, name);
-    parts->sky = uploadCube(impl, data.sky, name + " sky");
-    if (!data.irradiance.data.empty()) parts->irradiance = uploadCube(impl, data.irradiance, name + " irradiance");
-    parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
-                                                                       .specularLevels = data.specular.levels,
-                                                                       .mapping = data.mapping,
-                                                                       .irradiance = parts->irradiance,
-                                                                       .irradianceSh = data.irradianceSh,
-                                                                       .worldFromCube = data.worldFromCube,
-                                                                       .name = name }));
-    parts->skybox = orBadAlloc(
-            engine.create(SkyboxDesc{ .cube = parts->sky, .worldFromCube = data.worldFromCube, .name = name }));
-    return Environment(std::move(parts));
+namespace engine {
+
+EnvironmentUpload::EnvironmentUpload(Engine::Impl& engine, assets::EnvironmentData data, std::string name)
+        : mEngine(engine), mData(std::move(data)), mName(std::move(name)), mParts(new Environment::Impl{ engine, EngineLink(engine) }) {}
+
+size_t EnvironmentUpload::step(size_t index) {
+    assets::Image& image = index == 0 ? mData.specular : index == 1 ? mData.sky : mData.irradiance;
+    if (image.data.empty()) return 0; // of the irradiance only coefficients may be known
+    constexpr const char* kSuffixes[kSteps] = { "", " sky", " irradiance" };
+    Texture& texture = index == 0 ? mParts->specular : index == 1 ? mParts->sky : mParts->irradiance;
+    texture = uploadCube(mEngine, image, mName + kSuffixes[index]);
+    return std::exchange(image.data, {}).size();
 }
+
+Environment EnvironmentUpload::finish() {
+    Engine& engine = Engine::of(mEngine);
+    mParts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = mParts->specular,
+                                                                        .specularLevels = mData.specular.levels,
+                                                                        .mapping = mData.mapping,
+                                                                        .irradiance = mParts->irradiance,
+                                                                        .irradianceSh = mData.irradianceSh,
+                                                                        .worldFromCube = mData.worldFromCube,
+                                                                        .name = mName }));
+    mParts->skybox = orBadAlloc(
+            engine.create(SkyboxDesc{ .cube = mParts->sky, .worldFromCube = mData.worldFromCube, .name = mName }));
+    return Environment(std::move(mParts));
+}
+
+Environment uploadEnvironment(Engine& engine, assets::EnvironmentData data, std::string name) {
+    EnvironmentUpload upload(engine.impl(), std::move(data), std::move(name));
+    for (size_t i = 0; i < EnvironmentUpload::kSteps; ++i) upload.step(i);
+    return upload.finish();
+}
+
+assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, EnvironmentLoadOptions const& options) {
+    return { .cacheDirectory = engine.options.cacheDirectory,
+             .faceSize = options.faceSize,
+             .samples = options.samples,
+             .format = options.format,
+             .mapping = options.roughnessMapping,
+             .progress = options.progress };
+}
+
+} // namespace engine
 
 Environment::Environment(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
 Environment::Environment(Environment&&) noexcept = default;
@@ -73,16 +101,23 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
     const PublicCall call(engine, "loadEnvironment(Engine, path)", path.native());
     return orOutOfMemory("environment", path.native(), [&]() -> Result<Environment> {
         Engine::Impl& impl = engine.impl();
-        auto data = assets::loadEnvironment(path, impl.jobs,
-                                            { .cacheDirectory = impl.options.cacheDirectory,
-                                              .faceSize = options.faceSize,
-                                              .samples = options.samples,
-                                              .format = options.format,
-                                              .mapping = options.roughnessMapping,
-                                              .progress = options.progress });
+        auto data = assets::loadEnvironment(path, impl.jobs, engine::environmentOptions(impl, options));
         if (!data) return data.error();
-        Environment environment = engine::uploadEnvironment(engine, *data, path.filename().string());
+        Environment environment = engine::uploadEnvironment(engine, std::move(*data), path.filename().string());
         impl.flush(); // the driver thread uploads while the caller continues
+        return environment;
+    });
+}
+
+Result<Environment> loadEnvironment(Engine& engine, std::span<const std::byte> file, std::string_view name,
+                                    EnvironmentLoadOptions const& options) {
+    const PublicCall call(engine, "loadEnvironment(Engine, span<byte>, string_view)", name);
+    return orOutOfMemory("environment", name, [&]() -> Result<Environment> {
+        Engine::Impl& impl = engine.impl();
+        auto data = assets::loadEnvironmentFromMemory(file, name, impl.jobs, engine::environmentOptions(impl, options));
+        if (!data) return data.error();
+        Environment environment = engine::uploadEnvironment(engine, std::move(*data), std::string(name));
+        impl.flush();
         return environment;
     });
 }

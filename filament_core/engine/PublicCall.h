@@ -25,6 +25,7 @@ inline const void* thisThread() {
 class EngineLink {
 public:
     explicit EngineLink(Engine& engine) : mEngine(engine.share()) {}
+    explicit EngineLink(Engine::Impl& engine) : EngineLink(Engine::of(engine)) {}
     bool isAlive() const { return !mEngine.expired(); }
 
 private:

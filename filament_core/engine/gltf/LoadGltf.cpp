@@ -7,7 +7,7 @@
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
-#include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/engine/gltf/ModelUpload.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,35 +15,38 @@
 #include <tuple>
 #include <utility>
 
-namespace filament {
-
-using engine::PublicCall;
-
-namespace {
+namespace filament::engine {
 
 using assets::kNone;
 using assets::ModelData;
 using assets::PrimitiveData;
 
 /// Uploads one ModelData and places its meshes; each step fills a part of the Model.
-class ModelBuilder {
+class ModelUpload::Builder {
 public:
-    ModelBuilder(Engine& engine, ModelData const& data)
-            : mEngine(engine.impl()), mData(data), mModel(std::make_unique<Model::Impl>(engine)),
-              mMaterials(mEngine, *mModel, mModel->textures) {}
-
-    std::unique_ptr<Model::Impl> build() {
+    Builder(Engine::Impl& engine, ReadModel model)
+            : mEngine(engine), mData(std::move(model.data)), mLight(std::move(model.light)),
+              mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
+              mMaterials(mEngine, *mModel, mModel->textures) {
         mModel->name = mData.name;
         mModel->warnings = mData.warnings;
-        mModel->animations = mData.animations;
+        mModel->animations = std::move(mData.animations);
         mModel->variants = mData.variants;
-        uploadImages();
-        uploadMeshes();
+    }
+
+    size_t stepCount() const { return mData.images.size() + mData.meshes.size() + 1; }
+
+    size_t step(size_t index) {
+        if (index < mData.images.size()) return uploadImage(mData.images[index]);
+        index -= mData.images.size();
+        return index < mData.meshes.size() ? uploadMesh(mData.meshes[index]) : uploadEnvironment();
+    }
+
+    std::unique_ptr<Model::Impl> finish() {
         for (assets::LightProfileData const& profile : mData.profiles) {
             mModel->profiles.push_back({});
             mModel->profiles.back() = mEngine.createLightProfile(profile.file, profile.name);
         }
-        uploadEnvironment();
         placeNodes();
         return std::move(mModel);
     }
@@ -55,40 +58,44 @@ private:
         double4x4 meshFromPositions{ 1.0 };
         bool isScaled = false;
         bool isSkinned = false;
+        std::vector<std::string> targetNames{};
     };
 
-    void uploadImages() {
-        for (assets::Image const& image : mData.images) {
-            mModel->textures.push_back({}); // reserve the entry before the object exists
-            mModel->textures.back() = mEngine.createTexture({ .format = image.format,
-                                                              .width = image.width,
-                                                              .height = image.height,
-                                                              .levels = image.levels,
-                                                              .pixels = image.data,
-                                                              .name = mData.name });
-        }
+    size_t uploadImage(assets::Image& image) {
+        mModel->textures.push_back({}); // reserve the entry before the object exists
+        mModel->textures.back() = mEngine.createTexture({ .format = image.format,
+                                                          .width = image.width,
+                                                          .height = image.height,
+                                                          .levels = image.levels,
+                                                          .pixels = image.data,
+                                                          .name = mData.name });
+        return std::exchange(image.data, {}).size();
     }
 
-    void uploadEnvironment() {
-        if (!mData.imageBasedLight) return;
+    size_t uploadEnvironment() {
+        if (!mLight) return 0;
         std::string const& name = mData.imageBasedLight->name;
-        mModel->environment = engine::uploadEnvironment(
-                Engine::of(mEngine), assets::environmentFromCube(mData.imageBasedLight->light, mEngine.jobs),
-                name.empty() ? mData.name + " light" : name);
+        const size_t bytes = mLight->specular.data.size() + mLight->sky.data.size();
+        mModel->environment = engine::uploadEnvironment(Engine::of(mEngine), std::move(*mLight),
+                                                        name.empty() ? mData.name + " light" : name);
+        return bytes;
     }
 
-    void uploadMeshes() {
-        for (assets::MeshData const& mesh : mData.meshes) {
-            std::vector<Part>& parts = mMeshes.emplace_back();
-            for (PrimitiveData const& primitive : mesh.primitives) {
-                // In the order of the meshes, which determines the order of draws.
-                if (!materialOf(primitive.material).transmission.isSolid())
-                    instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
-                parts.push_back({ upload(primitive, mesh.name), &primitive, meshFromPositions(primitive),
-                                  primitive.positionScale != 1 || primitive.positionOffset != float3(0),
-                                  primitive.isSkinned });
-            }
+    size_t uploadMesh(assets::MeshData& mesh) {
+        size_t bytes = 0;
+        std::vector<Part>& parts = mMeshes.emplace_back();
+        for (PrimitiveData& primitive : mesh.primitives) {
+            // In the order of the meshes, which determines the order of draws.
+            if (!materialOf(primitive.material).transmission.isSolid())
+                instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
+            parts.push_back({ upload(primitive, mesh.name), &primitive, meshFromPositions(primitive),
+                              primitive.positionScale != 1 || primitive.positionOffset != float3(0),
+                              primitive.isSkinned });
+            if (!primitive.morphTargets.empty()) parts.back().targetNames = mesh.targetNames;
+            bytes += std::exchange(primitive.indices, {}).size(); // the vertices are needed for bounds
+            bytes += primitive.vertices.size();
         }
+        return bytes;
     }
 
     RenderableDesc upload(PrimitiveData const& primitive, std::string const& name) {
@@ -141,9 +148,12 @@ private:
             mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose });
             if (node.mesh != kNone) placeMesh(node, i);
             for (const uint32_t light : { node.light, node.profiledLight }) {
-                if (light != kNone) mModel->lights.push_back({ lightOf(mData.lights[light]), i });
+                if (light != kNone)
+                    mModel->lights.push_back({ lightOf(mData.lights[light]), i, mData.lights[light].name });
             }
+            if (node.camera != kNone) mModel->cameras.push_back({ mData.cameras[node.camera], i });
         }
+        mModel->fileNodes = mModel->nodes.size();
         // After the nodes of the file, whose parents are indices.
         for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
     }
@@ -175,6 +185,8 @@ private:
         Model::Impl::PartRenderable& placed = mModel->renderables.emplace_back();
         placed.desc = part.desc;
         placed.node = at;
+        placed.ofNode = node;
+        placed.targetNames = part.targetNames;
         placed.desc.material = instanceFor(primitive.material, primitive.hasColor, worldFromNode);
         for (assets::VariantMaterial const& variant : primitive.variants) {
             placed.variants.push_back(
@@ -235,7 +247,8 @@ private:
     }
 
     Engine::Impl& mEngine;
-    ModelData const& mData;
+    ModelData mData;
+    std::optional<assets::EnvironmentData> mLight;
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
     std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
@@ -243,7 +256,18 @@ private:
     std::vector<Model::Impl::PartNode> mScalingNodes;
 };
 
-} // namespace
+ModelUpload::ModelUpload(Engine::Impl& engine, ReadModel model)
+        : mBuilder(std::make_unique<Builder>(engine, std::move(model))) {}
+ModelUpload::~ModelUpload() = default;
+size_t ModelUpload::stepCount() const { return mBuilder->stepCount(); }
+size_t ModelUpload::step(size_t index) { return mBuilder->step(index); }
+std::unique_ptr<Model::Impl> ModelUpload::finish() { return mBuilder->finish(); }
+
+} // namespace filament::engine
+
+namespace filament {
+
+using engine::PublicCall;
 
 Model::Impl::~Impl() {
     if (!link.isAlive()) return;
@@ -327,24 +351,67 @@ Result<uint32_t> Model::findAnimation(std::string_view name) const {
                 suggestion(name, names));
 }
 
-namespace {
+namespace engine {
 
-Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
-                                          GltfLoadOptions const& options) {
+assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
     assets::GltfOptions loaderOptions{
         .storage = { options.positions, options.tangents },
         .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
     if (options.progress) {
-        loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
-            options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);
+        loaderOptions.progress = [progress = options.progress](assets::GltfStage stage, size_t done, size_t total) {
+            progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);
         };
     }
-    auto data = assets::loadGltf(path, engine.impl().jobs, loaderOptions);
+    return loaderOptions;
+}
+
+assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& options) {
+    assets::GltfOptions loaderOptions = gltfOptions(options);
+    loaderOptions.name = model.name;
+    loaderOptions.resolve = model.resolve;
+    if (!loaderOptions.resolve) {
+        loaderOptions.resolve = [](std::string_view uri) -> Result<std::vector<std::byte>> {
+            return fail(ErrorCode::NotFound, "'{}' is not in the file; give its bytes by GltfMemory::resolve",
+                        uri.substr(0, 80));
+        };
+    }
+    return loaderOptions;
+}
+
+namespace {
+
+Result<ReadModel> withLight(Result<assets::ModelData> data, jobs::JobSystem& jobs) {
     if (!data) return data.error();
-    std::unique_ptr<Model::Impl> model = ModelBuilder(engine, *data).build();
-    engine.impl().flush(); // the driver thread uploads while the caller continues
+    ReadModel model{ std::move(*data), {} };
+    if (model.data.imageBasedLight) model.light = assets::environmentFromCube(model.data.imageBasedLight->light, jobs);
+    return model;
+}
+
+} // namespace
+
+Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,
+                            assets::GltfOptions const& options) {
+    return withLight(assets::loadGltf(path, jobs, options), jobs);
+}
+
+Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs,
+                            assets::GltfOptions const& options) {
+    return withLight(assets::loadGltfFromMemory(file, {}, jobs, options), jobs);
+}
+
+} // namespace engine
+
+namespace {
+
+/// All steps at once.
+Result<Model> upload(Engine::Impl& engine, Result<engine::ReadModel> read) {
+    if (!read) return read.error();
+    engine::ModelUpload upload(engine, std::move(*read));
+    for (size_t i = 0; i < upload.stepCount(); ++i) upload.step(i);
+    Model model(upload.finish());
+    engine.flush(); // the driver thread uploads while the caller continues
     return model;
 }
 
@@ -352,9 +419,17 @@ Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path 
 
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
     const PublicCall call(engine, "loadGltf(Engine, path)", path.native());
-    auto model = orOutOfMemory("glTF", path.native(), [&] { return load(engine, path, options); });
-    if (!model) return model.error();
-    return Model(std::move(*model));
+    return orOutOfMemory("glTF", path.native(), [&] {
+        return upload(engine.impl(), engine::readModel(path, engine.impl().jobs, engine::gltfOptions(options)));
+    });
+}
+
+Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions const& options) {
+    const PublicCall call(engine, "loadGltf(Engine, GltfMemory)", model.name);
+    return orOutOfMemory("glTF", model.name, [&] {
+        return upload(engine.impl(),
+                      engine::readModel(model.file, engine.impl().jobs, engine::gltfOptions(model, options)));
+    });
 }
 
 } // namespace filament

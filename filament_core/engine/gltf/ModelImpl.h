@@ -3,6 +3,7 @@
 #pragma once
 
 #include "filament_core/assets/gltf/Animation.h"
+#include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
 #include "filament_core/engine/EngineImpl.h"
 
@@ -41,10 +42,18 @@ struct Model::Impl {
         RenderableDesc desc;     ///< its node and skin are those of a copy: none yet
         uint32_t node = kRoot;   ///< into `nodes`
         uint32_t skin = kNoSkin; ///< into `skins`
+        uint32_t ofNode =
+                kRoot; ///< into `nodes`: the node of the file; `node` may be one below it that scales positions
         std::vector<PartVariant> variants;
+        std::vector<std::string> targetNames; ///< of its morph targets, as far as the file names them
     };
     struct PartLight {
         std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
+        uint32_t node = kRoot;
+        std::string name; ///< of the light, not of its node
+    };
+    struct PartCamera {
+        assets::CameraData camera;
         uint32_t node = kRoot;
     };
 
@@ -55,10 +64,12 @@ struct Model::Impl {
     engine::EngineLink link;
     std::string name;
     std::vector<PartNode> nodes; ///< parents before children
+    size_t fileNodes = 0;        ///< the first ones are nodes of the file; those that scale positions follow
     std::vector<PartSkin> skins;
     std::vector<PartRenderable> renderables;
     std::vector<assets::AnimationData> animations; ///< their nodes are those of `nodes`
     std::vector<PartLight> lights;
+    std::vector<PartCamera> cameras;
     std::vector<std::string> variants, warnings;
     Box bounds;
     std::optional<Environment> environment;

@@ -4,6 +4,7 @@
 ///   Cost    a second or two on the workers the first time; after that milliseconds, from a disk cache keyed by
 ///           content.
 ///   Errors  one line with file and reason.
+///   Thread  the app thread, which waits for the workers; loadEnvironmentAsync() of <filament/LoadTicket.h> does not.
 #pragma once
 
 #include <filament/Engine.h>
@@ -12,6 +13,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string_view>
 
 namespace filament {
 
@@ -42,6 +45,10 @@ private:
 /// `path`: an equirectangular .hdr or .exr, or a .fenv that cmgen baked from one; sizes, format and mapping are then
 /// those of the file.
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
+                                    EnvironmentLoadOptions const& options = {});
+
+/// Such a file in memory; `name` stands for it in messages.
+Result<Environment> loadEnvironment(Engine& engine, std::span<const std::byte> file, std::string_view name,
                                     EnvironmentLoadOptions const& options = {});
 
 } // namespace filament

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers.
+/// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers. It returns when that is done;
+/// loadGltfAsync() of <filament/LoadTicket.h> returns at once.
 ///   Errors  NotFound, Unreadable, Corrupt, Unsupported: one line with file, element (accessors[3], images[0]) and
 ///           reason.
 ///   Life    the Model owns its buffers, textures and materials; copies of it in scenes keep what they need of it.
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +33,16 @@ struct GltfLoadOptions {
     /// lead out. Only for models that you trust.
     bool filesFromAnywhere = false;
     LoadProgress progress{};
+};
+
+/// A model in memory, .glb or .gltf.
+struct GltfMemory {
+    std::span<const std::byte> file{}; ///< not needed after the call; loadGltfAsync() copies it
+    std::string name = "model";        ///< for Model::name() and messages
+    /// Gives the bytes of what the file names by a relative URI (percent-decoded, "textures/wood.png"), or says why there
+    /// are none. Called on the loading thread and on workers, also on several at once. None: files
+    /// that hold everything, in their binary chunk or in data URIs.
+    std::function<Result<std::vector<std::byte>>(std::string_view uri)> resolve{};
 };
 
 class Environment;
@@ -70,5 +82,7 @@ private:
 };
 
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options = {});
+/// NotFound also for a URI without GltfMemory::resolve. GltfLoadOptions::filesFromAnywhere means nothing here.
+Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions const& options = {});
 
 } // namespace filament

@@ -17,6 +17,7 @@
 #include <filament/Light.h>
 #include <filament/LightProfile.h>
 #include <filament/Lines.h>
+#include <filament/LoadTicket.h>
 #include <filament/Look.h>
 #include <filament/Material.h>
 #include <filament/Math.h>

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/LoadTicket.h>
+
+#include "base/Result.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/engine/EnvironmentImpl.h"
+#include "filament_core/engine/LoadTask.h"
+#include "filament_core/engine/gltf/ModelUpload.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace filament {
+namespace engine {
+namespace {
+
+/// A task that results in a T. `engine` is used only on its thread, and not after it has ended.
+template <class T>
+class LoadTaskOf : public LoadTask {
+public:
+    LoadTaskOf(Engine::Impl& owner, std::string name) : LoadTask(std::move(name)), engine(owner), jobs(owner.jobs) {}
+
+    Result<T> take() {
+        if (std::optional<Error> why = error()) return std::move(*why);
+        if (!result) return fail(ErrorCode::InvalidArgument, "the result of this load was taken already");
+        Result<T> taken(std::move(*result));
+        result.reset();
+        return taken;
+    }
+
+protected:
+    void sendSlice() override {
+        if (engine.stream->replayedSubmissions() == engine.stream->submissions()) engine.flush();
+    }
+
+    Engine::Impl& engine;
+    jobs::JobSystem& jobs; // work() runs before they end
+    std::optional<T> result;
+};
+
+class ModelTask : public LoadTaskOf<Model> {
+public:
+    ModelTask(Engine::Impl& owner, std::filesystem::path path, GltfLoadOptions const& options)
+            : LoadTaskOf(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)) {}
+    ModelTask(Engine::Impl& owner, GltfMemory const& model, GltfLoadOptions const& options)
+            : LoadTaskOf(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
+              mOptions(gltfOptions(model, options)) {}
+
+private:
+    Result<void> work() override {
+        mOptions.cancellation = &cancellation();
+        mOptions.progress = [this, progress = std::move(mOptions.progress)](assets::GltfStage stage, size_t done,
+                                                                            size_t total) {
+            setProgress(done, total);
+            if (progress) progress(stage, done, total);
+        };
+        Result<ReadModel> read = mIsInMemory ? readModel(mFile, jobs, mOptions) : readModel(mPath, jobs, mOptions);
+        if (!read) return read.error();
+        mRead.emplace(std::move(*read));
+        return {};
+    }
+
+    size_t stepCount() const override {
+        return mRead ? mRead->data.images.size() + mRead->data.meshes.size() + 1 : mUpload->stepCount();
+    }
+
+    size_t step(size_t index) override {
+        if (mRead) {
+            mUpload.emplace(engine, std::move(*mRead));
+            mRead.reset();
+        }
+        return mUpload->step(index);
+    }
+
+    void finish() override {
+        result.emplace(mUpload->finish());
+        mUpload.reset();
+        engine.flush();
+    }
+
+    void drop() noexcept override {
+        mUpload.reset();
+        result.reset();
+    }
+
+    bool mIsInMemory = false;
+    std::filesystem::path mPath;
+    std::vector<std::byte> mFile; // instead of a path
+    assets::GltfOptions mOptions;
+    std::optional<ReadModel> mRead; // by work(), until the first step
+    std::optional<ModelUpload> mUpload;
+};
+
+class EnvironmentTask : public LoadTaskOf<Environment> {
+public:
+    EnvironmentTask(Engine::Impl& owner, std::filesystem::path path, EnvironmentLoadOptions const& options)
+            : LoadTaskOf(owner, path.filename().string()), mName(path.filename().string()), mPath(std::move(path)),
+              mOptions(environmentOptions(owner, options)) {}
+    EnvironmentTask(Engine::Impl& owner, std::span<const std::byte> file, std::string_view name,
+                    EnvironmentLoadOptions const& options)
+            : LoadTaskOf(owner, std::string(name)), mName(name), mIsInMemory(true), mFile(file.begin(), file.end()),
+              mOptions(environmentOptions(owner, options)) {}
+
+private:
+    Result<void> work() override {
+        mOptions.cancellation = &cancellation();
+        mOptions.progress = [this, progress = std::move(mOptions.progress)](std::string_view stage, size_t done,
+                                                                            size_t total) {
+            setProgress(done, total);
+            if (progress) progress(stage, done, total);
+        };
+        Result<assets::EnvironmentData> read = mIsInMemory
+                                                       ? assets::loadEnvironmentFromMemory(mFile, mName, jobs, mOptions)
+                                                       : assets::loadEnvironment(mPath, jobs, mOptions);
+        if (!read) return read.error();
+        mRead.emplace(std::move(*read));
+        return {};
+    }
+
+    size_t stepCount() const override { return EnvironmentUpload::kSteps; }
+
+    size_t step(size_t index) override {
+        if (!mUpload) mUpload.emplace(engine, std::move(*mRead), mName);
+        return mUpload->step(index);
+    }
+
+    void finish() override {
+        result.emplace(mUpload->finish());
+        mUpload.reset();
+        engine.flush();
+    }
+
+    void drop() noexcept override {
+        mUpload.reset();
+        result.reset();
+    }
+
+    std::string mName;
+    bool mIsInMemory = false;
+    std::filesystem::path mPath;
+    std::vector<std::byte> mFile; // instead of a path
+    assets::EnvironmentOptions mOptions;
+    std::optional<assets::EnvironmentData> mRead; // by work(), until the first step
+    std::optional<EnvironmentUpload> mUpload;
+};
+
+template <class T>
+LoadTicket<T> begin(Engine& engine, std::shared_ptr<LoadTask> task) {
+    engine.impl().loads.add(task);
+    LoadTask::start(task, engine.impl().jobs);
+    return LoadTicket<T>(std::move(task));
+}
+
+} // namespace
+} // namespace engine
+
+template <class T>
+LoadTicket<T>::LoadTicket(std::shared_ptr<engine::LoadTask> task) : mTask(std::move(task)) {}
+template <class T>
+LoadTicket<T>::LoadTicket(LoadTicket&&) noexcept = default;
+
+template <class T>
+LoadTicket<T>& LoadTicket<T>::operator=(LoadTicket&& other) noexcept {
+    LoadTicket old(std::move(*this));
+    mTask = std::move(other.mTask);
+    return *this;
+}
+
+template <class T>
+LoadTicket<T>::~LoadTicket() {
+    if (!mTask) return; // moved from
+    mTask->requireOwner();
+    mTask->discard();
+}
+
+template <class T>
+LoadStatus LoadTicket<T>::poll(size_t sliceBytes) {
+    mTask->requireOwner();
+    return mTask->poll(sliceBytes);
+}
+
+template <class T>
+LoadStatus LoadTicket<T>::status() const {
+    return mTask->status();
+}
+
+template <class T>
+void LoadTicket<T>::cancel() {
+    mTask->requireOwner();
+    mTask->cancel();
+}
+
+template <class T>
+Result<T> LoadTicket<T>::take() {
+    mTask->requireOwner();
+    return static_cast<engine::LoadTaskOf<T>&>(*mTask).take();
+}
+
+template <class T>
+Result<T> LoadTicket<T>::wait() {
+    mTask->requireOwner();
+    mTask->waitForWork();
+    while (!mTask->poll(kLoadSliceBytes).isFinished()) {
+    }
+    return take();
+}
+
+template class LoadTicket<Model>;
+template class LoadTicket<Environment>;
+
+LoadTicket<Model> loadGltfAsync(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    return engine::begin<Model>(engine, std::make_shared<engine::ModelTask>(engine.impl(), path, options));
+}
+
+LoadTicket<Model> loadGltfAsync(Engine& engine, GltfMemory const& model, GltfLoadOptions const& options) {
+    return engine::begin<Model>(engine, std::make_shared<engine::ModelTask>(engine.impl(), model, options));
+}
+
+LoadTicket<Environment> loadEnvironmentAsync(Engine& engine, std::filesystem::path const& path,
+                                             EnvironmentLoadOptions const& options) {
+    return engine::begin<Environment>(engine, std::make_shared<engine::EnvironmentTask>(engine.impl(), path, options));
+}
+
+LoadTicket<Environment> loadEnvironmentAsync(Engine& engine, std::span<const std::byte> file, std::string_view name,
+                                             EnvironmentLoadOptions const& options) {
+    return engine::begin<Environment>(engine,
+                                      std::make_shared<engine::EnvironmentTask>(engine.impl(), file, name, options));
+}
+
+} // namespace filament

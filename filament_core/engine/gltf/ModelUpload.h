@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A glTF file becomes a Model in two halves: readModel() decodes it, ModelUpload creates the engine's objects.
+///   Thread  readModel(): any, beside frames. ModelUpload: the app thread.
+///   Fails   readModel(): errors of GltfLoader.h. ModelUpload: std::bad_alloc, after which it can only be destroyed.
+#pragma once
+
+#include "filament_core/assets/environment/Environment.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace filament::engine {
+
+struct ReadModel {
+    assets::ModelData data;
+    std::optional<assets::EnvironmentData> light; ///< the image-based light of `data`, baked
+};
+
+/// Of the loader, with `progress` of the options.
+assets::GltfOptions gltfOptions(GltfLoadOptions const& options);
+/// The same for a model in memory: what its URIs name comes from the caller.
+assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& options);
+
+Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,
+                            assets::GltfOptions const& options);
+Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs, assets::GltfOptions const& options);
+
+class ModelUpload {
+public:
+    ModelUpload(Engine::Impl& engine, ReadModel model);
+    ~ModelUpload(); ///< destroys what was created, unless finish() was called
+
+    size_t stepCount() const;
+    /// Steps 0, 1, 2, ...: an image, a mesh, and the rest, each. Returns the bytes that it copied.
+    size_t step(size_t index);
+    /// After all steps.
+    std::unique_ptr<Model::Impl> finish();
+
+private:
+    class Builder;
+    std::unique_ptr<Builder> mBuilder;
+};
+
+} // namespace filament::engine
