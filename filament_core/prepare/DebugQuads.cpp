@@ -73,10 +73,15 @@ private:
     double beforeNear(double4 const& clip) const { return mIsOrdinary ? clip.z : clip.w - clip.z; }
     bool isBeforeNear(double4 const& clip) const { return clip.w > 0 && beforeNear(clip) >= 0; }
 
+    /// Nearer by this share of the distance.
+    double broughtNearer(double depth) const {
+        float4x4 const& view = mSpace.clipFromView; // parallel: depth = m22 z + m32
+        if (view[3][3] != 0) return depth + (static_cast<double>(view[3][2]) - depth) * kNearer;
+        return mIsOrdinary ? depth - (1 - depth) * kNearer : depth * (1 + kNearer);
+    }
+
     ScreenPoint screenOf(double4 const& clip) const {
-        const double depth = clip.z / clip.w;
-        return { (double2(clip) / clip.w + 1.0) * 0.5 * double2(mSize),
-                 mIsOrdinary ? depth - (1 - depth) * kNearer : depth * (1 + kNearer) };
+        return { (double2(clip) / clip.w + 1.0) * 0.5 * double2(mSize), broughtNearer(clip.z / clip.w) };
     }
 
     std::optional<std::pair<ScreenPoint, ScreenPoint>> inFront(double3 const& from, double3 const& to) const {

@@ -14,6 +14,7 @@ constexpr double kSensorMeters = 0.024;
 } // namespace
 
 Focus focusOf(Camera const& camera, DepthOfField const& depthOfField, uint32_t height) {
+    if (camera.lens.isParallel()) return {}; // no point of it lies before the others: nothing is out of focus
     const double halfFov = glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2;
     const double focal = kSensorMeters / (2 * std::tan(halfFov));
     const double focus = std::max(static_cast<double>(depthOfField.focusMeters), 1.01 * focal);

@@ -113,11 +113,13 @@ PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 }
 
 PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float depth) {
-    const double distance = static_cast<double>(camera.lens.nearMeters) / static_cast<double>(depth);
-    const double up = std::tan(glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2);
-    const double2 center = centerOf(pixel, size);
-    const double3 view(center.x * up * size.x / size.y, -center.y * up, -1);
-    return { distance, double3(camera.worldFromView * double4(view * distance, 1)) };
+    Lens const& lens = camera.lens;
+    const double near = static_cast<double>(lens.nearMeters), far = static_cast<double>(lens.farMeters);
+    const double distance =
+            lens.isParallel() ? far - (far - near) * static_cast<double>(depth) : near / static_cast<double>(depth);
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const double3 view = camera.viewFromPicture(centerOf(pixel, size), distance, aspect);
+    return { distance, double3(camera.worldFromView * double4(view, 1)) };
 }
 
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable) {

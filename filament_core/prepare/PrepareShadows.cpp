@@ -47,8 +47,9 @@ float pixelsOf(LightRecord const& light, ViewSpace const& space, uint2 size) {
     if (light.type == LightRecord::Type::Sun) return INFINITY;
     const auto all = static_cast<float>(std::max(size.x, size.y));
     const float range = light.rangeMeters, distance = glm::length(relative(light.positionWorld, space));
-    if (range <= 0 || distance <= range) return all;
     const float perRadian = std::abs(space.clipFromView[1][1]) * static_cast<float>(size.y);
+    if (range > 0 && space.clipFromView[3][3] != 0) return std::min(all, range * perRadian); // parallel: per metre
+    if (range <= 0 || distance <= range) return all;
     return std::min(all, range / std::sqrt(distance * distance - range * range) * perRadian);
 }
 

@@ -10,8 +10,11 @@ namespace filament::prepare {
 namespace {
 
 double nearPlane(ViewSpace const& space) {
-    const float near = space.clipFromView[3][2]; // of a lens; other projections begin at the camera
-    return std::max(static_cast<double>(std::abs(near)), 1e-6);
+    const double4x4 clip(space.clipFromView);
+    const bool isOrdinary = clip[2][2] < 0; // of parallel ones: the depth at the near plane is 0
+    const double near = clip[3][3] == 0 || clip[2][2] == 0 ? std::abs(clip[3][2])
+                                                           : (clip[3][2] - (isOrdinary ? 0.0 : 1.0)) / clip[2][2];
+    return std::max(near, 1e-6);
 }
 
 void addBox(ShadowReceivers& receivers, double3 const& center, double3 const& half, ViewSpace const& space,

@@ -92,6 +92,7 @@ SunDiscs findSunDiscs(Arena& arena, scene::Lights const& lights, ViewInput const
     const auto count = static_cast<size_t>(std::ranges::count_if(lights.records, hasDisc));
     if (count == 0) return {};
     const ViewSpace space = makeViewSpace(view);
+    if (space.clipFromView[3][3] != 0) return { {}, static_cast<uint32_t>(count) }; // parallel: one direction is seen
     const std::span<SunDisc> discs = arena.array<SunDisc>(count);
     size_t seen = 0;
     for (LightRecord const& light : lights.records) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/Assert.h"
 #include "base/math/Math.h"
 
 #include <filament/Camera.h>
@@ -36,16 +37,67 @@ Camera Camera::lookAt(double3 eye, double3 at, Lens lens, Exposure exposure, dou
     return camera;
 }
 
+Lens Lens::box(float left, float right, float bottom, float top, float nearMeters, float farMeters) {
+    FILAMENT_ASSERT(right > left && top > bottom, "the box of a lens has left < right and bottom < top");
+    const float width = right - left, height = top - bottom;
+    return { .nearMeters = nearMeters,
+             .parallelMeters = height,
+             .farMeters = farMeters,
+             .shift = { (left + right) / (2 * width), (bottom + top) / (2 * height) },
+             .aspect = width / height };
+}
+
+Lens Lens::offCenter(float left, float right, float bottom, float top, float nearMeters) {
+    Lens lens = box(left, right, bottom, top, nearMeters);
+    lens.verticalFovDegrees = glm::degrees(2 * std::atan((top - bottom) / 2));
+    lens.parallelMeters = 0;
+    return lens;
+}
+
+namespace {
+
+void checkLens(Lens const& lens) {
+    const bool isLens = lens.isParallel()
+                                ? lens.nearMeters >= 0 && lens.farMeters > lens.nearMeters
+                                : lens.nearMeters > 0 && lens.verticalFovDegrees > 0 && lens.verticalFovDegrees < 180;
+    FILAMENT_ASSERT(isLens, "a lens has a near plane > 0 and a field of view in (0, 180), or is parallel with "
+                            "0 <= nearMeters < farMeters");
+    FILAMENT_ASSERT(std::isfinite(lens.shift.x) && std::isfinite(lens.shift.y) && lens.aspect >= 0 &&
+                            std::isfinite(lens.aspect),
+                    "the shift and the aspect of a lens are finite, and the aspect is not negative");
+}
+
+} // namespace
+
 float4x4 Camera::clipFromView(float aspect) const {
-    // Reversed depth with the far plane at infinity: z_clip = near, w_clip = -z_view. Row 0 of the image is at
-    // y_ndc = -1 on both APIs, so +Y of the view maps to -y.
-    const float focal = 1.0f / std::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
+    checkLens(lens);
+    // Reversed depth. Perspective, with the far plane at infinity: z_clip = near, w_clip = -z_view. Parallel: z_clip from
+    // 1 to 0, w_clip = 1. Row 0 of the image is at y_ndc = -1 on both APIs, so +Y of the view maps to -y. The shift
+    // moves by whole pictures, which are 2 wide: over w, so in the column of what w is made of.
+    const float shown = lens.aspect > 0 ? lens.aspect : aspect;
+    const float focal = lens.isParallel() ? 2.0f / lens.parallelMeters
+                                          : 1.0f / std::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
     float4x4 clip(0.0f);
-    clip[0][0] = focal / aspect;
+    clip[0][0] = focal / shown;
     clip[1][1] = -focal;
-    clip[2][3] = -1.0f;
-    clip[3][2] = lens.nearMeters;
+    if (lens.isParallel()) {
+        const float depth = lens.farMeters - lens.nearMeters;
+        clip[2][2] = 1.0f / depth;
+        clip[3] = float4(0 - 2 * lens.shift.x, 2 * lens.shift.y, lens.farMeters / depth, 1); // 0 -: no -0
+    } else {
+        clip[2] = float4(2 * lens.shift.x, 0 - 2 * lens.shift.y, 0, -1);
+        clip[3][2] = lens.nearMeters;
+    }
     return clip;
+}
+
+double3 Camera::viewFromPicture(double2 clip, double distanceMeters, double aspect) const {
+    const double shown = lens.aspect > 0 ? static_cast<double>(lens.aspect) : aspect;
+    const double half = lens.isParallel() ? static_cast<double>(lens.parallelMeters) / 2
+                                          : std::tan(glm::radians(static_cast<double>(lens.verticalFovDegrees)) / 2) *
+                                                    distanceMeters;
+    const double2 at = double2(clip.x, -clip.y) + 2.0 * double2(lens.shift);
+    return { at.x * half * shown, at.y * half, -distanceMeters };
 }
 
 } // namespace filament

@@ -44,12 +44,11 @@ void DebugDraw::box(Box const& box, double4x4 const& worldFromBox, DebugStyle co
 }
 
 void DebugDraw::frustum(Camera const& camera, float aspect, double farMeters, DebugStyle const& style) {
-    const double up = std::tan(glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2);
-    const double right = up * static_cast<double>(aspect);
     std::array<double3, 8> ends;
     for (uint32_t i = 0; i < 8; ++i) {
         const double distance = i & 4 ? farMeters : static_cast<double>(camera.lens.nearMeters);
-        const double3 view = double3(i & 1 ? right : -right, i & 2 ? up : -up, -1) * distance;
+        const double2 corner(i & 1 ? 1 : -1, i & 2 ? -1 : 1); // +y is row 0
+        const double3 view = camera.viewFromPicture(corner, distance, static_cast<double>(aspect));
         ends[i] = double3(camera.worldFromView * double4(view, 1));
     }
     corners(ends, style);
