@@ -2,7 +2,7 @@
 /// Scene::Impl: the arrays of a scene and the engine whose handles they came from.
 #pragma once
 
-#include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/engine/gltf/CopiesOfModels.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
 
@@ -22,13 +22,6 @@ struct Scene::Impl {
         std::erase(engine.scenes, this);
         engine.aUseEnded = true;
     }
-
-    /// The parts of one copy of a model, for changes to the whole copy. Only for models with variants.
-    struct ModelCopy {
-        Node root;
-        std::shared_ptr<const Model::Impl> model;
-        std::vector<Renderable> renderables; ///< parallel to the model's; some may have been removed
-    };
 
     /// A renderable whose bounds are those of its vertices.
     struct FollowedBounds {
@@ -76,7 +69,7 @@ struct Scene::Impl {
     std::vector<FollowedBounds> followed; ///< by the index of the renderable
     mutable uint64_t boundsChanges = 0;   ///< of the engine, that `followed` have seen
     uint64_t changes = 0;                 ///< by the app
-    std::vector<ModelCopy> copies;
+    engine::CopiesOfModels copies;
 };
 
 } // namespace filament

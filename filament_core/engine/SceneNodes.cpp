@@ -40,18 +40,18 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
         if (part.skin != Model::Impl::kNoSkin) desc.skin = skins[part.skin];
         renderables.push_back(add(desc));
     }
+    std::vector<Light> lights;
+    lights.reserve(parts.lights.size());
     for (Model::Impl::PartLight const& part : parts.lights) {
-        std::visit([&](auto const& light) { add(light, at(part.node)); }, part.light);
+        lights.push_back(std::visit([&](auto const& light) { return add(light, at(part.node)); }, part.light));
     }
-    if (!parts.variants.empty()) mImpl->copies.push_back({ root, shared, std::move(renderables) });
+    mImpl->copies.add({ root, shared, std::move(nodes), std::move(renderables), std::move(lights) });
     return root;
 }
 
 void Scene::remove(Node node) {
     const PublicCall call(mImpl, "Scene::remove(Node)");
-    scene::removeNode(mImpl->changedUses(), node);
-    std::erase_if(mImpl->copies,
-                  [&](Impl::ModelCopy const& copy) { return !mImpl->data.transforms.contains(copy.root); });
+    for (const uint32_t removed : scene::removeNode(mImpl->changedUses(), node)) mImpl->copies.remove(removed);
 }
 
 void Scene::setTransform(Node node, double4x4 const& parentFromNode) {

@@ -87,8 +87,8 @@ void setVisible(SceneData& scene, Node node, bool isVisible) {
                       [&](Renderable renderable) { setVisible(scene.renderables, renderable, isVisible); });
 }
 
-void removeNode(SceneData& scene, Node node) {
-    const std::vector<uint32_t> slots = scene.transforms.remove(node);
+std::vector<uint32_t> removeNode(SceneData& scene, Node node) {
+    std::vector<uint32_t> slots = scene.transforms.remove(node);
     for (const uint32_t slot : slots) {
         while (const Renderable renderable = scene.atNodes.renderables.first(slot)) removeRenderable(scene, renderable);
         while (const Light light = scene.atNodes.lights.first(slot)) removeLight(scene, light);
@@ -96,6 +96,7 @@ void removeNode(SceneData& scene, Node node) {
     for (const uint32_t slot : slots) {
         while (const Skin skin = scene.atNodes.skins.first(slot)) removeSkin(scene, skin);
     }
+    return slots;
 }
 
 void placeAttached(SceneData& scene, uint32_t slot) {

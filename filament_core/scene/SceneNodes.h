@@ -27,8 +27,9 @@ void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers);
 void setDrawPlace(SceneData& scene, Node node, DrawPlace place);
 void setVisible(SceneData& scene, Node node, bool isVisible);
 
-/// Removes the node, its descendants, and every renderable, light and skin attached to them.
-void removeNode(SceneData& scene, Node node);
+/// Removes the node, its descendants, and every renderable, light and skin attached to them. Returns the indices of the
+/// removed nodes.
+std::vector<uint32_t> removeNode(SceneData& scene, Node node);
 
 /// Moves everything attached to the node in `slot` to the place that the last update gave the node.
 void placeAttached(SceneData& scene, uint32_t slot);

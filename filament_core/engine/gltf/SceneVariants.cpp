@@ -35,8 +35,8 @@ void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
 Result<void> Scene::setVariant(Node copy, std::string_view variant) {
     const PublicCall call(mImpl, "Scene::setVariant(Node, string_view)");
     std::string const& name = mImpl->data.transforms.name(copy);
-    const auto found = std::ranges::find(mImpl->copies, copy, &Impl::ModelCopy::root);
-    if (found == mImpl->copies.end()) {
+    engine::CopyOfModel* const found = mImpl->copies.find(copy);
+    if (!found || found->model->variants.empty()) {
         return fail(ErrorCode::InvalidArgument,
                     "'{}' has no variants, so there is no '{}'; give the root of a model with KHR_materials_variants",
                     name, variant);
@@ -51,8 +51,9 @@ Result<void> Scene::setVariant(Node copy, std::string_view variant) {
     for (size_t i = 0; i < found->renderables.size(); ++i) {
         const Renderable renderable = found->renderables[i];
         if (mImpl->data.renderables.index.contains(renderable))
-            setMaterial(renderable, materialIn(model.renderables[i], index));
+            setMaterial(renderable, found->shown(materialIn(model.renderables[i], index)));
     }
+    found->variant = variant;
     return {};
 }
 

@@ -21,6 +21,7 @@
 #include <filament/Look.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
+#include <filament/ModelCopy.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
 #include <filament/Photometry.h>

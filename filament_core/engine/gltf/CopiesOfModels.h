@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/// CopiesOfModels: what Scene::add(model) made of each model, by the root of the copy.
+///   Out     handles in the order of the parts of the model; those of parts that the program has removed are dead.
+///   Memory  handles of every node, renderable and light of a copy. Looking up and removing are O(1).
+///   Life    materials of a copy's own end with its record, after its renderables.
+///   Thread  app.   Fails: add(): std::bad_alloc.
+#pragma once
+
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace filament::engine {
+
+/// A material instance that takes the place of a shared one in one copy. Destroyed at its end.
+class OwnMaterial {
+public:
+    OwnMaterial(Engine::Impl& engine, MaterialInstance shared);
+    OwnMaterial(OwnMaterial&& other) noexcept
+            : shared(other.shared), instance(std::exchange(other.instance, {})), mEngine(other.mEngine),
+              mLink(std::move(other.mLink)) {}
+    OwnMaterial& operator=(OwnMaterial&&) = delete;
+    ~OwnMaterial();
+
+    MaterialInstance shared;   ///< of the model
+    MaterialInstance instance; ///< with the same parameters at first
+
+private:
+    Engine::Impl* mEngine; ///< while the link is alive
+    EngineLink mLink;
+};
+
+struct CopyOfModel {
+    Node root;
+    std::shared_ptr<const Model::Impl> model;
+    std::vector<Node> nodes;             ///< parallel to the model's
+    std::vector<Renderable> renderables; ///< parallel to the model's
+    std::vector<Light> lights;           ///< parallel to the model's
+    std::vector<OwnMaterial> own{};
+    std::string variant{};
+
+    /// The copy's own instance instead of a shared one, if it has one.
+    MaterialInstance shown(MaterialInstance shared) const;
+};
+
+class CopiesOfModels {
+public:
+    void add(CopyOfModel copy) { mCopies.insert_or_assign(copy.root.index(), std::move(copy)); }
+    /// Null: no copy has this root.
+    CopyOfModel* find(Node root) {
+        const auto found = mCopies.find(root.index());
+        return found != mCopies.end() && found->second.root == root ? &found->second : nullptr;
+    }
+    /// The node with this index was removed, whatever it was.
+    void remove(uint32_t node) { mCopies.erase(node); }
+
+private:
+    std::unordered_map<uint32_t, CopyOfModel> mCopies; // by the index of the root
+};
+
+} // namespace filament::engine

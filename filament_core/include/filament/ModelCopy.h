@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelCopy: what one copy of a model in a scene consists of, by the names of its file, and what can be changed of it
+/// without touching other copies.
+///   In      the root that Scene::add(model) returned.
+///   Names   are those of the file: they may be empty and need not be unique. Where a name is asked for, all that have it
+///           are meant, or the first one if only one can be; NotFound lists names that are near.
+///   Out     what is still there: parts that the program removed are left out. Lists are new at every call.
+///   Thread  the app thread, between frames.
+///   Life    a plain value. It refers to the scene and to the copy; once one of them is gone, of() and every function
+///           that returns a Result say so, and lists are empty, as long as the scene itself exists. The scene may not be
+///           moved.
+///   Cost    proportional to the parts of the model. Frames do not pay for copies that nobody changes.
+///
+///   Result<ModelCopy> car = ModelCopy::of(scene, root);
+///   car->set("paint", "baseColorFactor", float4(0.8f, 0, 0, 1));        // this car only
+///   car->setMorphWeight("smile", 0.5f);
+///   view.camera = *car->camera("driver");
+#pragma once
+
+#include <filament/Camera.h>
+#include <filament/Gltf.h>
+#include <filament/Scene.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament {
+
+/// A primitive of a mesh of the file.
+struct CopyRenderable {
+    Renderable renderable{};
+    Node node{};                             ///< the node of the file that has the mesh
+    std::string mesh{};                      ///< name of the mesh
+    std::string material{};                  ///< name of the material that it is drawn with now
+    std::vector<std::string> morphTargets{}; ///< their names, one for each weight; "" where the file has none
+};
+
+/// A material that the copy is drawn with now.
+struct CopyMaterial {
+    std::string name{};
+    MaterialInstance instance{};
+    Material material{};
+    bool isOwn = false; ///< other copies do not have this instance: see ModelCopy::ownMaterials()
+    uint32_t renderables = 0;
+};
+
+enum class LightKind : uint8_t { Sun, Point, Spot };
+
+struct CopyLight {
+    std::string name{}; ///< of the light; that of its node if the light has none
+    Light light{};
+    Node node{};
+    LightKind kind = LightKind::Point;
+};
+
+struct CopyCamera {
+    std::string name{}; ///< of the camera; that of its node if the camera has none
+    Node node{};
+    Camera camera{}; ///< where the node is now. Its exposure is the default one: files know none
+};
+
+struct CopyMorphTarget {
+    std::string name{};
+    Renderable renderable{};
+    uint32_t target = 0; ///< of the renderable
+    float weight = 0;
+};
+
+class ModelCopy {
+public:
+    /// InvalidArgument: the node is not the root of a copy of a model, or was removed.
+    static Result<ModelCopy> of(Scene& scene, Node root);
+
+    Node root() const { return mRoot; }
+
+    /// The nodes of the file, parents first.
+    std::vector<Node> nodes() const;
+    Result<Node> node(std::string_view name) const;
+
+    std::vector<CopyRenderable> renderables() const;
+    /// Of a mesh or of a node with this name.
+    Result<std::vector<Renderable>> renderables(std::string_view meshOrNode) const;
+
+    std::vector<CopyMaterial> materials() const;
+    /// Of all variants, with instances that this copy shares with no other one, made at the first call; each primitive of
+    /// the copy that shows the shared one shows its own from now on. A material that is used with and without vertex
+    /// colours, or by volumes of several scales, has several instances. They live as long as the copy: do not destroy
+    /// them, and give them to nothing else that lives longer.
+    Result<std::vector<MaterialInstance>> ownMaterials(std::string_view material);
+    /// Engine::set() for ownMaterials(). NotFound, InvalidArgument as there, from the first instance that refuses.
+    Result<void> set(std::string_view material, std::string_view parameter, ParameterValue const& value);
+    Result<void> set(std::string_view material, std::string_view parameter, Texture texture, Sampler sampler = {});
+
+    std::vector<CopyLight> lights() const;
+    Result<Light> light(std::string_view name) const;
+
+    std::vector<CopyCamera> cameras() const;
+    /// For View::camera. A scale of its node does not count.
+    Result<Camera> camera(std::string_view name) const;
+
+    std::vector<CopyMorphTarget> morphTargets() const;
+    /// Of all morph targets with this name: those of the primitives of a face, say. The other weights stay.
+    Result<void> setMorphWeight(std::string_view target, float weight);
+
+    /// What the model has for an Animator and for Scene::setVariant().
+    std::vector<std::string> animations() const;
+    std::vector<std::string> variants() const;
+    /// The one that setVariant() chose; "" for none.
+    std::string variant() const;
+    /// Scene::setVariant(). Materials of the copy's own stay its own.
+    Result<void> setVariant(std::string_view variant);
+
+private:
+    ModelCopy(Scene& scene, Node root) : mScene(&scene), mRoot(root) {}
+
+    Scene* mScene;
+    Node mRoot;
+};
+
+} // namespace filament
