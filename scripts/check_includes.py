@@ -41,10 +41,12 @@ ROOMS = {
                                          "filament_core/assets/files", "filament_core/assets/image"],
     "filament_core/assets/tables": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
                                     "filament_core/values", "filament_core/assets/files", "filament_core/assets/image"],
+    "filament_core/assets/geometry": ["base", "base/math", "filament_core/include", "filament_core/assets/files"],
     "filament_core/assets/gltf": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface",
                                   "shaders/package", "filament_core/include", "filament_core/scene",
                                   "filament_core/assets/files", "filament_core/assets/image",
-                                  "filament_core/assets/environment", "filament_core/assets/tables"],
+                                  "filament_core/assets/environment", "filament_core/assets/tables",
+                                  "filament_core/assets/geometry"],
     "filament_core/prepare": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface", "shaders/lib",
                               "filament_core/include", "filament_core/scene"],
     "filament_core/passes": ["base", "base/math", "jobsystem", "backend/api", "backend/stream", "framegraph",
@@ -55,7 +57,8 @@ ROOMS = {
                              "shaders/package", "filament_core/include", "filament_core/scene",
                              "filament_core/assets/files", "filament_core/assets/image",
                              "filament_core/assets/environment", "filament_core/assets/tables",
-                             "filament_core/assets/gltf", "filament_core/prepare", "filament_core/passes"],
+                             "filament_core/assets/geometry", "filament_core/assets/gltf", "filament_core/prepare",
+                             "filament_core/passes"],
 }
 
 # Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialMeshes.h"
 
-#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 
 #include <filament/Lines.h>
 

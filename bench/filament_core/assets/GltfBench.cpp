@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of loading a model, part by part: mip chains, tangents, and a whole generated file with and without workers.
+#include "filament_core/assets/geometry/Tangents.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
-#include "filament_core/assets/gltf/Tangents.h"
 #include "filament_core/assets/image/MipMaps.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/math/Half.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
-#include "filament_core/assets/gltf/TangentFrame.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <meshoptimizer.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfScene.h"
 
+#include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/gltf/Accessor.h"
-#include "filament_core/assets/gltf/TangentFrame.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <glm/gtc/quaternion.hpp>

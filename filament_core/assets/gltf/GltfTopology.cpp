@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/geometry/TangentFrame.h"
+#include "filament_core/assets/geometry/Tangents.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
-#include "filament_core/assets/gltf/TangentFrame.h"
-#include "filament_core/assets/gltf/Tangents.h"
 
 #include <algorithm>
 #include <numeric>

@@ -21,10 +21,12 @@
 #include <filament/Look.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
+#include <filament/Mesh.h>
 #include <filament/ModelCopy.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
 #include <filament/Photometry.h>
+#include <filament/Primitives.h>
 #include <filament/Quality.h>
 #include <filament/QualityBudget.h>
 #include <filament/QualityCosts.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "filament_core/assets/environment/IblDirections.h"
-#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "tools/reference/Reference.h"
 

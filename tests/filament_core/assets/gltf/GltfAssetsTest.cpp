@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real files: every model of the asset folder, and known facts about some of them.
 #include "base/Hash.h"
-#include "filament_core/assets/gltf/Tangents.h"
+#include "filament_core/assets/geometry/Tangents.h"
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"

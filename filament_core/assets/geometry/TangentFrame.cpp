@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,8 @@ float3 anyTangent(float3 normal) {
 
 float3 normalizedOr(float3 vector, float3 fallback) {
     const float largest = std::max({ std::abs(vector.x), std::abs(vector.y), std::abs(vector.z) });
-    if (!(largest > 1e-30f) || !std::isfinite(largest)) return fallback;
+    const bool isFinite = std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+    if (!isFinite || !(largest > 1e-30f)) return fallback;
     const float3 scaled = vector / largest; // so that the square neither vanishes nor overflows
     return scaled / std::sqrt(glm::dot(scaled, scaled));
 }

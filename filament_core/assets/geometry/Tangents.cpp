@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/gltf/Tangents.h"
+#include "filament_core/assets/geometry/Tangents.h"
 
 #include "base/Hash.h"
-#include "filament_core/assets/gltf/ModelData.h"
-#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/files/NoIndex.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 
 #include <algorithm>
 #include <cmath>

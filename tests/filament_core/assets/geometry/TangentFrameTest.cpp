@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/geometry/TangentFrame.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <gtest/gtest.h>

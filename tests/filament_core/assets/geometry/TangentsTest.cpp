@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/gltf/Tangents.h"
+#include "filament_core/assets/geometry/Tangents.h"
 
 #include <gmock/gmock.h>
 
