@@ -69,7 +69,7 @@ BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 # A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
 PUBLIC = ["base/include/filament", "shaders/package/include/filament", "filament_core/include/filament"]
 # Public headers whose objects are the engine's; the rest are value types.
-PUBLIC_ENGINE = ["filament.h", "Animator.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
+PUBLIC_ENGINE = ["filament.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
 PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "tools", "samples", "tests", "bench"]
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"

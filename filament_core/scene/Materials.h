@@ -29,6 +29,7 @@ struct Material {
     uint32_t instanceCount = 0;
     uint32_t optionalAttributes = 0; ///< of package.requiredAttributes: read only where constants say so
     MaterialDescription description;
+    std::vector<std::byte> initialParameters; ///< of instances; empty: zeros
     /// Where an instance's parameters hold a float that its roughness does not exceed anywhere; none: not known.
     std::optional<uint32_t> roughnessBound{};
 

@@ -45,6 +45,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
     scene::MaterialInstance& instance = draft.state();
     instance.material = &parent;
     instance.name = name.empty() ? parent.name : std::move(name);
+    instance.parameters = parent.initialParameters;
     instance.parameters.resize(parent.package.uniformBytes);
     instance.raster = scene::initialRaster(parent.package);
     if (Parameter const* threshold = parent.package.findParameter(shader::kMaskThresholdParameter)) {

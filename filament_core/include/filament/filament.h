@@ -5,6 +5,7 @@
 #include <filament/Animator.h>
 #include <filament/Backend.h>
 #include <filament/Box.h>
+#include <filament/BuiltInMaterials.h>
 #include <filament/Camera.h>
 #include <filament/Color.h>
 #include <filament/ColorGrading.h>

@@ -43,8 +43,13 @@ public:
             ADD_FAILURE() << material.error().message;
             return {};
         }
-        mMaterials.push_back(engine.own(*material));
-        mInstances.push_back(engine.own(engine.createInstance(*material)));
+        return keep(*material);
+    }
+
+    /// An instance of a material that the stage owns from now on.
+    MaterialInstance keep(Material material) {
+        mMaterials.push_back(engine.own(material));
+        mInstances.push_back(engine.own(engine.createInstance(material)));
         return mInstances.back();
     }
 
