@@ -9,6 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     namespace test = filament::assets::test;
     const auto bytes = std::as_bytes(std::span(data, size));
+    test::fuzzPicture(bytes);
     if (filament::assets::isBakedEnvironment(bytes))
         test::fuzzEnvironment(bytes);
     else if (!test::fuzzHdrImage(bytes))

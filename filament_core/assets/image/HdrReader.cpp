@@ -69,6 +69,8 @@ void sanitise(HdrImage& image) {
     }
 }
 
+bool isHdrImage(std::span<const std::byte> bytes) { return isExr(bytes) || isRgbe(bytes); }
+
 Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name) try {
     Result<HdrImage> image = decodeByContent(bytes);
     if (!image) {

@@ -23,6 +23,9 @@ namespace filament::assets {
 inline constexpr uint32_t kMaxHdrSide = 16384;
 inline constexpr uint64_t kMaxHdrPixels = uint64_t(1) << 26; ///< 16384 x 4096: 768 MiB of floats
 
+/// Whether the first bytes are those of an .hdr or .exr.
+bool isHdrImage(std::span<const std::byte> bytes);
+
 Result<HdrImage> readHdrImage(std::filesystem::path const& path);
 Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name);
 

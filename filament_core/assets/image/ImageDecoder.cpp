@@ -14,19 +14,34 @@ bool begins(std::span<const std::byte> bytes, std::string_view magic) {
     return true;
 }
 
+bool beginsAsPng(std::span<const std::byte> bytes) { return begins(bytes, "\x89PNG"); }
+bool beginsAsJpeg(std::span<const std::byte> bytes) { return begins(bytes, "\xFF\xD8"); }
+
 } // namespace
 
-Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name) {
-    const bool isPng = begins(bytes, "\x89PNG");
-    if (!isPng && !begins(bytes, "\xFF\xD8"))
+bool isPngOrJpeg(std::span<const std::byte> bytes) { return beginsAsPng(bytes) || beginsAsJpeg(bytes); }
+
+bool isDeepPng(std::span<const std::byte> bytes) {
+    constexpr size_t kTypeOfFirstChunk = 12, kBitDepth = 24; // ISO/IEC 15948, 5.2 and 11.2.2
+    return beginsAsPng(bytes) && bytes.size() > kBitDepth && begins(bytes.subspan(kTypeOfFirstChunk), "IHDR") &&
+           bytes[kBitDepth] == std::byte{ 16 };
+}
+
+Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view name) {
+    if (!isPngOrJpeg(bytes))
         return fail(ErrorCode::Unsupported, "image '{}' is neither PNG nor JPEG; convert it to one of them", name);
     const uint2 size = imageSize(bytes);
     if (size.x > kMaxImageSide || size.y > kMaxImageSide)
         return fail(ErrorCode::Unsupported, "image '{}' is {} x {} pixels, more than {} on a side; make it smaller",
                     name, size.x, size.y, kMaxImageSide);
-    if (isPng && isCutShortPng(bytes))
+    if (beginsAsPng(bytes) && isCutShortPng(bytes))
         return fail(ErrorCode::Corrupt, "image '{}' cannot be decoded: the file is cut short; export it again", name);
-    return isPng ? decodePng(bytes, name) : decodeJpeg(bytes, name);
+    return {};
+}
+
+Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name) {
+    if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
+    return beginsAsPng(bytes) ? decodePng(bytes, name) : decodeJpeg(bytes, name);
 }
 
 } // namespace filament::assets

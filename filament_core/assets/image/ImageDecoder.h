@@ -3,7 +3,8 @@
 ///   In      the file's bytes; `name` is used in error messages.
 ///   Out     one level, format RGBA8 (the caller knows whether it is sRGB); missing alpha is 255, grey is copied to all
 ///           colours. Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 demands.
-///           PNG: the pixels of the specification (ISO/IEC 15948); 16-bit channels are rounded to 8 (13.12).
+///           PNG: the pixels of the specification (ISO/IEC 15948); 16-bit channels are rounded to 8 (13.12);
+///           decodeDeepPng() keeps them.
 ///           JPEG: the accurate integer DCT and triangle-filtered chroma of libjpeg-turbo, whose bits do not depend on
 ///           the processor; baseline and progressive; CMYK as Adobe's programs write it, inverted.
 ///   Thread  any; no shared state.
@@ -19,13 +20,30 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace filament::assets {
 
 inline constexpr uint32_t kMaxImageSide = 16384;
 
+/// Whether the first bytes are those of a PNG or JPEG.
+bool isPngOrJpeg(std::span<const std::byte> bytes);
+
 Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name);
 
+/// A PNG of 16 bits a channel: four numbers a pixel, in the byte order of the machine.
+struct DeepImage {
+    uint32_t width = 0, height = 0;
+    std::vector<uint16_t> codes;
+};
+
+/// Whether it is a PNG whose header states 16 bits.
+bool isDeepPng(std::span<const std::byte> bytes);
+/// All 16 bits of it; limits and errors as decodePng(). Of other depths, the codes scaled to 16 bits.
+Result<DeepImage> decodeDeepPng(std::span<const std::byte> bytes, std::string_view name);
+
+/// The errors of decodeImage() that the header shows.
+Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view name);
 /// What decodeImage() calls when the first bytes of the file say so.
 Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name);
 Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name);

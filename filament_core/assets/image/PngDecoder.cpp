@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -21,8 +22,10 @@ struct PngReading {
     png_structp png = nullptr;
     png_infop info = nullptr;
     uint32_t width = 0, height = 0;
+    bool isDeep = false; ///< 16 bits a channel, otherwise 8
 
-    explicit PngReading(std::span<const std::byte> file) : bytes(file) {}
+    explicit PngReading(std::span<const std::byte> file, bool asDeep) : bytes(file), isDeep(asDeep) {}
+    size_t rowBytes() const { return size_t{ width } * (isDeep ? 8 : 4); }
     ~PngReading() { png_destroy_read_struct(&png, &info, nullptr); }
     PngReading(PngReading const&) = delete;
     PngReading& operator=(PngReading const&) = delete;
@@ -43,12 +46,17 @@ void onRead(png_structp png, png_bytep target, size_t count) {
     reading->at += count;
 }
 
-// Any PNG becomes 8-bit RGBA: ISO/IEC 15948, 13.12 (sample depth scaling).
-void askForRgba8(PngReading& reading) {
-    png_set_expand(reading.png); // palettes, fewer than 8 bits, a transparent colour
-    png_set_scale_16(reading.png);
+// Any PNG becomes RGBA of 8 or 16 bits: ISO/IEC 15948, 13.12 (sample depth scaling).
+void askForRgba(PngReading& reading) {
+    if (reading.isDeep) {
+        png_set_expand_16(reading.png); // palettes, fewer than 16 bits, a transparent colour
+        if constexpr (std::endian::native == std::endian::little) png_set_swap(reading.png);
+    } else {
+        png_set_expand(reading.png);
+        png_set_scale_16(reading.png);
+    }
     png_set_gray_to_rgb(reading.png);
-    png_set_add_alpha(reading.png, 0xFF, PNG_FILLER_AFTER);
+    png_set_add_alpha(reading.png, reading.isDeep ? 0xFFFF : 0xFF, PNG_FILLER_AFTER);
     png_set_interlace_handling(reading.png);
     png_read_update_info(reading.png, reading.info);
 }
@@ -60,8 +68,8 @@ bool readHeader(PngReading& reading) {
     png_read_info(reading.png, reading.info);
     reading.width = png_get_image_width(reading.png, reading.info);
     reading.height = png_get_image_height(reading.png, reading.info);
-    askForRgba8(reading);
-    if (png_get_rowbytes(reading.png, reading.info) != size_t{ reading.width } * 4)
+    askForRgba(reading);
+    if (png_get_rowbytes(reading.png, reading.info) != reading.rowBytes())
         png_error(reading.png, "its pixels do not convert to RGBA");
     return true;
 }
@@ -78,20 +86,43 @@ Error failure(PngReading const& reading, std::string_view name) {
                 reading.reason.data(), reading.at, reading.bytes.size());
 }
 
-} // namespace
-
-Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name) {
-    PngReading reading(bytes);
+/// `memory(reading)` returns where the rows go, once their number and length are known.
+template <class Memory>
+Result<void> readPng(PngReading& reading, std::string_view name, Memory const& memory) {
     reading.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reading, onError, onWarning);
     if (reading.png) reading.info = png_create_info_struct(reading.png);
     if (!reading.info) return fail(ErrorCode::OutOfMemory, "image '{}': out of memory; free some and try again", name);
     if (!readHeader(reading)) return failure(reading, name);
-    Image image{ .width = reading.width, .height = reading.height, .data = {} };
-    image.data.resize(image.levelBytes(0));
-    std::vector<png_bytep> rows(image.height);
-    for (uint32_t y = 0; y < image.height; ++y)
-        rows[y] = reinterpret_cast<png_bytep>(image.data.data() + size_t{ y } * image.width * 4);
+    auto* const pixels = static_cast<png_bytep>(memory(reading));
+    std::vector<png_bytep> rows(reading.height);
+    for (uint32_t y = 0; y < reading.height; ++y) rows[y] = pixels + y * reading.rowBytes();
     if (!readRows(reading, rows.data())) return failure(reading, name);
+    return {};
+}
+
+} // namespace
+
+Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name) {
+    PngReading reading(bytes, false);
+    Image image;
+    const Result<void> read = readPng(reading, name, [&](PngReading const& header) -> void* {
+        image.width = header.width, image.height = header.height;
+        image.data.resize(image.levelBytes(0));
+        return image.data.data();
+    });
+    if (!read) return read.error();
+    return image;
+}
+
+Result<DeepImage> decodeDeepPng(std::span<const std::byte> bytes, std::string_view name) {
+    PngReading reading(bytes, true);
+    DeepImage image;
+    const Result<void> read = readPng(reading, name, [&](PngReading const& header) -> void* {
+        image.width = header.width, image.height = header.height;
+        image.codes.resize(size_t{ image.width } * image.height * 4);
+        return image.codes.data();
+    });
+    if (!read) return read.error();
     return image;
 }
 

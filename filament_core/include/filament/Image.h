@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Image: pixels in memory, tightly packed, row 0 at the top.
+/// Image: pixels in memory, tightly packed, row 0 at the top; read from files and written to them.
+///   Thread  any; plain values. A picture is decoded on the calling thread.
 #pragma once
 
 #include <filament/ColorGrading.h>
 #include <filament/Format.h>
+#include <filament/Objects.h>
 #include <filament/Result.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace filament {
@@ -19,8 +23,35 @@ struct Image {
     std::vector<std::byte> pixels{};
 };
 
-/// RGBA8, or RGB10A2 as 16 bits a channel without alpha; codes of ColorGrading::outputSpace, which the file names (sRGB;
-/// cICP, gAMA, cHRM). Errors: Unreadable with path and reason.
+/// What the numbers in a picture are.
+enum class ImageContent : uint8_t {
+    Color, ///< codes of sRGB in PNG and JPEG: base colours, what is shown
+    Data,  ///< themselves: normals, roughness, occlusion, heights
+};
+
+struct ImageLoadOptions {
+    ImageContent content = ImageContent::Color;
+    bool fullFloats = false; ///< RGBA32F instead of RGBA16F: all 16 bits of heights, radiances above 65504
+};
+
+/// A picture in a file; its first bytes, not its name, say of which kind it is.
+///   PNG, JPEG  of 8 bits: RGBA8Srgb, or RGBA8 of data. Missing alpha is 255; grey is copied to all colours; colour
+///              profiles are ignored; alpha is not multiplied in.
+///   PNG        of 16 bits: RGBA16F, colours as linear light, data as code / 65535.
+///   HDR, EXR   RGBA16F: linear, as in the file, without alpha. What is negative or not a number becomes 0; what a half
+///              cannot hold, 65504.
+///   Limits     16384 a side; of HDR and EXR 2^26 pixels; single-part scan lines of EXR.
+///   Fails      NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with the file, the reason and the cure.
+Result<Image> loadImage(std::filesystem::path const& path, ImageLoadOptions const& options = {});
+/// From memory. `name` is used in messages.
+Result<Image> loadImage(std::span<const std::byte> file, std::string_view name, ImageLoadOptions const& options = {});
+
+/// Its texture, with all of its mips: for Engine::create(). Refers to the pixels of the image, which must live and stay as
+/// they are until create() returns.
+TextureDesc textureOf(Image const& image, std::string_view name = {});
+
+/// RGBA8, RGBA8Srgb (the same codes), or RGB10A2 as 16 bits a channel without alpha; codes of `space`, which the file names
+/// (sRGB; cICP, gAMA, cHRM). Errors: Unreadable with path and reason.
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space = OutputSpace::Srgb);
 /// RGBA16F only, stored as half floats; linear Rec. 709, which the file says.
 Result<void> saveExr(std::filesystem::path const& path, Image const& image);

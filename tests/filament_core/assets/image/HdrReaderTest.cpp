@@ -224,7 +224,11 @@ TEST(HdrReader, DamagedFilesKeepEveryPromiseOfTheFuzzer) {
     std::vector<std::vector<std::byte>> files;
     for (const int compression : kCompressions) files.push_back(exrFile(testPicture(), compression, false));
     size_t pictures = 0;
-    for (uint32_t seed = 0; seed < 500; ++seed) pictures += test::fuzzHdrImage(damaged(files[seed % 5], seed, 2));
+    for (uint32_t seed = 0; seed < 500; ++seed) {
+        const std::vector<std::byte> file = damaged(files[seed % 5], seed, 2);
+        pictures += test::fuzzHdrImage(file);
+        test::fuzzPicture(file);
+    }
     EXPECT_GT(pictures, 50u);
 }
 

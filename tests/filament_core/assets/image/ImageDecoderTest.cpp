@@ -27,6 +27,11 @@ TEST_P(Pngs, HaveThePixelsOfTheSpecification) {
     ASSERT_EQ(image->width, 13u);
     ASSERT_EQ(image->height, 11u);
     EXPECT_EQ(image->data, file.rgba);
+    EXPECT_EQ(isDeepPng(file.bytes), kind.depth == 16);
+    const Result<DeepImage> deep = decodeDeepPng(file.bytes, "a.png");
+    ASSERT_TRUE(deep) << deep.error().message;
+    EXPECT_EQ(uint2(deep->width, deep->height), uint2(13, 11));
+    EXPECT_EQ(deep->codes, file.deep) << "with 16 bits a channel";
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Pngs, ::testing::ValuesIn(pngKinds()),
@@ -121,6 +126,7 @@ TEST(ImageFuzz, ReplaysDamagedFilesWithoutACrash) {
         for (auto i = random() % 6; i > 0; --i) file[random() % file.size()] = static_cast<std::byte>(random());
         if (random() % 4 == 0) file.resize(random() % file.size());
         pictures += fuzzImage(file);
+        fuzzPicture(file);
     }
     EXPECT_GT(pictures, 100u);
 }

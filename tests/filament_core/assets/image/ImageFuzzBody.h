@@ -4,9 +4,11 @@
 #pragma once
 
 #include "base/Assert.h"
+#include "base/math/Half.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/ImageSize.h"
+#include "filament_core/assets/image/PictureDecoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +56,35 @@ inline bool fuzzHdrImage(std::span<const std::byte> bytes) {
                                               image->pixels.size() * sizeof(float3)) == 0,
                     "decoding twice gives the same pixels");
     return true;
+}
+
+/// Any kind of picture, as loadImage() decodes it.
+inline void fuzzPicture(std::span<const std::byte> bytes) {
+    const uint2 size = imageSize(bytes);
+    if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return; // only slow
+    if (const auto floats = decodeHdrImage(bytes, "fuzzed"); floats && floats->pixels.size() > kMaxFuzzedPixels) return;
+    const Result<Image> full = decodePicture(bytes, "fuzzed", { .isColor = false, .isFull = true });
+    for (const bool isColor : { false, true }) {
+        const Result<Image> image = decodePicture(bytes, "fuzzed", { .isColor = isColor });
+        FILAMENT_ASSERT(image.ok() == full.ok(), "a picture is one, whatever it is for");
+        if (!image) {
+            FILAMENT_ASSERT(image.error().message.find("'fuzzed'") != std::string::npos, "an error names its picture");
+            FILAMENT_ASSERT(image.error().message.find('\n') == std::string::npos, "an error is one line");
+            continue;
+        }
+        FILAMENT_ASSERT(image->width > 0 && image->height > 0 && image->data.size() == image->levelBytes(0),
+                        "every pixel is there");
+        const bool isFloat = image->format == backend::Format::RGBA16F;
+        FILAMENT_ASSERT(isFloat == (full->format == backend::Format::RGBA32F), "only floats can be full");
+        FILAMENT_ASSERT(isFloat || image->format == (isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8),
+                        "codes of 8 bits stay codes");
+        for (size_t at = 0; isFloat && at < image->data.size(); at += 2) {
+            uint16_t bits;
+            std::memcpy(&bits, &image->data[at], sizeof(bits));
+            const float value = floatFromHalf(bits);
+            FILAMENT_ASSERT(value >= 0 && std::isfinite(value), "every number is finite and not negative");
+        }
+    }
 }
 
 } // namespace filament::assets::test

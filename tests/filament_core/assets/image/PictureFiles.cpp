@@ -36,24 +36,24 @@ int channelsOf(PngKind const& kind) {
     }
 }
 
-std::byte scaled(uint32_t sample, int depth) {
-    const double largest = std::pow(2.0, depth) - 1;
-    return static_cast<std::byte>(std::floor(sample * 255.0 / largest + 0.5));
+uint32_t scaled(uint32_t sample, uint32_t from, uint32_t to) {
+    return static_cast<uint32_t>(std::floor(static_cast<double>(sample) * to / from + 0.5));
 }
 
 constexpr uint8_t kPaletteColor = 37; // entry i: (37 i, 37 i + 1, 37 i + 2) modulo 256
 constexpr uint32_t kClear = 1;        // with tRNS: the transparent sample or entry
 
-std::array<std::byte, 4> expectedPixel(PngKind const& kind, std::span<const uint32_t> samples) {
-    const auto byte = [](uint32_t value) { return static_cast<std::byte>(value); };
+/// With codes up to `largest`.
+std::array<uint32_t, 4> expectedPixel(PngKind const& kind, std::span<const uint32_t> samples, uint32_t largest) {
+    const auto ofPalette = [&](uint32_t value) { return scaled(value % 256, 255, largest); };
     const bool isClear = kind.transparentColor && samples[0] == kClear && samples.back() == kClear;
-    const std::byte alpha = isClear ? std::byte{ 0 } : std::byte{ 255 };
+    const uint32_t alpha = isClear ? 0 : largest;
     if (kind.colorType == PNG_COLOR_TYPE_PALETTE) {
         const uint32_t base = kPaletteColor * samples[0];
-        return { byte(base), byte(base + 1), byte(base + 2), alpha };
+        return { ofPalette(base), ofPalette(base + 1), ofPalette(base + 2), alpha };
     }
-    std::array<std::byte, 4> codes{};
-    for (size_t i = 0; i < samples.size(); ++i) codes[i] = scaled(samples[i], kind.depth);
+    std::array<uint32_t, 4> codes{};
+    for (size_t i = 0; i < samples.size(); ++i) codes[i] = scaled(samples[i], (1u << kind.depth) - 1, largest);
     if (samples.size() == 1) return { codes[0], codes[0], codes[0], alpha };
     if (samples.size() == 2) return { codes[0], codes[0], codes[0], codes[1] };
     if (samples.size() == 3) return { codes[0], codes[1], codes[2], alpha };
@@ -124,7 +124,8 @@ PngFile makePng(PngKind const& kind, uint32_t width, uint32_t height) {
                     row[bit / 8] = static_cast<png_byte>(row[bit / 8] |
                                                          samples[c] << (8 - kind.depth - static_cast<int>(bit % 8)));
             }
-            for (const std::byte code : expectedPixel(kind, samples)) file.rgba.push_back(code);
+            for (const uint32_t code : expectedPixel(kind, samples, 255)) file.rgba.push_back(std::byte(code));
+            for (const uint32_t code : expectedPixel(kind, samples, 65535)) file.deep.push_back(uint16_t(code));
         }
     }
     std::vector<png_bytep> pointers;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/image/PictureDecoder.h"
+
+#include "base/math/Half.h"
+#include "filament_core/assets/image/HdrReader.h"
+#include "filament_core/assets/image/ImageDecoder.h"
+
+#include <filament/Color.h>
+
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint32_t kDeepCodes = 65536;
+
+float shareOf(uint32_t deepCode) { return static_cast<float>(deepCode) / static_cast<float>(kDeepCodes - 1); }
+
+/// The light that each code of 16 bits stands for.
+std::vector<float> const& lightOfDeepCodes() {
+    static const std::vector<float> table = [] {
+        std::vector<float> light;
+        light.reserve(kDeepCodes);
+        for (uint32_t code = 0; code < kDeepCodes; ++code)
+            light.push_back(color::linearFromSrgb(float3(shareOf(code))).x);
+        return light;
+    }();
+    return table;
+}
+
+/// RGBA pixels of floats or halves, one after the other.
+class FloatPixels {
+public:
+    FloatPixels(uint32_t width, uint32_t height, bool isFull) {
+        mImage.width = width, mImage.height = height;
+        mImage.format = isFull ? backend::Format::RGBA32F : backend::Format::RGBA16F;
+        mImage.data.resize(mImage.levelBytes(0));
+    }
+    void add(float4 pixel) {
+        for (int c = 0; c < 4; ++c) {
+            if (mImage.format == backend::Format::RGBA32F)
+                append(pixel[c]);
+            else
+                append(halfFromFloat(pixel[c]));
+        }
+    }
+    Image take() { return std::move(mImage); }
+
+private:
+    template <class T>
+    void append(T value) {
+        std::memcpy(mImage.data.data() + mAt, &value, sizeof(value));
+        mAt += sizeof(value);
+    }
+
+    Image mImage;
+    size_t mAt = 0;
+};
+
+Image fromDeepCodes(DeepImage const& deep, PictureOptions const& options) {
+    FloatPixels pixels(deep.width, deep.height, options.isFull);
+    std::vector<float> const& light = lightOfDeepCodes();
+    for (size_t i = 0; i < deep.codes.size(); i += 4) {
+        const uint16_t* const code = &deep.codes[i];
+        const auto component = [&](int c) { return options.isColor ? light[code[c]] : shareOf(code[c]); };
+        pixels.add({ component(0), component(1), component(2), shareOf(code[3]) });
+    }
+    return pixels.take();
+}
+
+Result<Image> decodeDeep(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
+    const Result<DeepImage> picture = decodeDeepPng(bytes, name);
+    if (!picture) return picture.error();
+    return fromDeepCodes(*picture, options);
+}
+
+Result<Image> decodeFloats(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    const Result<HdrImage> picture = decodeHdrImage(bytes, name);
+    if (!picture) return picture.error();
+    FloatPixels pixels(picture->width, picture->height, options.isFull);
+    for (float3 const& pixel : picture->pixels) pixels.add(float4(pixel, 1));
+    return pixels.take();
+}
+
+} // namespace
+
+Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    if (isHdrImage(bytes)) return decodeFloats(bytes, name, options);
+    if (!isPngOrJpeg(bytes))
+        return fail(ErrorCode::Unsupported, "image '{}' is none of PNG, JPEG, HDR and EXR; convert it to one of them",
+                    name);
+    if (isDeepPng(bytes)) return decodeDeep(bytes, name, options);
+    Result<Image> picture = decodeImage(bytes, name);
+    if (picture && options.isColor) picture->format = backend::Format::RGBA8Srgb;
+    return picture;
+}
+
+} // namespace filament::assets
