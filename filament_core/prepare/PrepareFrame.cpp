@@ -64,7 +64,8 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
-                        .discsOutOfView = packet.discsOutOfView });
+                        .discsOutOfView = packet.discsOutOfView,
+                        .isParallel = view.camera.lens.isParallel() });
 }
 
 /// The views of the maps follow those that were asked for.
