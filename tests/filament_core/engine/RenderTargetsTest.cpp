@@ -102,6 +102,58 @@ TEST_P(RenderTargetsTest, EightBitColoursAreThoseOfAPicture) {
     }
 }
 
+// Display-referred and scene-linear targets side by side, each square a texel a pixel of a parallel lens: the top rows of
+// all are the top row of what shows them.
+TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDrawsThem) {
+    constexpr Format kFormats[] = { Format::RGBA8, Format::RGB10A2, Format::RGBA16F };
+    std::vector<Owned<RenderTarget>> films;
+    std::vector<Owned<MaterialInstance>> screens;
+    Scene wall(engine);
+    for (const Format format : kFormats) {
+        films.push_back(target({ .color = texture(format) }));
+        screens.push_back(engine.own(engine.createInstance(screenMaterial)));
+        EXPECT_TRUE(engine.set(screens.back(), "picture", engine.colorOf(films.back()), Sampler{}));
+        square.add(wall, screens.back(), { 2.0 * static_cast<double>(films.size()) - 4, 0, 0 });
+    }
+    View composite{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, Lens::box(-3, 3, -1, 1)),
+                    .size = { 3 * kFilmSide, kFilmSide } };
+    for (Owned<RenderTarget> const& film : films) camera.render(scene, filmed, film);
+    const Image seen = test::renderLinear(engine, renderer, wall, composite);
+    const Image light = test::renderLinear(engine, scene, filmed);
+    const auto display = camera.waitPixels(camera.readPixels(films[0]));
+    ASSERT_TRUE(display);
+    float fromTop = 0, fromBottom = 0;
+    for (uint32_t y = 0; y < kFilmSide; ++y) {
+        for (uint32_t x = 0; x < kFilmSide; ++x) {
+            const float4 bytes = test::halfPixel(seen, x, y), ten = test::halfPixel(seen, kFilmSide + x, y);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(bytes[c], test::bytePixel(*display, x, y)[c], 5e-4f) << "codes as they are, encoded once";
+                EXPECT_NEAR(ten[c], bytes[c], 6e-3f) << "a code of eight bits";
+            }
+            EXPECT_EQ(test::halfPixel(seen, 2 * kFilmSide + x, y), test::halfPixel(light, x, y));
+            fromTop += std::abs(bytes.x - test::bytePixel(*display, x, y).x);
+            fromBottom += std::abs(bytes.x - test::bytePixel(*display, x, kFilmSide - 1 - y).x);
+        }
+    }
+    EXPECT_GT(fromBottom, 10 * fromTop) << "the picture is not its own mirror image";
+}
+
+TEST_P(RenderTargetsTest, DepthsOfAParallelLensAreMetresToo) {
+    Scene walls(engine);
+    square.add(walls, flats[0], { -1.5, 0, -2 }, 1.5);
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8), .depth = texture(Format::R32F) });
+    show(engine.depthOf(film));
+    for (const DepthRange range : { DepthRange::Reversed, DepthRange::Ordinary }) {
+        View view{ .camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, Lens::box(-2, 2, -2, 2, 0, 40)),
+                   .size = uint2(kFilmSide) };
+        view.quality.depthRange = range;
+        camera.render(walls, view, film);
+        const Image seen = room16();
+        EXPECT_NEAR(test::halfPixel(seen, 8, 16).x, 5, 4e-3f);
+        EXPECT_GT(test::halfPixel(seen, 24, 16).x, 30) << "at the far plane, or nothing";
+    }
+}
+
 TEST_P(RenderTargetsTest, DepthsAreMetresAlongTheView) {
     Scene walls(engine);
     square.add(walls, flats[0], { -1.5, 0, -2 }, 1.5); // the left half of the picture
