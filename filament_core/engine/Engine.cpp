@@ -145,8 +145,6 @@ Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> c
 }
 
 Engine::Impl::~Impl() {
-    loads.abandon();
-    for (engine::Dependent* dependent : dependents) dependent->release();
     destroyDefaultObjects(*this);
     scenes.clear(); // they show nothing without it
     aUseEnded = true;
@@ -169,6 +167,12 @@ Engine::Impl::~Impl() {
     }
     collectErrors();
     for (std::string const& error : errors) log(Severity::Error, "{}", error);
+}
+
+void Engine::Impl::endDependents() noexcept {
+    loads.abandon();
+    for (engine::Dependent* dependent : dependents) dependent->release();
+    dependents.clear();
 }
 
 void Engine::Impl::flush() {
@@ -247,13 +251,16 @@ Engine::Engine(Engine&& other) noexcept : mImpl(std::move(other.mImpl)) {
     if (mImpl) mImpl->self = this;
 }
 Engine& Engine::operator=(Engine&& other) noexcept {
+    if (mImpl && mImpl != other.mImpl) mImpl->endDependents();
     mImpl = std::move(other.mImpl);
     if (mImpl) mImpl->self = this;
     return *this;
 }
 Engine& Engine::of(Impl& impl) { return *impl.self; }
 Engine::~Engine() {
-    if (mImpl) const PublicCall call(mImpl, "Engine::~Engine()");
+    if (!mImpl) return;
+    const PublicCall call(mImpl, "Engine::~Engine()");
+    mImpl->endDependents();
 }
 
 void Engine::useOnThisThread() {

@@ -142,6 +142,8 @@ struct Engine::Impl {
     Impl(Impl const&) = delete;
     Impl& operator=(Impl const&) = delete;
 
+    /// Before anything sees that the engine has ended: loads and renderers let go of their device objects.
+    void endDependents() noexcept;
     /// Sends everything pending to the driver thread.
     void flush();
     /// Records everything pending, including changed parameters, before a frame.
