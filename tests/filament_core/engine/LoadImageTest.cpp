@@ -3,6 +3,8 @@
 #include "base/math/Half.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <filament/BuiltInMaterials.h>
 #include <filament/Color.h>
 #include <filament/Image.h>
