@@ -23,6 +23,8 @@ const char* toString(ErrorCode code) {
         return "out of memory";
     case ErrorCode::Timeout:
         return "timeout";
+    case ErrorCode::Cancelled:
+        return "cancelled";
     case ErrorCode::Internal:
         return "internal error";
     }

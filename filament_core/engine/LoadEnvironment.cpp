@@ -40,7 +40,8 @@ Environment::Impl::~Impl() {
 namespace engine {
 
 EnvironmentUpload::EnvironmentUpload(Engine::Impl& engine, assets::EnvironmentData data, std::string name)
-        : mEngine(engine), mData(std::move(data)), mName(std::move(name)), mParts(new Environment::Impl{ engine, EngineLink(engine) }) {}
+        : mEngine(engine), mData(std::move(data)), mName(std::move(name)),
+          mParts(new Environment::Impl{ engine, EngineLink(engine) }) {}
 
 size_t EnvironmentUpload::step(size_t index) {
     assets::Image& image = index == 0 ? mData.specular : index == 1 ? mData.sky : mData.irradiance;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/LoadTask.h"
 
-#include "base/Assert.h"
 #include "base/OutOfMemory.h"
 #include "base/Result.h"
 #include "jobsystem/JobSystem.h"
@@ -134,7 +133,7 @@ std::optional<Error> LoadTask::error() const {
     case LoadStage::Failed:
         return mError;
     case LoadStage::Cancelled:
-        return filament::fail(ErrorCode::Timeout, "loading '{}' was cancelled, or its engine ended", mName);
+        return filament::fail(ErrorCode::Cancelled, "loading '{}' was cancelled, or its engine ended", mName);
     case LoadStage::Waiting:
     case LoadStage::Decoding:
     case LoadStage::Creating:
@@ -142,10 +141,6 @@ std::optional<Error> LoadTask::error() const {
     }
     return filament::fail(ErrorCode::InvalidArgument,
                           "'{}' is still being loaded; poll() its ticket until isFinished()", mName);
-}
-
-void LoadTask::requireOwner() const {
-    FILAMENT_ASSERT(std::this_thread::get_id() == mOwner, "a load ticket belongs to the thread of its engine");
 }
 
 void LoadTasks::add(std::shared_ptr<LoadTask> const& task) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LoadTask: what a LoadTicket refers to: work on a background thread, then steps on the thread of the engine.
 ///   Thread  work() runs on a background thread, and touches neither the engine nor what step() made. Everything else
-///           belongs to the thread that made the task. Between the two are the stage and the counts, which are atomic,
+///           belongs to the thread of the engine. Between the two are the stage and the counts, which are atomic,
 ///           and the decoded data, which the stage Creating hands over.
 ///   Life    shared by the ticket, the background job and (weakly) the engine. abandon(), cancel() and the end of the
 ///           ticket free what step() made, so that a task that ends on a background thread holds plain data only.
@@ -21,7 +21,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 namespace filament {
@@ -56,8 +55,6 @@ public:
     /// Of a finished task without a result; nothing if there is a result.
     std::optional<Error> error() const;
 
-    void requireOwner() const;
-
 protected:
     /// Background thread.
     virtual Result<void> work() = 0;
@@ -81,7 +78,6 @@ private:
     bool enter(LoadStage stage, LoadStage expected);
 
     std::string mName;
-    std::thread::id mOwner = std::this_thread::get_id();
     jobs::Cancellation mCancellation;
     std::atomic<LoadStage> mStage;
     std::atomic<size_t> mDone{ 0 }, mTotal{ 0 };

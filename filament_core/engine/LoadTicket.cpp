@@ -19,7 +19,8 @@ namespace {
 template <class T>
 class LoadTaskOf : public LoadTask {
 public:
-    LoadTaskOf(Engine::Impl& owner, std::string name) : LoadTask(std::move(name)), engine(owner), jobs(owner.jobs) {}
+    LoadTaskOf(Engine::Impl& owner, std::string name)
+            : LoadTask(std::move(name)), engine(owner), link(owner), jobs(owner.jobs) {}
 
     Result<T> take() {
         if (std::optional<Error> why = error()) return std::move(*why);
@@ -29,12 +30,14 @@ public:
         return taken;
     }
 
+    Engine::Impl& engine; ///< while the link is alive
+    EngineLink link;
+
 protected:
     void sendSlice() override {
         if (engine.stream->replayedSubmissions() == engine.stream->submissions()) engine.flush();
     }
 
-    Engine::Impl& engine;
     jobs::JobSystem& jobs; // work() runs before they end
     std::optional<T> result;
 };
@@ -152,6 +155,28 @@ LoadTicket<T> begin(Engine& engine, std::shared_ptr<LoadTask> task) {
     return LoadTicket<T>(std::move(task));
 }
 
+/// A function of a ticket, from its first line to its last. A ticket may outlive its engine.
+template <class T>
+class TicketCall {
+public:
+    TicketCall(std::shared_ptr<LoadTask> const& ofTicket, const char* function)
+            : mCall(function), task(static_cast<LoadTaskOf<T>&>(existing(ofTicket))) {
+        if (task.link.isAlive()) mOfEngine.emplace(&task, function);
+    }
+
+private:
+    static LoadTask& existing(std::shared_ptr<LoadTask> const& task) {
+        if (!task) misused("the ticket was moved from; use the one that it was moved to");
+        return *task;
+    }
+
+    ApiCall mCall;
+    std::optional<PublicCall> mOfEngine; ///< checks the thread
+
+public:
+    LoadTaskOf<T>& task;
+};
+
 } // namespace
 } // namespace engine
 
@@ -170,60 +195,65 @@ LoadTicket<T>& LoadTicket<T>::operator=(LoadTicket&& other) noexcept {
 template <class T>
 LoadTicket<T>::~LoadTicket() {
     if (!mTask) return; // moved from
-    mTask->requireOwner();
+    const engine::TicketCall<T> call(mTask, "LoadTicket::~LoadTicket()");
     mTask->discard();
 }
 
 template <class T>
 LoadStatus LoadTicket<T>::poll(size_t sliceBytes) {
-    mTask->requireOwner();
-    return mTask->poll(sliceBytes);
+    const engine::TicketCall<T> call(mTask, "LoadTicket::poll(size_t)");
+    return call.task.poll(sliceBytes);
 }
 
 template <class T>
 LoadStatus LoadTicket<T>::status() const {
-    return mTask->status();
+    const engine::TicketCall<T> call(mTask, "LoadTicket::status()");
+    return call.task.status();
 }
 
 template <class T>
 void LoadTicket<T>::cancel() {
-    mTask->requireOwner();
-    mTask->cancel();
+    const engine::TicketCall<T> call(mTask, "LoadTicket::cancel()");
+    call.task.cancel();
 }
 
 template <class T>
 Result<T> LoadTicket<T>::take() {
-    mTask->requireOwner();
-    return static_cast<engine::LoadTaskOf<T>&>(*mTask).take();
+    const engine::TicketCall<T> call(mTask, "LoadTicket::take()");
+    return call.task.take();
 }
 
 template <class T>
 Result<T> LoadTicket<T>::wait() {
-    mTask->requireOwner();
-    mTask->waitForWork();
-    while (!mTask->poll(kLoadSliceBytes).isFinished()) {
+    const engine::TicketCall<T> call(mTask, "LoadTicket::wait()");
+    call.task.waitForWork();
+    while (!call.task.poll(kLoadSliceBytes).isFinished()) {
     }
-    return take();
+    return call.task.take();
 }
 
 template class LoadTicket<Model>;
 template class LoadTicket<Environment>;
 
 LoadTicket<Model> loadGltfAsync(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    const engine::PublicCall call(engine, "loadGltfAsync(Engine, path)", path.native());
     return engine::begin<Model>(engine, std::make_shared<engine::ModelTask>(engine.impl(), path, options));
 }
 
 LoadTicket<Model> loadGltfAsync(Engine& engine, GltfMemory const& model, GltfLoadOptions const& options) {
+    const engine::PublicCall call(engine, "loadGltfAsync(Engine, GltfMemory)", model.name);
     return engine::begin<Model>(engine, std::make_shared<engine::ModelTask>(engine.impl(), model, options));
 }
 
 LoadTicket<Environment> loadEnvironmentAsync(Engine& engine, std::filesystem::path const& path,
                                              EnvironmentLoadOptions const& options) {
+    const engine::PublicCall call(engine, "loadEnvironmentAsync(Engine, path)", path.native());
     return engine::begin<Environment>(engine, std::make_shared<engine::EnvironmentTask>(engine.impl(), path, options));
 }
 
 LoadTicket<Environment> loadEnvironmentAsync(Engine& engine, std::span<const std::byte> file, std::string_view name,
                                              EnvironmentLoadOptions const& options) {
+    const engine::PublicCall call(engine, "loadEnvironmentAsync(Engine, span<byte>, string_view)", name);
     return engine::begin<Environment>(engine,
                                       std::make_shared<engine::EnvironmentTask>(engine.impl(), file, name, options));
 }

@@ -38,7 +38,7 @@ void report(EnvironmentOptions const& options, std::string_view stage, size_t do
 /// The error of a load that nobody wants any more.
 Result<void> goesOn(EnvironmentOptions const& options) {
     if (!options.cancellation || !options.cancellation->isRequested()) return {};
-    return fail(ErrorCode::Timeout, "loading the environment was cancelled");
+    return fail(ErrorCode::Cancelled, "loading the environment was cancelled");
 }
 
 void warnAboutRepairs(std::string_view name, HdrRepairs const& repairs) {

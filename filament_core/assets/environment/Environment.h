@@ -36,7 +36,7 @@ struct EnvironmentOptions {
     backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8: RGBM
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
     EnvironmentProgress progress{};
-    /// Requested from any thread: the load ends before its next step, with Timeout. Must outlive it.
+    /// Requested from any thread: the load ends before its next step, with Cancelled. Must outlive it.
     jobs::Cancellation const* cancellation = nullptr;
 };
 

@@ -47,7 +47,7 @@ bool isCancelled(GltfOptions const& options) { return options.cancellation && op
 
 /// Whether the load may go on.
 bool goesOn(GltfOptions const& options, Diagnostics& diagnostics) {
-    if (isCancelled(options)) diagnostics.refuse(ErrorCode::Timeout, "loading was cancelled");
+    if (isCancelled(options)) diagnostics.refuse(ErrorCode::Cancelled, "loading was cancelled");
     return diagnostics.ok();
 }
 

@@ -45,7 +45,7 @@ struct GltfOptions {
     GltfDeformation deformation = GltfDeformation::AtRest;
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
     GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files
-    /// Requested from any thread: the load ends before its next image or primitive, with Timeout. Must outlive it.
+    /// Requested from any thread: the load ends before its next image or primitive, with Cancelled. Must outlive it.
     jobs::Cancellation const* cancellation = nullptr;
     std::string name = "model"; ///< name of a file in memory in messages; loadGltf() fills it in
 };

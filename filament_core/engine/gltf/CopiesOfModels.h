@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -62,5 +63,8 @@ public:
 private:
     std::unordered_map<uint32_t, CopyOfModel> mCopies; // by the index of the root
 };
+
+/// Scene::setVariant().
+Result<void> setVariant(Scene::Impl& scene, CopyOfModel& copy, std::string_view variant);
 
 } // namespace filament::engine

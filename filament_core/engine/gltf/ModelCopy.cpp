@@ -49,12 +49,33 @@ namespace {
 using engine::CopyOfModel;
 using PartRenderable = Model::Impl::PartRenderable;
 
-CopyOfModel* copyAt(Scene* scene, Node root) { return scene->impl().copies.find(root); }
+/// A function of a copy, from its first line to its last.
+class CopyCall {
+public:
+    CopyCall(std::weak_ptr<Scene::Impl> const& ofScene, Node root, const char* function, std::string_view object = {})
+            : CopyCall(ofScene.lock(), root, function, object) {}
 
-Error gone() {
-    return fail(ErrorCode::InvalidArgument, "the copy of the model was removed from its scene; take the root that "
-                                            "Scene::add(model) returned");
-}
+private:
+    CopyCall(std::shared_ptr<Scene::Impl> const& ofScene, Node root, const char* function, std::string_view object)
+            : mCall(function, object), mOfScene(existing(ofScene), function), scene(*ofScene),
+              copy(existing(ofScene->copies.find(root))) {}
+
+    static std::shared_ptr<Scene::Impl> const& existing(std::shared_ptr<Scene::Impl> const& scene) {
+        if (!scene) misused("its scene is gone");
+        return scene;
+    }
+    static CopyOfModel& existing(CopyOfModel* copy) {
+        if (!copy) misused("the copy of the model was removed from its scene");
+        return *copy;
+    }
+
+    ApiCall mCall;
+    engine::PublicCall mOfScene; ///< checks engine and thread
+
+public:
+    Scene::Impl& scene;
+    CopyOfModel& copy;
+};
 
 /// NotFound, with what is near. Names that are empty or repeated are no suggestions.
 Error unknown(CopyOfModel const& copy, std::string_view what, std::string_view name,
@@ -95,21 +116,23 @@ std::string const& nameOf(std::string const& own, Scene::Impl const& scene, Node
     return own.empty() && isThere(scene, node) ? scene.data.transforms.name(node) : own;
 }
 
+/// Of length 1; `other` for one without a direction.
+double3 directionOr(double3 const& other, double4 const& vector) {
+    const double3 v(vector);
+    return std::isfinite(glm::dot(v, v)) && glm::dot(v, v) > 0 ? glm::normalize(v) : other;
+}
+
 Camera cameraOf(assets::CameraData const& data, double4x4 const& worldFromNode) {
-    Camera camera;
-    camera.lens = { .verticalFovDegrees = glm::degrees(data.verticalFovRadians),
-                    .nearMeters = data.nearMeters,
-                    .parallelMeters = data.isParallel ? 2 * data.halfHeightMeters : 0,
-                    .farMeters = data.farMeters,
-                    .aspect = data.aspect };
+    const Lens lens{ .verticalFovDegrees = glm::degrees(data.verticalFovRadians),
+                     .nearMeters = data.nearMeters,
+                     .parallelMeters = data.isParallel ? 2 * data.halfHeightMeters : 0,
+                     .farMeters = data.farMeters,
+                     .aspect = data.aspect };
     // glTF 2.0, section 3.10.2: the camera is not scaled. Gram-Schmidt keeps where it looks.
-    const double3 back(worldFromNode[2]), up(worldFromNode[1]), position(worldFromNode[3]);
-    const bool looks = std::isfinite(glm::dot(back, back)) && glm::dot(back, back) > 0;
+    const double3 back = directionOr({ 0, 0, 1 }, worldFromNode[2]), up = directionOr({ 0, 1, 0 }, worldFromNode[1]);
+    const double3 position(worldFromNode[3]);
     const double3 eye = std::isfinite(glm::dot(position, position)) ? position : double3(0.0);
-    const Camera turned = Camera::lookAt(eye, eye - (looks ? glm::normalize(back) : double3(0, 0, 1)), camera.lens, {},
-                                         std::isfinite(glm::dot(up, up)) && glm::dot(up, up) > 0 ? glm::normalize(up)
-                                                                                                 : double3(0, 1, 0));
-    return turned;
+    return Camera::lookAt(eye, eye - back, lens, {}, up);
 }
 
 LightKind kindOf(Model::Impl::PartLight const& part) {
@@ -145,6 +168,29 @@ std::vector<std::string_view> materialNames(Engine::Impl const& engine, Model::I
     return names;
 }
 
+/// The copy's or the model's; none: the program's own, by Scene::setMaterial().
+MaterialInstance handleOf(scene::MaterialInstance const& drawn, Engine::Impl const& engine, CopyOfModel const& copy) {
+    for (engine::OwnMaterial const& own : copy.own) {
+        if (&engine.instances.get(own.instance) == &drawn) return own.instance;
+    }
+    for (const MaterialInstance instance : copy.model->instances) {
+        if (instance && &engine.instances.get(instance) == &drawn) return instance;
+    }
+    return {};
+}
+
+CopyMaterial described(MaterialInstance instance, scene::MaterialInstance const& drawn, Engine::Impl const& engine,
+                       CopyOfModel const& copy) {
+    const auto material = std::ranges::find_if(copy.model->materials, [&](Material each) {
+        return each && &engine.materials.get(each) == drawn.material;
+    });
+    return { .name = drawn.name,
+             .instance = instance,
+             .material = material == copy.model->materials.end() ? Material{} : *material,
+             .isOwn = std::ranges::count(copy.own, instance, &engine::OwnMaterial::instance) > 0,
+             .renderables = 1 };
+}
+
 /// Makes the copy's own instance of a shared one, and shows it where that is shown.
 void makeOwn(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
     if (copy.shown(shared) != shared) return;
@@ -152,7 +198,7 @@ void makeOwn(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
     scene::MaterialInstance const* before = &scene.engine.instances.get(shared);
     for (const Renderable renderable : copy.renderables) {
         if (isThere(scene, renderable) && drawnWith(scene, renderable) == before)
-            scene::setMaterial(scene.changed().renderables, renderable,
+            scene::setMaterial(scene.changedUses().renderables, renderable,
                                scene.engine.instances.get(copy.own.back().instance));
     }
 }
@@ -160,168 +206,145 @@ void makeOwn(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
 } // namespace
 
 Result<ModelCopy> ModelCopy::of(Scene& scene, Node root) {
-    if (copyAt(&scene, root)) return ModelCopy(scene, root);
-    if (!isThere(scene.impl(), root)) return gone();
+    const std::shared_ptr<Scene::Impl> ofScene = scene.share().lock();
+    const engine::PublicCall call(ofScene, "ModelCopy::of(Scene, Node)");
+    std::string const& name = ofScene->data.transforms.name(root);
+    if (ofScene->copies.find(root)) return ModelCopy(ofScene, root);
     return fail(ErrorCode::InvalidArgument,
-                "node '{}' is not the root of a copy of a model; take the node that Scene::add(model) returned",
-                scene.impl().data.transforms.name(root));
+                "node '{}' is not the root of a copy of a model; take the node that Scene::add(model) returned", name);
 }
 
 std::vector<Node> ModelCopy::nodes() const {
     std::vector<Node> nodes;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return nodes;
-    for (size_t i = 0; i < copy->model->fileNodes; ++i) {
-        if (isThere(mScene->impl(), copy->nodes[i])) nodes.push_back(copy->nodes[i]);
+    const CopyCall call(mScene, mRoot, "ModelCopy::nodes()");
+    for (size_t i = 0; i < call.copy.model->fileNodes; ++i) {
+        if (isThere(call.scene, call.copy.nodes[i])) nodes.push_back(call.copy.nodes[i]);
     }
     return nodes;
 }
 
 Result<Node> ModelCopy::node(std::string_view name) const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return gone();
+    const CopyCall call(mScene, mRoot, "ModelCopy::node(string_view)", name);
     std::vector<std::string_view> names;
     for (const Node node : nodes()) {
-        names.push_back(mScene->impl().data.transforms.name(node));
+        names.push_back(call.scene.data.transforms.name(node));
         if (names.back() == name) return node;
     }
-    return unknown(*copy, "node", name, names);
+    return unknown(call.copy, "node", name, names);
 }
 
 std::vector<CopyRenderable> ModelCopy::renderables() const {
     std::vector<CopyRenderable> list;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return list;
-    Scene::Impl const& scene = mScene->impl();
-    for (size_t i = 0; i < copy->renderables.size(); ++i) {
-        PartRenderable const& part = copy->model->renderables[i];
-        if (!isThere(scene, copy->renderables[i])) continue;
-        list.push_back({ .renderable = copy->renderables[i],
-                         .node = copy->nodes[part.ofNode],
+    const CopyCall call(mScene, mRoot, "ModelCopy::renderables()");
+    Scene::Impl const& scene = call.scene;
+    for (size_t i = 0; i < call.copy.renderables.size(); ++i) {
+        PartRenderable const& part = call.copy.model->renderables[i];
+        if (!isThere(scene, call.copy.renderables[i])) continue;
+        list.push_back({ .renderable = call.copy.renderables[i],
+                         .node = call.copy.nodes[part.ofNode],
                          .mesh = part.desc.name,
-                         .material = drawnWith(scene, copy->renderables[i])->name,
+                         .material = drawnWith(scene, call.copy.renderables[i])->name,
                          .morphTargets = targetNamesOf(scene, part) });
     }
     return list;
 }
 
 Result<std::vector<Renderable>> ModelCopy::renderables(std::string_view meshOrNode) const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return gone();
+    const CopyCall call(mScene, mRoot, "ModelCopy::renderables(string_view)", meshOrNode);
     std::vector<Renderable> found;
     std::vector<std::string_view> names;
     const std::vector<CopyRenderable> all = renderables();
     for (CopyRenderable const& each : all) {
-        std::string const& node = nameOf({}, mScene->impl(), each.node);
+        std::string const& node = call.scene.data.transforms.name(each.node);
         if (each.mesh == meshOrNode || node == meshOrNode) found.push_back(each.renderable);
         names.insert(names.end(), { each.mesh, node });
     }
-    if (found.empty()) return unknown(*copy, "mesh or node with a mesh", meshOrNode, names);
+    if (found.empty()) return unknown(call.copy, "mesh or node with a mesh", meshOrNode, names);
     return found;
 }
 
 std::vector<CopyMaterial> ModelCopy::materials() const {
     std::vector<CopyMaterial> list;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return list;
-    Scene::Impl& scene = mScene->impl();
-    const auto handleOf = [&](scene::MaterialInstance const* drawn) {
-        for (engine::OwnMaterial const& own : copy->own) {
-            if (&scene.engine.instances.get(own.instance) == drawn) return own.instance;
-        }
-        for (const MaterialInstance instance : copy->model->instances) {
-            if (instance && &scene.engine.instances.get(instance) == drawn) return instance;
-        }
-        return MaterialInstance{}; // the program's own, by Scene::setMaterial()
-    };
-    for (const Renderable renderable : copy->renderables) {
-        if (!isThere(scene, renderable)) continue;
-        scene::MaterialInstance const* drawn = drawnWith(scene, renderable);
-        const MaterialInstance instance = handleOf(drawn);
+    const CopyCall call(mScene, mRoot, "ModelCopy::materials()");
+    for (const Renderable renderable : call.copy.renderables) {
+        if (!isThere(call.scene, renderable)) continue;
+        scene::MaterialInstance const& drawn = *drawnWith(call.scene, renderable);
+        const MaterialInstance instance = handleOf(drawn, call.scene.engine, call.copy);
         if (!instance) continue;
         const auto known = std::ranges::find(list, instance, &CopyMaterial::instance);
-        if (known != list.end()) {
+        if (known == list.end()) {
+            list.push_back(described(instance, drawn, call.scene.engine, call.copy));
+        } else {
             ++known->renderables;
-            continue;
         }
-        const auto material = std::ranges::find_if(copy->model->materials, [&](Material each) {
-            return each && &scene.engine.materials.get(each) == drawn->material;
-        });
-        list.push_back({ .name = drawn->name,
-                         .instance = instance,
-                         .material = material == copy->model->materials.end() ? Material{} : *material,
-                         .isOwn = std::ranges::count(copy->own, instance, &engine::OwnMaterial::instance) > 0,
-                         .renderables = 1 });
     }
     return list;
 }
 
 Result<std::vector<MaterialInstance>> ModelCopy::ownMaterials(std::string_view material) {
     return orOutOfMemory("materials of a copy", material, [&]() -> Result<std::vector<MaterialInstance>> {
-        CopyOfModel* copy = copyAt(mScene, mRoot);
-        if (!copy) return gone();
-        Scene::Impl& scene = mScene->impl();
-        std::vector<MaterialInstance> instances = sharedMaterials(scene.engine, *copy->model, material);
-        if (instances.empty()) return unknown(*copy, "material", material, materialNames(scene.engine, *copy->model));
-        copy->own.reserve(copy->own.size() + instances.size());
+        const CopyCall call(mScene, mRoot, "ModelCopy::ownMaterials(string_view)", material);
+        Scene::Impl& scene = call.scene;
+        std::vector<MaterialInstance> instances = sharedMaterials(scene.engine, *call.copy.model, material);
+        if (instances.empty())
+            return unknown(call.copy, "material", material, materialNames(scene.engine, *call.copy.model));
+        call.copy.own.reserve(call.copy.own.size() + instances.size());
         for (MaterialInstance& instance : instances) {
-            makeOwn(scene, *copy, instance);
-            instance = copy->shown(instance);
+            makeOwn(scene, call.copy, instance);
+            instance = call.copy.shown(instance);
         }
         return instances;
     });
 }
 
-Result<void> ModelCopy::set(std::string_view material, std::string_view parameter, ParameterValue const& value) {
+Result<void> ModelCopy::setEach(std::string_view material, auto&& set) {
     const Result<std::vector<MaterialInstance>> instances = ownMaterials(material);
     if (!instances) return instances.error();
-    Engine& owner = Engine::of(mScene->impl().engine);
     for (const MaterialInstance instance : *instances) {
-        if (Result<void> done = owner.set(instance, parameter, value); !done) return done;
+        if (Result<void> done = set(instance); !done) return done;
     }
     return {};
 }
 
+Result<void> ModelCopy::set(std::string_view material, std::string_view parameter, ParameterValue const& value) {
+    const CopyCall call(mScene, mRoot, "ModelCopy::set(string_view, string_view, ParameterValue)", parameter);
+    Engine& owner = Engine::of(call.scene.engine);
+    return setEach(material, [&](MaterialInstance each) { return owner.set(each, parameter, value); });
+}
+
 Result<void> ModelCopy::set(std::string_view material, std::string_view parameter, Texture texture, Sampler sampler) {
-    const Result<std::vector<MaterialInstance>> instances = ownMaterials(material);
-    if (!instances) return instances.error();
-    Engine& owner = Engine::of(mScene->impl().engine);
-    for (const MaterialInstance instance : *instances) {
-        if (Result<void> done = owner.set(instance, parameter, texture, sampler); !done) return done;
-    }
-    return {};
+    const CopyCall call(mScene, mRoot, "ModelCopy::set(string_view, string_view, Texture, Sampler)", parameter);
+    Engine& owner = Engine::of(call.scene.engine);
+    return setEach(material, [&](MaterialInstance each) { return owner.set(each, parameter, texture, sampler); });
 }
 
 std::vector<CopyLight> ModelCopy::lights() const {
     std::vector<CopyLight> list;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return list;
-    Scene::Impl const& scene = mScene->impl();
-    for (size_t i = 0; i < copy->lights.size(); ++i) {
-        Model::Impl::PartLight const& part = copy->model->lights[i];
-        if (!isThere(scene, copy->lights[i])) continue;
-        const Node node = copy->nodes[part.node];
-        list.push_back({ nameOf(part.name, scene, node), copy->lights[i], node, kindOf(part) });
+    const CopyCall call(mScene, mRoot, "ModelCopy::lights()");
+    Scene::Impl const& scene = call.scene;
+    for (size_t i = 0; i < call.copy.lights.size(); ++i) {
+        Model::Impl::PartLight const& part = call.copy.model->lights[i];
+        if (!isThere(scene, call.copy.lights[i])) continue;
+        const Node node = call.copy.nodes[part.node];
+        list.push_back({ nameOf(part.name, scene, node), call.copy.lights[i], node, kindOf(part) });
     }
     return list;
 }
 
 Result<Light> ModelCopy::light(std::string_view name) const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return gone();
+    const CopyCall call(mScene, mRoot, "ModelCopy::light(string_view)", name);
     const std::vector<CopyLight> all = lights();
     const auto found = std::ranges::find(all, name, &CopyLight::name);
-    if (found == all.end()) return unknown(*copy, "light", name, namesOf(all));
+    if (found == all.end()) return unknown(call.copy, "light", name, namesOf(all));
     return found->light;
 }
 
 std::vector<CopyCamera> ModelCopy::cameras() const {
     std::vector<CopyCamera> list;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return list;
-    Scene::Impl const& scene = mScene->impl();
-    for (Model::Impl::PartCamera const& part : copy->model->cameras) {
-        const Node node = copy->nodes[part.node];
+    const CopyCall call(mScene, mRoot, "ModelCopy::cameras()");
+    Scene::Impl const& scene = call.scene;
+    for (Model::Impl::PartCamera const& part : call.copy.model->cameras) {
+        const Node node = call.copy.nodes[part.node];
         if (!isThere(scene, node)) continue;
         list.push_back({ nameOf(part.camera.name, scene, node), node,
                          cameraOf(part.camera, scene.data.transforms.worldFromNode(node)) });
@@ -330,19 +353,17 @@ std::vector<CopyCamera> ModelCopy::cameras() const {
 }
 
 Result<Camera> ModelCopy::camera(std::string_view name) const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return gone();
+    const CopyCall call(mScene, mRoot, "ModelCopy::camera(string_view)", name);
     const std::vector<CopyCamera> all = cameras();
     const auto found = std::ranges::find(all, name, &CopyCamera::name);
-    if (found == all.end()) return unknown(*copy, "camera", name, namesOf(all));
+    if (found == all.end()) return unknown(call.copy, "camera", name, namesOf(all));
     return found->camera;
 }
 
 std::vector<CopyMorphTarget> ModelCopy::morphTargets() const {
     std::vector<CopyMorphTarget> list;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return list;
-    scene::SceneData const& data = mScene->impl().data;
+    const CopyCall call(mScene, mRoot, "ModelCopy::morphTargets()");
+    scene::SceneData const& data = call.scene.data;
     for (CopyRenderable const& each : renderables()) {
         const uint32_t slot = deformationAt(data.renderables, data.renderables.index.at(each.renderable));
         if (slot == scene::kNotDeformed || !data.deformations.all()[slot].morph) continue;
@@ -355,8 +376,7 @@ std::vector<CopyMorphTarget> ModelCopy::morphTargets() const {
 
 Result<void> ModelCopy::setMorphWeight(std::string_view target, float weight) {
     return orOutOfMemory("morph target", target, [&]() -> Result<void> {
-        CopyOfModel const* copy = copyAt(mScene, mRoot);
-        if (!copy) return gone();
+        const CopyCall call(mScene, mRoot, "ModelCopy::setMorphWeight(string_view, float)", target);
         const std::vector<CopyMorphTarget> all = morphTargets();
         std::vector<float> weights;
         bool isKnown = false;
@@ -369,34 +389,33 @@ Result<void> ModelCopy::setMorphWeight(std::string_view target, float weight) {
                 weights.push_back(isMeant ? weight : all[i].weight);
                 isChanged |= isMeant;
             }
-            if (isChanged) mScene->setMorphWeights(renderable, weights);
+            if (isChanged) scene::setMorphWeights(call.scene.changed(), renderable, weights);
             isKnown |= isChanged;
         }
-        return isKnown ? Result<void>{} : unknown(*copy, "morph target", target, namesOf(all));
+        return isKnown ? Result<void>{} : unknown(call.copy, "morph target", target, namesOf(all));
     });
 }
 
 std::vector<std::string> ModelCopy::animations() const {
     std::vector<std::string> names;
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    if (!copy) return names;
-    for (assets::AnimationData const& animation : copy->model->animations) names.push_back(animation.name);
+    const CopyCall call(mScene, mRoot, "ModelCopy::animations()");
+    for (assets::AnimationData const& animation : call.copy.model->animations) names.push_back(animation.name);
     return names;
 }
 
 std::vector<std::string> ModelCopy::variants() const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    return copy ? copy->model->variants : std::vector<std::string>{};
+    const CopyCall call(mScene, mRoot, "ModelCopy::variants()");
+    return call.copy.model->variants;
 }
 
 std::string ModelCopy::variant() const {
-    CopyOfModel const* copy = copyAt(mScene, mRoot);
-    return copy ? copy->variant : std::string();
+    const CopyCall call(mScene, mRoot, "ModelCopy::variant()");
+    return call.copy.variant;
 }
 
 Result<void> ModelCopy::setVariant(std::string_view variant) {
-    if (!copyAt(mScene, mRoot)) return gone();
-    return mScene->setVariant(mRoot, variant);
+    const CopyCall call(mScene, mRoot, "ModelCopy::setVariant(string_view)", variant);
+    return engine::setVariant(call.scene, call.copy, variant);
 }
 
 } // namespace filament

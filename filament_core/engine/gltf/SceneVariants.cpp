@@ -20,41 +20,50 @@ MaterialInstance materialIn(Model::Impl::PartRenderable const& part, uint32_t va
     return found == part.variants.end() ? part.desc.material : found->material;
 }
 
-} // namespace
+Error noVariants(Scene::Impl const& scene, Node root, std::string_view variant) {
+    return fail(ErrorCode::InvalidArgument,
+                "'{}' has no variants, so there is no '{}'; give the root of a model with KHR_materials_variants",
+                scene.data.transforms.name(root), variant);
+}
 
-void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
-    const PublicCall call(mImpl, "Scene::setMaterial(Renderable, MaterialInstance)");
-    scene::Renderables& renderables = mImpl->changedUses().renderables;
-    scene::MaterialInstance const& instance = mImpl->engine.instances.get(material);
+void setMaterial(Scene::Impl& scene, Renderable renderable, MaterialInstance material) {
+    scene::Renderables& renderables = scene.changedUses().renderables;
+    scene::MaterialInstance const& instance = scene.engine.instances.get(material);
     const uint32_t drawable = renderables.drawable[renderables.index.at(renderable)];
     const uint32_t layout = renderables.drawables[drawable].geometry.layout;
-    engine::requireAttributes(*instance.material, mImpl->engine.layouts[layout].vertices);
+    engine::requireAttributes(*instance.material, scene.engine.layouts[layout].vertices);
     scene::setMaterial(renderables, renderable, instance);
 }
 
-Result<void> Scene::setVariant(Node copy, std::string_view variant) {
-    const PublicCall call(mImpl, "Scene::setVariant(Node, string_view)");
-    std::string const& name = mImpl->data.transforms.name(copy);
-    engine::CopyOfModel* const found = mImpl->copies.find(copy);
-    if (!found || found->model->variants.empty()) {
-        return fail(ErrorCode::InvalidArgument,
-                    "'{}' has no variants, so there is no '{}'; give the root of a model with KHR_materials_variants",
-                    name, variant);
-    }
-    Model::Impl const& model = *found->model;
+} // namespace
+
+Result<void> engine::setVariant(Scene::Impl& scene, CopyOfModel& copy, std::string_view variant) {
+    Model::Impl const& model = *copy.model;
+    if (model.variants.empty()) return noVariants(scene, copy.root, variant);
     uint32_t index = kNoVariant;
     if (!variant.empty()) {
         const Result<uint32_t> known = assets::findVariant(model.variants, variant, model.name);
         if (!known) return known.error();
         index = *known;
     }
-    for (size_t i = 0; i < found->renderables.size(); ++i) {
-        const Renderable renderable = found->renderables[i];
-        if (mImpl->data.renderables.index.contains(renderable))
-            setMaterial(renderable, found->shown(materialIn(model.renderables[i], index)));
+    for (size_t i = 0; i < copy.renderables.size(); ++i) {
+        const Renderable renderable = copy.renderables[i];
+        if (scene.data.renderables.index.contains(renderable))
+            setMaterial(scene, renderable, copy.shown(materialIn(model.renderables[i], index)));
     }
-    found->variant = variant;
+    copy.variant = variant;
     return {};
+}
+
+void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
+    const PublicCall call(mImpl, "Scene::setMaterial(Renderable, MaterialInstance)");
+    filament::setMaterial(*mImpl, renderable, material);
+}
+
+Result<void> Scene::setVariant(Node copy, std::string_view variant) {
+    const PublicCall call(mImpl, "Scene::setVariant(Node, string_view)");
+    engine::CopyOfModel* const found = mImpl->copies.find(copy);
+    return found ? engine::setVariant(*mImpl, *found, variant) : noVariants(*mImpl, copy, variant);
 }
 
 } // namespace filament

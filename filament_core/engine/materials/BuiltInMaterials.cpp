@@ -66,6 +66,7 @@ Error unknownMaterial(std::string_view name) {
 std::span<const BuiltInMaterial> builtInMaterials() { return kBuiltIn; }
 
 Result<Material> createBuiltInMaterial(Engine& engine, std::string_view name) {
+    const engine::PublicCall call(engine, "createBuiltInMaterial(Engine, string_view)", name);
     const auto found = std::ranges::find(kBuiltIn, name, &BuiltInMaterial::name);
     if (found == kBuiltIn.end()) return unknownMaterial(name);
     return orOutOfMemory("material", name, [&]() -> Result<Material> {

@@ -6,9 +6,8 @@
 ///           are meant, or the first one if only one can be; NotFound lists names that are near.
 ///   Out     what is still there: parts that the program removed are left out. Lists are new at every call.
 ///   Thread  the app thread, between frames.
-///   Life    a plain value. It refers to the scene and to the copy; once one of them is gone, of() and every function
-///           that returns a Result say so, and lists are empty, as long as the scene itself exists. The scene may not be
-///           moved.
+///   Life    a plain value that refers to the scene, which may be moved, and to the copy. Using it once one of them is gone
+///           ends the process (docs/objects.md).
 ///   Cost    proportional to the parts of the model. Frames do not pay for copies that nobody changes.
 ///
 ///   Result<ModelCopy> car = ModelCopy::of(scene, root);
@@ -22,9 +21,11 @@
 #include <filament/Scene.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace filament {
@@ -71,7 +72,7 @@ struct CopyMorphTarget {
 
 class ModelCopy {
 public:
-    /// InvalidArgument: the node is not the root of a copy of a model, or was removed.
+    /// InvalidArgument: the node is not the root of a copy of a model.
     static Result<ModelCopy> of(Scene& scene, Node root);
 
     Node root() const { return mRoot; }
@@ -114,9 +115,10 @@ public:
     Result<void> setVariant(std::string_view variant);
 
 private:
-    ModelCopy(Scene& scene, Node root) : mScene(&scene), mRoot(root) {}
+    ModelCopy(std::weak_ptr<Scene::Impl> scene, Node root) : mScene(std::move(scene)), mRoot(root) {}
+    Result<void> setEach(std::string_view material, auto&& set);
 
-    Scene* mScene;
+    std::weak_ptr<Scene::Impl> mScene;
     Node mRoot;
 };
 

@@ -36,7 +36,7 @@ struct SkinDesc {
 };
 
 /// Bounds in object space whose minimum exceeds their maximum are not given.
-inline constexpr float3 kNoBoundsMin{ 3e38f }, kNoBoundsMax{ -3e38f };
+inline const float3 kNoBoundsMin{ 3e38f }, kNoBoundsMax{ -3e38f };
 
 /// What a renderable draws.
 struct GeometryDesc {

@@ -350,7 +350,7 @@ TEST(LoadTicket, CancelledAtAnyMomentItLeavesNothing) {
         EXPECT_EQ(load.ticket->poll().stage, LoadStage::Cancelled);
         const Result<Model> none = load.ticket->take();
         ASSERT_FALSE(none);
-        EXPECT_EQ(none.error().code, ErrorCode::Timeout);
+        EXPECT_EQ(none.error().code, ErrorCode::Cancelled);
         EXPECT_EQ(none.error().message, "loading 'model' was cancelled, or its engine ended");
         load.ticket->cancel();
         load.gate->open();
@@ -406,8 +406,8 @@ TEST(LoadTicket, AnEngineThatEndsAtAnyMomentEndsItsLoads) {
         if (opener.joinable()) opener.join();
         EXPECT_EQ(load.ticket->poll().stage, LoadStage::Cancelled);
         load.ticket->cancel();
-        EXPECT_EQ(load.ticket->take().error().code, ErrorCode::Timeout);
-        EXPECT_EQ(load.ticket->wait().error().code, ErrorCode::Timeout);
+        EXPECT_EQ(load.ticket->take().error().code, ErrorCode::Cancelled);
+        EXPECT_EQ(load.ticket->wait().error().code, ErrorCode::Cancelled);
     }
 }
 
@@ -433,7 +433,7 @@ TEST(LoadTicketDeathTest, BelongsToItsThread) {
                 LoadTicket<Model> ticket = loadGltfAsync(*engine, files.model());
                 std::thread([&] { ticket.poll(); }).join();
             },
-            "a load ticket belongs to the thread of its engine");
+            "LoadTicket::poll\\(size_t\\): called on another thread than the engine's");
 }
 
 // ---------------------------------------------------------------------------------------------- many, and broken ones

@@ -3,10 +3,14 @@
 // Every public function that takes a handle, with a handle that is null, whose object is gone, or of another engine or
 // scene: the process ends with one line that names the function, the kind of object, its name, and what is wrong. And
 // functions on another thread, of objects that were moved from, and of those that outlived their engine.
+#include "tests/filament_core/engine/MisuseLine.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <filament/Animator.h>
+#include <filament/BuiltInMaterials.h>
 #include <filament/LightProfile.h>
+#include <filament/LoadTicket.h>
+#include <filament/ModelCopy.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -383,6 +387,7 @@ std::vector<Use> usesOfNodes() {
                     acceptsNull };
     };
     return {
+        use("ModelCopy::of(Scene, Node)", [](Scene& s, Node bad) { (void)ModelCopy::of(s, bad); }),
         use(
                 "Scene::add(SunLight, Node)", [](Scene& s, Node bad) { s.add(SunLight{}, bad); }, true),
         use(
@@ -434,23 +439,11 @@ std::vector<Use> usesOfNodes() {
     };
 }
 
-std::string escaped(std::string_view text) {
-    std::string regex;
-    for (const char c : text) {
-        if (std::string_view("().[]{}*+?^$|\\").find(c) != std::string_view::npos) regex += '\\';
-        regex += c;
-    }
-    return regex;
-}
-
-/// The whole line.
-std::string lineOf(std::string const& text) { return "^" + escaped(text) + "\n$"; }
-
 class MisuseDeathTest : public testing::TestWithParam<std::vector<Use> (*)()> {
 protected:
     void expectEnd(std::function<void(World&, Handles const&)> const& run, Handles const& bad,
                    std::string const& line) {
-        EXPECT_DEATH(run(mWorld, bad), lineOf(line));
+        EXPECT_DEATH(run(mWorld, bad), test::misuseLine(line));
     }
     World mWorld;
 };
@@ -511,7 +504,7 @@ TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
     Renderer renderer(world.engine);
     const View view{ .size = { 4, 4 } };
     const auto line = [](const char* call) {
-        return lineOf(fmt::format("{}: the scene belongs to another engine", call));
+        return test::misuseLine(fmt::format("{}: the scene belongs to another engine", call));
     };
     EXPECT_DEATH(renderer.render(other.scene, view, world.all.chain), line("Renderer::render(Scene, View, SwapChain)"));
     EXPECT_DEATH(renderer.render(other.scene, view, world.all.target),
@@ -526,7 +519,7 @@ TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
 TEST(MisuseOfOwnersDeathTest, WhatWasMovedFromIsNotUsed) {
     World world;
     const auto line = [](const char* call) {
-        return lineOf(fmt::format("{}: the object was moved from; use the one that it was moved to", call));
+        return test::misuseLine(fmt::format("{}: the object was moved from; use the one that it was moved to", call));
     };
     Scene scene(world.engine);
     const Scene taken(std::move(scene));
@@ -537,6 +530,10 @@ TEST(MisuseOfOwnersDeathTest, WhatWasMovedFromIsNotUsed) {
     Engine engine = std::move(*Engine::create({ .backend = Backend::Null, .workers = 0 }));
     const Engine moved(std::move(engine));
     EXPECT_DEATH((void)engine.device(), line("Engine::device()"));
+    LoadTicket<Model> ticket = loadGltfAsync(world.engine, "house.gltf");
+    const LoadTicket<Model> given(std::move(ticket));
+    EXPECT_DEATH((void)ticket.poll(), test::misuseLine("LoadTicket::poll(size_t): the ticket was moved from; use the "
+                                                       "one that it was moved to"));
 }
 
 // ---- threads
@@ -549,7 +546,7 @@ void onAnotherThread(F&& run) {
 TEST(MisuseOfThreadsDeathTest, AnEngineAndAllThatBelongsToItStayOnItsThread) {
     World world;
     const auto line = [](const char* call) {
-        return lineOf(
+        return test::misuseLine(
                 fmt::format("{}: called on another thread than the engine's, which is the one that created it, or "
                             "that called Engine::useOnThisThread() last",
                             call));
@@ -558,6 +555,18 @@ TEST(MisuseOfThreadsDeathTest, AnEngineAndAllThatBelongsToItStayOnItsThread) {
                  line("Engine::create(TextureDesc)"));
     EXPECT_DEATH(onAnotherThread([&] { world.engine.destroy(world.all.texture); }), line("Engine::destroy(Texture)"));
     EXPECT_DEATH(onAnotherThread([&] { world.scene.remove(world.all.node); }), line("Scene::remove(Node)"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)ModelCopy::of(world.scene, world.all.node); }),
+                 line("ModelCopy::of(Scene, Node)"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)createBuiltInMaterial(world.engine, "lit"); }),
+                 line("createBuiltInMaterial(Engine, string_view) of 'lit'"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)loadGltfAsync(world.engine, "house.gltf"); }),
+                 line("loadGltfAsync(Engine, path) of 'house.gltf'"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)loadGltfAsync(world.engine, GltfMemory{ .name = "house" }); }),
+                 line("loadGltfAsync(Engine, GltfMemory) of 'house'"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)loadEnvironmentAsync(world.engine, "sky.hdr"); }),
+                 line("loadEnvironmentAsync(Engine, path) of 'sky.hdr'"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)loadEnvironmentAsync(world.engine, {}, "sky"); }),
+                 line("loadEnvironmentAsync(Engine, span<byte>, string_view) of 'sky'"));
     Renderer renderer(world.engine);
     EXPECT_DEATH(onAnotherThread([&] {
                      renderer.render(world.scene, { .size = { 4, 4 } }, world.all.chain);
@@ -565,6 +574,29 @@ TEST(MisuseOfThreadsDeathTest, AnEngineAndAllThatBelongsToItStayOnItsThread) {
                  line("Renderer::render(Scene, View, SwapChain)"));
     EXPECT_DEATH(onAnotherThread([&] { const Scene scene(std::move(world.scene)); }), line("Scene::~Scene()"));
     EXPECT_DEATH(onAnotherThread([&] { const Engine engine(std::move(world.engine)); }), line("Engine::~Engine()"));
+}
+
+TEST(MisuseOfThreadsDeathTest, TicketsFollowTheirEngine) {
+    World world;
+    std::optional<LoadTicket<Model>> ticket = loadGltfAsync(world.engine, "house.gltf");
+    const auto line = [](const char* call) {
+        return test::misuseLine(
+                fmt::format("{}: called on another thread than the engine's, which is the one that created it, or "
+                            "that called Engine::useOnThisThread() last",
+                            call));
+    };
+    EXPECT_DEATH(onAnotherThread([&] { ticket->poll(); }), line("LoadTicket::poll(size_t)"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)ticket->status(); }), line("LoadTicket::status()"));
+    EXPECT_DEATH(onAnotherThread([&] { ticket->cancel(); }), line("LoadTicket::cancel()"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)ticket->take(); }), line("LoadTicket::take()"));
+    EXPECT_DEATH(onAnotherThread([&] { (void)ticket->wait(); }), line("LoadTicket::wait()"));
+    EXPECT_DEATH(onAnotherThread([&] { ticket.reset(); }), line("LoadTicket::~LoadTicket()"));
+    onAnotherThread([&] {
+        world.engine.useOnThisThread();
+        EXPECT_EQ(ticket->wait().error().code, ErrorCode::NotFound);
+        ticket.reset();
+    });
+    world.engine.useOnThisThread();
 }
 
 TEST(MisuseOfThreadsDeathTest, AnEngineMovesToTheThreadThatTakesIt) {
@@ -590,7 +622,7 @@ TEST(MisuseOfEnginesDeathTest, WhatOutlivesItsEngineEndsInPeaceButIsNotUsed) {
     (void)renderer.renderToImage(scene, { .size = { 4, 4 } });
     engine.reset();
     const auto line = [](const char* call) {
-        return lineOf(fmt::format("{}: its engine is gone; destroy engines last", call));
+        return test::misuseLine(fmt::format("{}: its engine is gone; destroy engines last", call));
     };
     EXPECT_DEATH((void)scene.add(NodeDesc{}), line("Scene::add(NodeDesc)"));
     EXPECT_DEATH((void)renderer.takeTimings(), line("Renderer::takeTimings()"));
@@ -606,7 +638,7 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
     material.baseColor = getColor() + getUV1().xyxy; } })");
     const Owned<MaterialInstance> chalk = world.engine.own(world.engine.createInstance(lit, "white"));
     const auto line = [](const char* call) {
-        return lineOf(
+        return test::misuseLine(
                 fmt::format("{}: the vertex buffer lacks what material 'chalk' reads: Tangents, Color, Uv1", call));
     };
     EXPECT_DEATH(world.scene.add(with(world, [&](RenderableDesc& desc) { desc.material = chalk; })),

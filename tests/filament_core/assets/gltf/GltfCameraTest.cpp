@@ -112,7 +112,7 @@ TEST(GltfCancel, ALoadThatNobodyWantsEndsAtItsNextStep) {
             continue;
         }
         ASSERT_FALSE(model);
-        EXPECT_EQ(model.error().code, ErrorCode::Timeout);
+        EXPECT_EQ(model.error().code, ErrorCode::Cancelled);
         EXPECT_EQ(model.error().message, "model: loading was cancelled");
     }
 }

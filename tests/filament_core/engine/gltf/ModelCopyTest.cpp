@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one copy of a model consists of, and what changes of it without changing others.
 #include "filament_core/engine/EngineImpl.h"
+#include "tests/filament_core/engine/MisuseLine.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
+#include <filament/ModelCopy.h>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
+#include <functional>
 #include <set>
 #include <span>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace filament {
 namespace {
@@ -113,7 +121,6 @@ TEST_P(ModelCopyTest, OnlyTheRootOfACopyIsOne) {
         EXPECT_EQ(none.error().code, ErrorCode::InvalidArgument);
         EXPECT_THAT(none.error().message, HasSubstr('\'' + scene->name(node) + "' is not the root of a copy"));
     }
-    EXPECT_FALSE(ModelCopy::of(*scene, {}));
 }
 
 TEST_P(ModelCopyTest, ListsNodesOfTheFile) {
@@ -264,43 +271,93 @@ TEST_P(ModelCopyTest, MaterialsOfACopyEndWithIt) {
     ASSERT_TRUE(copy(first).set("paint", "baseColorFactor", kGreen));
     ASSERT_TRUE(copy(second).ownMaterials("skin"));
     EXPECT_EQ(instancesOf(*engine), before + 2);
-    ModelCopy car = copy(first);
     scene->remove(first);
     EXPECT_EQ(instancesOf(*engine), before + 1);
-    EXPECT_EQ(car.node("body").error().message, "the copy of the model was removed from its scene; take the root that "
-                                                "Scene::add(model) returned");
-    EXPECT_THAT(car.nodes(), IsEmpty());
-    EXPECT_THAT(car.renderables(), IsEmpty());
-    EXPECT_THAT(car.materials(), IsEmpty());
-    EXPECT_THAT(car.lights(), IsEmpty());
-    EXPECT_THAT(car.cameras(), IsEmpty());
-    EXPECT_THAT(car.morphTargets(), IsEmpty());
-    EXPECT_THAT(car.animations(), IsEmpty());
-    EXPECT_THAT(car.variants(), IsEmpty());
-    EXPECT_EQ(car.variant(), "");
-    for (const ErrorCode code :
-         { car.light("lamp").error().code, car.camera("driver").error().code, car.renderables("face").error().code,
-           car.ownMaterials("paint").error().code, car.set("paint", "baseColorFactor", kGreen).error().code,
-           car.set("paint", "baseColorMap", Texture{}).error().code, car.setMorphWeight("smile", 1).error().code,
-           car.setVariant("race").error().code })
-        EXPECT_EQ(code, ErrorCode::InvalidArgument);
     scene.reset();
     EXPECT_EQ(instancesOf(*engine), before);
 }
 
-// A slot of a node is used again by another one.
-TEST_P(ModelCopyTest, ARootIsNotMistakenForALaterNode) {
-    const ModelCopy car = copy(first);
-    scene->remove(first);
-    std::vector<Node> later;
-    for (int i = 0; i < 16; ++i) later.push_back(scene->add(NodeDesc{ .name = "later" }));
-    EXPECT_THAT(car.nodes(), IsEmpty());
-    for (const Node node : later) EXPECT_FALSE(ModelCopy::of(*scene, node));
-    EXPECT_EQ(copy(second).renderables().size(), 3u);
+TEST_P(ModelCopyTest, FollowsASceneThatIsMoved) {
+    ModelCopy car = copy(first);
+    Scene moved(std::move(*scene));
+    ASSERT_TRUE(car.set("paint", "baseColorFactor", kGreen));
+    scene.emplace(std::move(moved));
+    EXPECT_EQ(body(), kGreen);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothApis, ModelCopyTest, testing::ValuesIn(test::kBothApis),
                          [](auto const& test) { return std::string(toString(test.param)); });
+
+// ---------------------------------------------------------------------------------------------- misuse
+
+struct FunctionOfACopy {
+    const char* line; ///< of the message, before the colon
+    std::function<void(ModelCopy& car)> run;
+};
+
+std::vector<FunctionOfACopy> functionsOfACopy() {
+    return {
+        { "ModelCopy::nodes()", [](ModelCopy& car) { (void)car.nodes(); } },
+        { "ModelCopy::node(string_view) of 'body'", [](ModelCopy& car) { (void)car.node("body"); } },
+        { "ModelCopy::renderables()", [](ModelCopy& car) { (void)car.renderables(); } },
+        { "ModelCopy::renderables(string_view) of 'face'", [](ModelCopy& car) { (void)car.renderables("face"); } },
+        { "ModelCopy::materials()", [](ModelCopy& car) { (void)car.materials(); } },
+        { "ModelCopy::ownMaterials(string_view) of 'paint'", [](ModelCopy& car) { (void)car.ownMaterials("paint"); } },
+        { "ModelCopy::set(string_view, string_view, ParameterValue) of 'baseColorFactor'",
+          [](ModelCopy& car) { (void)car.set("paint", "baseColorFactor", kGreen); } },
+        { "ModelCopy::set(string_view, string_view, Texture, Sampler) of 'baseColorMap'",
+          [](ModelCopy& car) { (void)car.set("paint", "baseColorMap", Texture{}); } },
+        { "ModelCopy::lights()", [](ModelCopy& car) { (void)car.lights(); } },
+        { "ModelCopy::light(string_view) of 'lamp'", [](ModelCopy& car) { (void)car.light("lamp"); } },
+        { "ModelCopy::cameras()", [](ModelCopy& car) { (void)car.cameras(); } },
+        { "ModelCopy::camera(string_view) of 'driver'", [](ModelCopy& car) { (void)car.camera("driver"); } },
+        { "ModelCopy::morphTargets()", [](ModelCopy& car) { (void)car.morphTargets(); } },
+        { "ModelCopy::setMorphWeight(string_view, float) of 'smile'",
+          [](ModelCopy& car) { (void)car.setMorphWeight("smile", 1); } },
+        { "ModelCopy::animations()", [](ModelCopy& car) { (void)car.animations(); } },
+        { "ModelCopy::variants()", [](ModelCopy& car) { (void)car.variants(); } },
+        { "ModelCopy::variant()", [](ModelCopy& car) { (void)car.variant(); } },
+        { "ModelCopy::setVariant(string_view) of 'race'", [](ModelCopy& car) { (void)car.setVariant("race"); } },
+    };
+}
+
+class ModelCopyDeathTest : public testing::TestWithParam<FunctionOfACopy> {
+protected:
+    ModelCopyDeathTest()
+            : engine(std::move(*Engine::create({ .backend = Backend::Null, .workers = 0 }))),
+              model(loadCar(engine).value()), scene(engine), root(scene->add(model)),
+              car(ModelCopy::of(*scene, root).value()) {}
+
+    std::string lineThatSays(const char* what) const {
+        return test::misuseLine(fmt::format("{}: {}", GetParam().line, what));
+    }
+
+    Engine engine;
+    Model model;
+    std::optional<Scene> scene;
+    Node root;
+    ModelCopy car;
+};
+
+TEST_P(ModelCopyDeathTest, OfACopyThatWasRemoved) {
+    scene->remove(root);
+    EXPECT_DEATH(GetParam().run(car), lineThatSays("the copy of the model was removed from its scene"));
+    for (int i = 0; i < 16; ++i) scene->add(NodeDesc{ .name = "in its place" });
+    EXPECT_DEATH(GetParam().run(car), lineThatSays("the copy of the model was removed from its scene"));
+}
+
+TEST_P(ModelCopyDeathTest, OfASceneThatIsGone) {
+    scene.reset();
+    EXPECT_DEATH(GetParam().run(car), lineThatSays("its scene is gone"));
+}
+
+TEST_P(ModelCopyDeathTest, OnAnotherThread) {
+    EXPECT_DEATH(std::thread([&] { GetParam().run(car); }).join(),
+                 lineThatSays("called on another thread than the engine's, which is the one that created it, or that "
+                              "called Engine::useOnThisThread() last"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Functions, ModelCopyDeathTest, testing::ValuesIn(functionsOfACopy()));
 
 // ---------------------------------------------------------------------------------------------- foreign models
 
