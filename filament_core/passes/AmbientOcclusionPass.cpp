@@ -18,11 +18,11 @@ using framegraph::GraphTextureDesc;
 using framegraph::TextureId;
 
 constexpr std::string_view kPointInputs[] = { "depth" };
-constexpr FullScreenParameter kPointValues[] = { { "inverseOfDepth", ParameterType::Float2 },
-                                                 { "rays", ParameterType::Float4 },
-                                                 { "reach", ParameterType::Float4 },
-                                                 { "last", ParameterType::Float2 },
-                                                 { "intensity", ParameterType::Float } };
+constexpr FullScreenParameter kPointValues[] = {
+    { "inverseOfDepth", ParameterType::Float2 }, { "rays", ParameterType::Float4 },
+    { "reach", ParameterType::Float4 },          { "last", ParameterType::Float2 },
+    { "intensity", ParameterType::Float },       { "parallel", ParameterType::Float2 }
+};
 constexpr FullScreenInterface kPoints{ .pass = "ambient occlusion", .inputs = kPointInputs, .values = kPointValues };
 constexpr std::string_view kFilterInputs[] = { "occlusion", "depth" };
 constexpr FullScreenParameter kBlurValues[] = {
@@ -62,9 +62,15 @@ OcclusionGrid gridOf(AmbientOcclusionResolution resolution, uint2 view) {
 
 float2 lastOf(uint2 size) { return { static_cast<float>(size.x - 1), static_cast<float>(size.y - 1) }; }
 
-/// How the rays of pixels are computed: rays = pixel * xy + zw, and (d * ray, -d) is the point of distance d.
+/// How the rays of pixels are computed: rays = pixel * xy + zw, and (d * ray, -d) is the point of distance d. Of a parallel
+/// projection: (ray, -d).
 float4 raysOf(float4x4 const& clip, uint2 size) {
     const double x = clip[0].x, y = clip[1].y;
+    if (isParallel(clip)) {
+        return { static_cast<float>(2.0 / size.x / x), static_cast<float>(2.0 / size.y / y),
+                 static_cast<float>((1.0 / size.x - 1.0 - clip[3].x) / x),
+                 static_cast<float>((1.0 / size.y - 1.0 - clip[3].y) / y) };
+    }
     return { static_cast<float>(2.0 / size.x / x), static_cast<float>(2.0 / size.y / y),
              static_cast<float>((1.0 / size.x - 1.0 + clip[2].x) / x),
              static_cast<float>((1.0 / size.y - 1.0 + clip[2].y) / y) };
@@ -81,7 +87,22 @@ struct OcclusionSource {
     /// those of a checkerboard do not lie along the axes of the blur.
     bool isFromDepth() const { return hasBentNormals || grid.code == 2; }
     Format resultFormat() const { return hasBentNormals ? Format::RGBA8 : Format::R8; }
-    float2 inverse() const { return inverseOfDepth(context.packet.mainView().uniforms.clipFromView); }
+    float4x4 const& clip() const { return context.packet.mainView().uniforms.clipFromView; }
+    /// Of a parallel projection.
+    float pixelMeters() const { return 2 / (std::abs(clip()[1].y) * static_cast<float>(context.settings.size.y)); }
+    float emptyDepth() const { return clip()[2].z < 0 ? 1.0f : 0.0f; } // with the ordinary range, depths grow
+    /// shaders/post/occlusion_places.glsl
+    float2 inverse() const {
+        if (!isParallel(clip())) return inverseOfDepth(clip());
+        const float perDepth = 1 / (clip()[2].z * pixelMeters());
+        return { perDepth, -emptyDepth() * perDepth };
+    }
+    /// distance = x - inverse * y, of a parallel projection.
+    float2 distanceOfInverse() const {
+        if (!isParallel(clip())) return float2(0);
+        const float2 distance = distanceOfDepth(clip());
+        return { emptyDepth() * distance.x + distance.y, pixelMeters() };
+    }
 
     /// Of surfaces there is none, and filters find every texel like this one: it is what the passes compute there.
     float4 clearColor() const {
@@ -124,13 +145,16 @@ TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResul
     const std::array constants{
         EffectConstant{ "grid", from.grid.code },
         EffectConstant{ "samples", quality.ao == AmbientOcclusionTerm::Sao ? int32_t{ quality.aoSamples } : 0 },
-        EffectConstant{ "slices", int32_t{ quality.aoSlices } }, EffectConstant{ "bentNormals", quality.aoBentNormals }
+        EffectConstant{ "slices", int32_t{ quality.aoSlices } }, EffectConstant{ "bentNormals", quality.aoBentNormals },
+        EffectConstant{ "isParallel", isParallel(from.clip()) }
     };
-    const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() }, FullScreenValue{ "rays", rays },
+    const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
+                             FullScreenValue{ "rays", rays },
                              FullScreenValue{ "reach", float4(radius, 1 / radius, radius / std::abs(rays.x),
                                                               static_cast<float>(std::max(size.x, size.y)) / 2) },
                              FullScreenValue{ "last", lastOf(size) },
-                             FullScreenValue{ "intensity", effect.intensity } };
+                             FullScreenValue{ "intensity", effect.intensity },
+                             FullScreenValue{ "parallel", from.distanceOfInverse() } };
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = from.depth } };
     const TextureId target = from.texture(graph, isResult, "occlusion of points");
     addCoveredPass(graph, from, from.covered(from.grid.stride),
@@ -148,7 +172,9 @@ constexpr float kDeviation = 0.1f;
 TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion, bool alongX, bool isResult) {
     FrameContext const& context = from.context;
     const std::array constants{ EffectConstant{ "grid", from.grid.code },
-                                EffectConstant{ "fromDepth", from.isFromDepth() } };
+                                EffectConstant{ "fromDepth", from.isFromDepth() },
+                                EffectConstant{ "isParallel", isParallel(from.clip()) } };
+    const float unit = isParallel(from.clip()) ? from.pixelMeters() : 1.0f;
     const float radius = context.packet.effects.ambientOcclusion.radiusMeters;
     const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
                              FullScreenValue{ "last", lastOf(context.settings.size) },
@@ -156,7 +182,7 @@ TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occl
                              FullScreenValue{ "axis", alongX ? float2(1, 0) : float2(0, 1) },
                              FullScreenValue{ "stride",
                                               static_cast<float>(alongX ? from.grid.stride.x : from.grid.stride.y) },
-                             FullScreenValue{ "deviation", radius * kDeviation } };
+                             FullScreenValue{ "deviation", radius * kDeviation / unit } };
     const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
                              FullScreenInput{ .name = "depth",
                                               .texture = from.isFromDepth() ? from.depth : TextureId{} } };
@@ -173,7 +199,8 @@ TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occl
 TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion) {
     FrameContext const& context = from.context;
     const std::array constants{ EffectConstant{ "grid", from.grid.code },
-                                EffectConstant{ "fromDepth", from.isFromDepth() } };
+                                EffectConstant{ "fromDepth", from.isFromDepth() },
+                                EffectConstant{ "isParallel", isParallel(from.clip()) } };
     const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
                              FullScreenValue{ "last", lastOf(context.settings.size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) } };

@@ -63,16 +63,18 @@ private:
         const std::array inputs{ FullScreenInput{ .name = "depth", .texture = mTargets.prepassDepth },
                                  FullScreenInput{ .name = "motion", .texture = mTargets.motion } };
         const float share = effect().shutterDegrees / 360;
+        float4x4 const& clip = mContext.packet.mainView().uniforms.clipFromView;
         const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(mContext, double2(1)) },
                                  FullScreenValue{ "perSample", 1.0f / float2(mSize) },
                                  FullScreenValue{ "jitter", mContext.packet.gathering.jitterPixels },
                                  FullScreenValue{ "inverseOfDepth",
-                                                  inverseOfDepth(mContext.packet.mainView().uniforms.clipFromView) },
+                                                  isParallel(clip) ? distanceOfDepth(clip) : inverseOfDepth(clip) },
                                  FullScreenValue{ "scale", float2(mSize) * (share / 2) },
                                  FullScreenValue{ "most", mMost } };
         const std::array constants{ EffectConstant{ "isElsewhere", mContext.packet.last.isElsewhere },
                                     EffectConstant{ "hasDepth", static_cast<bool>(mTargets.prepassDepth) },
-                                    EffectConstant{ "hasMotion", static_cast<bool>(mTargets.motion) } };
+                                    EffectConstant{ "hasMotion", static_cast<bool>(mTargets.motion) },
+                                    EffectConstant{ "isParallel", isParallel(clip) } };
         addFullScreenPass(mGraph, mContext,
                           { .name = "ways",
                             .material = material("motion_blur_way", constants, kWay),

@@ -28,8 +28,15 @@ float4x4 lastFromPixel(FrameContext const& context, double2 end) {
     return float4x4(textureFromClip(end) * double4x4(context.packet.last.clipFromWorld) * worldFromPixel(context));
 }
 
+bool isParallel(float4x4 const& clip) { return clip[3].w != 0; }
+
+float2 distanceOfDepth(float4x4 const& clip) {
+    FILAMENT_ASSERT(isParallel(clip) && clip[2].z != 0, "a parallel projection has a near and a far plane");
+    return { -1 / clip[2].z, clip[3].z / clip[2].z }; // depth = m22 z + m32
+}
+
 float2 inverseOfDepth(float4x4 const& clip) {
-    FILAMENT_ASSERT(clip[3].w == 0, "cameras are perspective");
+    FILAMENT_ASSERT(!isParallel(clip), "the inverse distance is linear in the depth of perspective projections only");
     return { 1 / clip[3].z, clip[2].z / clip[3].z }; // depth = (m22 z + m32) / -z
 }
 

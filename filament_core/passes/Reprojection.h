@@ -13,7 +13,11 @@ double4x4 worldFromPixel(FrameContext const& context);
 /// The same to coordinates of the texture of the last picture, whose upper left part `end` the picture fills.
 float4x4 lastFromPixel(FrameContext const& context, double2 end);
 
+/// Whether the projection is parallel.
+bool isParallel(float4x4 const& clipFromView);
 /// 1 / distance = depth * x + y, for a perspective projection.
 float2 inverseOfDepth(float4x4 const& clipFromView);
+/// distance = depth * x + y, for a parallel one.
+float2 distanceOfDepth(float4x4 const& clipFromView);
 
 } // namespace filament::passes

@@ -206,8 +206,6 @@ std::string describeLack(Effect effect, EffectDemand const& demand) {
         return fmt::format("no light passes through what casts ({} maps)", demand.count);
     case DemandReason::NothingOverlaps:
         return fmt::format("{} in view that may be composed in any order", demand.count);
-    case DemandReason::NeedsPerspective:
-        return "the lens is parallel: it needs a perspective one";
     case DemandReason::IsInFocus:
         return "everything visible is in focus";
     case DemandReason::IsNeutral:

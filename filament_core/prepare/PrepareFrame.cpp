@@ -64,8 +64,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
-                        .discsOutOfView = packet.discsOutOfView,
-                        .isParallel = view.camera.lens.isParallel() });
+                        .discsOutOfView = packet.discsOutOfView });
 }
 
 /// The views of the maps follow those that were asked for.

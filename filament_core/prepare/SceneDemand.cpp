@@ -60,7 +60,6 @@ EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
 EffectDemand demandOfOcclusion(DemandInput const& input) {
     if (input.quality.ao == AmbientOcclusionTerm::Off) return { .reason = DemandReason::SwitchedOff };
     if (input.effects.ambientOcclusion.intensity == 0) return { .reason = DemandReason::HasNoIntensity };
-    if (input.isParallel) return { .reason = DemandReason::NeedsPerspective };
     if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
     if (!input.hasIndirectLight || input.counts.opaqueLitDraws == 0) return { .reason = DemandReason::NothingIndirect };
     return { true, DemandReason::DarkensIndirectLight, input.counts.opaqueLitDraws };
@@ -186,7 +185,6 @@ EffectDemand demandOfMotionBlur(DemandInput const& input) {
     const EffectDemand demand = demandOfPictureEffect(input, blur.enabled, DemandReason::MovesInView);
     if (!demand.isNeeded) return demand;
     if (input.moved == 0 && !input.cameraMoved) return { .reason = DemandReason::NothingMoves };
-    if (input.isParallel) return { .reason = DemandReason::NeedsPerspective };
     return { true, input.moved ? DemandReason::MovesInView : DemandReason::CameraMoves, input.moved };
 }
 

@@ -113,7 +113,6 @@ enum class DemandReason : uint8_t {
     NothingHasEdges,   ///< no surface is in view
     IsInFocus,         ///< everything that is visible
     NothingOverlaps,   ///< `count` objects, 0 or 1, need no order
-    NeedsPerspective,  ///< the lens is parallel
 };
 
 struct EffectDemand {
@@ -150,7 +149,6 @@ struct DemandInput {
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
-    bool isParallel = false;                      ///< the lens
 };
 
 SceneDemand findDemand(DemandInput const& input);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels the texels of an occlusion texture stand for, and the distances there. Includes need: the parameter
 // `depth`, the values `last` and `inverseOfDepth`, and the constant `grid`: 0 full, 1 half, 2 checkerboard.
+//   inverse  what is linear in the depth and over the pixels of a plane, and greater if nearer: 1 / distance of a
+//            perspective projection; of a parallel one how much nearer than the far plane, in widths of pixels.
 
 const int kGridFull = 0;
 const int kGridHalf = 1;
@@ -16,8 +18,7 @@ vec2 pixelOfTexel(vec2 texel) {
     return min(pixel, materialParams.last);
 }
 
-// 1 / distance, which is linear in the depth of a perspective projection; 1 / kFarDistance where nothing is. Of the
-// nearest pixel of the picture.
+// 1 / kFarDistance where nothing is. Of the nearest pixel of the picture.
 float inverseAt(vec2 pixel) {
     vec2 inside = clamp(pixel, vec2(0.0), materialParams.last);
     float depth = texelFetch(materialParams_depth, ivec2(inside), 0).x;

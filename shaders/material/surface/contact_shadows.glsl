@@ -8,25 +8,45 @@ const highp float kDepthUnit = 1.2e-7; // of a depth buffer with floats near 1
 
 // What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the
 // view at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
+// In a parallel projection the point is at axes x place.x + axes y place.y + the middle of the picture + forward d.
 struct ContactReceiver {
     highp vec3 normal; // of the plane, towards the camera
     highp vec3 rise;   // heights of the axes
+    highp float middle; // height of the middle of the picture; 0: perspective
     highp float height; // of the camera
     highp float bias;
 };
+
+bool isParallelView() { return ofFragment(frameUniforms.clipFromView[3].w) != 0.0; }
+
+highp float riseOfPixel(ContactReceiver receiver, highp vec2 place, highp float distance) {
+    highp float across = receiver.rise.x * place.x + receiver.rise.y * place.y;
+    return isParallelView() ? across + receiver.middle + receiver.rise.z * distance : (across + receiver.rise.z) * distance;
+}
 
 ContactReceiver contactReceiver() {
     mat4 axes = frameUniforms.worldFromClip, clip = frameUniforms.clipFromView;
     highp float distance = max(-(frameUniforms.viewFromWorld * vec4(vertex_worldPosition, 1.0)).z, 0.0);
     ContactReceiver receiver;
     receiver.normal = dot(shading_facet, shading_facet) > 0.0 ? shading_facet : shading_geometricNormal;
-    if (dot(receiver.normal, vertex_worldPosition) > 0.0) receiver.normal = -receiver.normal;
+    if (dot(receiver.normal, isParallelView() ? -shading_view : vertex_worldPosition) > 0.0)
+        receiver.normal = -receiver.normal;
     receiver.rise = vec3(dot(receiver.normal, axes[0].xyz), dot(receiver.normal, axes[1].xyz),
             dot(receiver.normal, axes[3].xyz));
+    receiver.middle = 0.0;
     receiver.height = dot(receiver.normal, vertex_worldPosition);
+    if (isParallelView()) {
+        highp vec3 middle = axes[2].xyz * clip[3].z + axes[3].xyz; // in the plane of the camera
+        receiver.rise.z = -dot(receiver.normal, shading_view);
+        receiver.middle = dot(receiver.normal, middle);
+        distance = 1.0; // all pixels are as wide
+    }
     receiver.bias = distance * (kContactBias * 2.0) * passUniforms.target.w / max(abs(clip[1].y), 1e-6);
     // With the ordinary range, depths far away are coarse.
-    receiver.bias += frameUniforms.exposure.w * distance * distance * kDepthUnit / max(abs(clip[3].z), 1e-30);
+    if (isParallelView())
+        receiver.bias += kDepthUnit / max(abs(clip[2].z), 1e-30);
+    else
+        receiver.bias += frameUniforms.exposure.w * distance * distance * kDepthUnit / max(abs(clip[3].z), 1e-30);
     return receiver;
 }
 
@@ -52,7 +72,7 @@ highp float contactVisibility(bool isAsked, highp vec3 toLight, highp float reac
         if (!isInside) break;
         highp float seen = texelFetch(passSceneDepth, ivec2(pixel), 0).x;
         highp vec2 place = (pixel + 0.5) * passUniforms.target.zw * 2.0 - 1.0;
-        highp float rise = (receiver.rise.x * place.x + receiver.rise.y * place.y + receiver.rise.z) * seen;
+        highp float rise = riseOfPixel(receiver, place, seen);
         if (seen < at.z && at.z - seen < effect.y && rise - receiver.height > receiver.bias) {
             visible = saturate((t - kContactFade) / (1.0 - kContactFade));
             break;

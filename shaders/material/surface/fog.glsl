@@ -6,23 +6,38 @@
 struct FogRay {
     highp vec3 direction; // unit
     highp float meters;   // to what the fragment shows, at most kFogInfinity
+    highp float height;   // where it begins, above the camera
 };
+
+// Parallel to the others, from the plane of the camera. point: w = 0: nothing is there.
+FogRay parallelFogRay(highp vec4 point) {
+    highp mat4 view = frameUniforms.viewFromWorld;
+    FogRay ray;
+    ray.direction = -vec3(view[0].z, view[1].z, view[2].z);
+    highp float along = dot(point.xyz, ray.direction);
+    ray.meters = point.w > 0.0 ? max(along, 0.0) : kFogInfinity;
+    ray.height = point.y - ray.direction.y * along;
+    return ray;
+}
 
 // point: relative to the camera, homogeneous; w = 0: at infinity.
 FogRay fogRayTo(highp vec4 point) {
+    if (ofFragment(frameUniforms.clipFromView[3].w) != 0.0) return parallelFogRay(point);
     highp float largest = max(max(abs(point.x), abs(point.y)), abs(point.z));
     highp vec3 scaled = point.xyz / max(largest, 1e-30);
     highp float size = sqrt(max(dot(scaled, scaled), 1e-30)); // in [1, 2)
     FogRay ray;
     ray.direction = scaled / size;
     ray.meters = point.w > largest * (size / kFogInfinity) ? largest * size / point.w : kFogInfinity;
+    ray.height = 0.0;
     return ray;
 }
 
 // The share of light that fog replaces between `from` and the end of the ray.
 highp float fogAlong(FogRay ray, highp float from) {
     highp vec4 medium = frameUniforms.fogMedium;
-    highp float depth = fogOpticalDepth(medium.x, medium.y, ray.direction.y, from, ray.meters);
+    highp float density = medium.x - medium.y * ray.height;
+    highp float depth = fogOpticalDepth(density, medium.y, ray.direction.y, from, ray.meters);
     return ray.meters > medium.w ? 0.0 : fogOpacity(depth, frameUniforms.fogLight.w);
 }
 

@@ -63,10 +63,20 @@ float getMaskThreshold() { return materialParams._maskThreshold; }
 vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * passUniforms.target.zw, gl_FragCoord.z); }
 vec2 uvToRenderTargetUV(vec2 uv) { return uv; } // row 0 is the top row on both APIs
 
+#if defined(NEEDS_WORLD_POSITION)
+// The camera is the origin; a parallel projection looks along the same direction everywhere.
+vec3 towardsCamera(highp vec3 point) {
+    highp mat4 view = frameUniforms.viewFromWorld;
+    vec3 towards = normalizeOrZero(-point);
+    if (ofFragment(frameUniforms.clipFromView[3].w) != 0.0) towards = vec3(view[0].z, view[1].z, view[2].z);
+    return towards;
+}
+#endif
+
 // The geometry's values before material(): view vector and tangent frame.
 void computeShadingGeometry() {
 #if defined(NEEDS_WORLD_POSITION)
-    shading_view = normalizeOrZero(-vertex_worldPosition); // the camera is the origin
+    shading_view = towardsCamera(vertex_worldPosition);
 #endif
 #if defined(NEEDS_NORMAL)
     vec3 n = vertex_worldNormal;

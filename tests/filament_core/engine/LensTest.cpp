@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What parallel and shifted lenses show, and pick, on both APIs: in closed form.
+// Parallel and shifted lenses on both APIs: in closed form, beside a perspective lens that is far away, and with every
+// effect that looks at depths.
 #include "tests/filament_core/engine/ShadowStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
+
+#include <functional>
 
 namespace filament {
 namespace {
@@ -12,6 +15,14 @@ using test::ShadowStage;
 constexpr const char* kLensFlat = R"(material { name : flat, shadingModel : unlit, culling : none,
     parameters : [ { type : float4, name : color } ] }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = materialParams.color; } })";
+constexpr const char* kLensMetal = R"(material { name : metal, shadingModel : lit }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor.rgb = vec3(0.9, 0.7, 0.3);
+    material.metallic = 1.0;
+    material.roughness = 0.3;
+} })";
+
 struct LensTest : testing::TestWithParam<Backend> {
     ShadowStage stage{ GetParam() };
 };
@@ -80,6 +91,110 @@ TEST_P(LensTest, FourShiftedQuartersAreThePicture) {
     EXPECT_LE(different, 8u) << "of 2048, at edges";
 }
 
+// View and light have one direction each, so a plane has one colour.
+TEST_P(LensTest, ASmoothPlaneHasOneColourAndThatOfAFarCamera) {
+    Engine& engine = stage.engine;
+    const Owned<Material> metal = test::loadMaterial(engine, kLensMetal);
+    const Owned<MaterialInstance> gold = engine.own(engine.createInstance(metal));
+    Scene scene(engine);
+    stage.square.add(scene, gold, {}, 50);
+    scene.add(SunLight{ .directionWorld = { 0.5f, 0.3f, -1 }, .illuminance = Lux{ 40'000 } });
+    View view{ .camera = Camera::lookAt({ -3, -2, 8 }, { 0, 0, 0 }, { .parallelMeters = 6 }), .size = { 16, 12 } };
+    const Image parallel = test::renderLinear(engine, scene, view);
+    const float4 color = test::halfPixel(parallel, 0, 0);
+    EXPECT_GT(color.x, 0.01f);
+    for (uint32_t i = 0; i < 16 * 12; ++i) EXPECT_EQ(test::halfPixel(parallel, i % 16, i / 16), color);
+    view.camera = Camera::lookAt(double3(-3, -2, 8) * 1000.0, { 0, 0, 0 }, { .verticalFovDegrees = 0.01f });
+    const float4 far = test::halfPixel(test::renderLinear(engine, scene, view), 8, 6);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(far[c], color[c], 0.004f * color[c]);
+}
+
+// ---------------------------------------------------------------------------------------------- beside a far camera
+
+constexpr double kFar = 400; ///< metres: the picture of a perspective lens is nearly parallel
+constexpr float kHigh = 5;   ///< metres, of the picture
+
+struct LensCase {
+    const char* name;
+    std::function<void(View&)> turnOn;
+    float most = 0; ///< of the mean difference between both cameras, over what the effect changes
+};
+
+double meanDifference(Image const& a, Image const& b) {
+    double sum = 0;
+    for (uint32_t i = 0; i < a.width * a.height; ++i) {
+        const float4 difference =
+                glm::abs(test::halfPixel(a, i % a.width, i / a.width) - test::halfPixel(b, i % a.width, i / a.width));
+        sum += static_cast<double>(difference.x + difference.y + difference.z);
+    }
+    return sum / (a.width * a.height);
+}
+
+/// A crowd seen by a parallel lens at 10 m, and by a perspective one that is kFar metres farther away.
+struct LensStage {
+    ShadowStage stage;
+    WhiteEnvironment white{ stage.engine };
+    Scene scene{ stage.engine };
+
+    explicit LensStage(Backend backend) : stage(backend) {
+        Random random(11);
+        test::addCrowd(stage, scene, random, 1);
+        white.light(scene, Camera{});
+    }
+
+    Image draw(bool isParallel, LensCase const& effect, bool isOn) {
+        const double3 back = glm::normalize(double3(1, -2, 2));
+        const double distance = isParallel ? 10 : 10 + kFar;
+        const Lens lens = isParallel ? Lens{ .nearMeters = 0.5f, .parallelMeters = kHigh, .farMeters = 100 }
+                                     : Lens{ .verticalFovDegrees = static_cast<float>(
+                                                     glm::degrees(2 * std::atan(kHigh / 2 / (10 + kFar)))),
+                                             .nearMeters = static_cast<float>(kFar) };
+        View view{ .camera = Camera::lookAt(back * distance, { 0, 0, 0 }, lens, {}, { 0, 0, 1 }), .size = { 96, 72 } };
+        view.quality.shadows = ShadowFilter::Off;
+        if (isOn) effect.turnOn(view);
+        if (!isParallel) view.effects.fog.startMeters += static_cast<float>(kFar);
+        return test::renderLinear(stage.engine, scene, view);
+    }
+};
+
+std::vector<LensCase> lensCases() {
+    const auto ao = [](AmbientOcclusionTerm term, AmbientOcclusionResolution resolution, bool bent) {
+        return [=](View& view) {
+            view.quality.ao = term;
+            view.quality.aoResolution = resolution;
+            view.quality.aoBentNormals = bent;
+            view.effects.ambientOcclusion.radiusMeters = 0.5f;
+        };
+    };
+    using Term = AmbientOcclusionTerm;
+    using Resolution = AmbientOcclusionResolution;
+    return {
+        { "gtao", ao(Term::Gtao, Resolution::Full, false), 0.15f },
+        { "sao half", ao(Term::Sao, Resolution::Half, false), 0.25f },
+        { "gtao checkerboard", ao(Term::Gtao, Resolution::Checkerboard, false), 0.25f },
+        { "bent normals", ao(Term::Gtao, Resolution::Full, true), 0.15f },
+        { "shadows", [](View& view) { view.quality.shadows = ShadowFilter::Pcf3; }, 0.15f },
+        { "fog",
+          [](View& view) {
+              view.effects.fog = { .enabled = true, .density = 0.1f, .startMeters = 4, .heightFalloff = 0.5f };
+          },
+          0.05f },
+    };
+}
+
+TEST_P(LensTest, EffectsShowWhatTheyShowFromFarAway) {
+    LensStage crowd(GetParam());
+    for (LensCase const& effect : lensCases()) {
+        SCOPED_TRACE(effect.name);
+        const Image off = crowd.draw(true, effect, false), on = crowd.draw(true, effect, true);
+        const Image farOff = crowd.draw(false, effect, false), farOn = crowd.draw(false, effect, true);
+        const double changed = meanDifference(off, on), asFar = meanDifference(on, farOn),
+                     bare = meanDifference(off, farOff);
+        EXPECT_GT(changed, 0.002) << "the effect is seen";
+        EXPECT_LT(asFar, bare + changed * static_cast<double>(effect.most));
+    }
+}
+
 TEST_P(LensTest, PickingAndDepthsAreThoseOfTheBox) {
     Engine& engine = stage.engine;
     Scene scene(engine);
@@ -121,25 +236,41 @@ TEST_P(LensTest, NothingIsOutOfFocusForAParallelLens) {
     EXPECT_EQ(test::differingPixels(blurred, test::renderLinear(engine, scene, view)), 0u);
 }
 
-// Until their passes know parallel projections.
-TEST_P(LensTest, WhatNeedsAPerspectiveLensIsLeftOutAndSaysSo) {
-    Engine& engine = stage.engine;
-    Scene scene(engine);
-    stage.addBox(scene, {}, double3(1));
-    const WhiteEnvironment white(engine);
-    Renderer renderer(engine);
-    View view{ .camera = above(5, { .parallelMeters = 4 }), .size = { 32, 32 } };
-    white.light(scene, view.camera);
-    view.quality.ao = AmbientOcclusionTerm::Gtao;
-    view.effects.motionBlur.enabled = true;
-    for (int frame = 0; frame < 3; ++frame) {
-        view.camera.worldFromView[3].x = 0.1 * frame;
-        test::extremesOf(test::renderLinear(engine, renderer, scene, view));
+// ---------------------------------------------------------------------------------------------- the same on both APIs
+
+TEST(LensBits, BothApisDrawTheSamePicturesOfEveryLens) {
+    LensStage vulkan(Backend::Vulkan), gles(Backend::Gles);
+    std::vector<LensCase> cases = lensCases();
+    cases.push_back({ "everything", [](View& view) {
+                         for (LensCase const& other : lensCases()) other.turnOn(view);
+                         view.effects.depthOfField.enabled = true;
+                         view.effects.motionBlur.enabled = true;
+                         view.quality.antiAliasing = AntiAliasing::Taa;
+                     } });
+    for (LensCase const& effect : cases) {
+        SCOPED_TRACE(effect.name);
+        EXPECT_EQ(test::differingPixels(vulkan.draw(true, effect, true), gles.draw(true, effect, true)), 0u);
     }
-    size_t leftOut = 0;
-    for (EffectDecision const& decision : renderer.decisions())
-        leftOut += decision.reason == "the lens is parallel: it needs a perspective one";
-    EXPECT_EQ(leftOut, 2u);
+}
+
+TEST_P(LensTest, EveryFrameOfAMovingParallelCameraIsFinite) {
+    LensStage crowd(GetParam());
+    Renderer renderer(crowd.stage.engine);
+    for (int frame = 0; frame < 6; ++frame) {
+        const double turn = frame * 0.2;
+        const Lens lens{ .nearMeters = 0,
+                         .parallelMeters = 3 + 0.5f * static_cast<float>(frame),
+                         .farMeters = 60,
+                         .shift = { 0.1f * static_cast<float>(frame), 0 } };
+        View view{ .camera = Camera::lookAt({ 6 * std::cos(turn), 6 * std::sin(turn), 4 }, { 0, 0, 0 }, lens, {},
+                                            { 0, 0, 1 }),
+                   .size = { 64, 48 } };
+        for (LensCase const& other : lensCases()) other.turnOn(view);
+        view.quality.ssr = true;
+        view.effects.motionBlur.enabled = true;
+        view.quality.antiAliasing = AntiAliasing::Taa;
+        test::extremesOf(test::renderLinear(crowd.stage.engine, renderer, crowd.scene, view));
+    }
 }
 
 } // namespace
