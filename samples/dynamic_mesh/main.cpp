@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <string_view>
-#include <utility>
 
 using namespace filament;
 
@@ -42,8 +41,8 @@ int main(int argc, char** argv) {
 
     Result<Mesh> water = makePlane({ .width = 3, .depth = 3, .widthSegments = 96, .depthSegments = 96 });
     if (!water) return fail(water.error());
-    const Owned<IndexBuffer> indices = engine->own(engine->create(water->indexBuffer())); // stay as they are
-    Owned<VertexBuffer> vertices;
+    const Owned<IndexBuffer> indices = engine->own(engine->create(water->indexBuffer()));
+    const Owned<VertexBuffer> vertices = engine->own(engine->create(water->vertexBuffer()));
 
     const Result<Material> found = createBuiltInMaterial(*engine, "lit");
     if (!found) return fail(found.error());
@@ -56,7 +55,7 @@ int main(int argc, char** argv) {
     Scene scene(*engine);
     scene.add(SunLight{ .directionWorld = { 0.3f, -0.35f, 1 }, .illuminance = Lux{ 40'000 } });
     scene.add(SunLight{ .directionWorld = { 0, -1, -0.3f }, .illuminance = Lux{ 40'000 }, .castsShadows = false });
-    Renderable surface;
+    scene.add({ .vertices = vertices, .indices = indices, .material = instance }); // its bounds follow the vertices
 
     const View view{ .camera = Camera::lookAt({ 0, 0.9, 1.9 }, { 0, -0.1, 0 }),
                      .size = { 320, 180 },
@@ -67,14 +66,7 @@ int main(int argc, char** argv) {
     for (int frame = 0; frame < 24; ++frame) {
         if (const Result<void> made = makeWaves(*water, static_cast<float>(frame) / 24); !made)
             return fail(made.error());
-        Owned<VertexBuffer> now = engine->own(engine->create(water->vertexBuffer()));
-        if (surface) scene.remove(surface);
-        surface = scene.add({ .vertices = now,
-                              .indices = indices,
-                              .material = instance,
-                              .boundsMin = water->boundsMin(),
-                              .boundsMax = water->boundsMax() });
-        vertices = std::move(now); // destroys those of the last frame
+        engine->update(vertices, water->vertexBuffer().data);
         renderer.render(scene, view, frames);
     }
     const Result<Image> image = renderer.waitPixels(renderer.readPixels(frames));

@@ -61,12 +61,7 @@ int main(int argc, char** argv) {
         const double x = (static_cast<double>(i) - 2) * 1.1;
         const double4x4 place = glm::rotate(glm::translate(double4x4(1), double3(x, 0, 0)), 0.6, double3(1, 0.5, 0));
         const Node node = scene.add(NodeDesc{ .parentFromNode = place, .name = thing.name });
-        scene.add({ .vertices = thing.vertices,
-                    .indices = thing.indices,
-                    .material = thing.instance,
-                    .boundsMin = thing.mesh->boundsMin(),
-                    .boundsMax = thing.mesh->boundsMax(),
-                    .node = node });
+        scene.add({ .vertices = thing.vertices, .indices = thing.indices, .material = thing.instance, .node = node });
     }
     scene.add(SunLight{ .directionWorld = { -1, -1.5f, -2 } });
 

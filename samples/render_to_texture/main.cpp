@@ -23,21 +23,15 @@ struct Object {
     Owned<IndexBuffer> indices;
     Owned<Material> material;
     Owned<MaterialInstance> instance;
-    float3 boundsMin{ 0 }, boundsMax{ 0 };
 
     Object(Engine& engine, Mesh const& mesh, Material type)
             : vertices(engine.own(engine.create(mesh.vertexBuffer()))),
               indices(engine.own(engine.create(mesh.indexBuffer()))), material(engine.own(type)),
-              instance(engine.own(engine.createInstance(type))), boundsMin(mesh.boundsMin()),
-              boundsMax(mesh.boundsMax()) {}
+              instance(engine.own(engine.createInstance(type))) {}
 
     Renderable addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1)) const {
-        return scene.add({ .vertices = vertices,
-                           .indices = indices,
-                           .material = instance,
-                           .boundsMin = boundsMin,
-                           .boundsMax = boundsMax,
-                           .worldFromObject = worldFromObject });
+        return scene.add(
+                { .vertices = vertices, .indices = indices, .material = instance, .worldFromObject = worldFromObject });
     }
 };
 

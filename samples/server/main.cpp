@@ -63,11 +63,7 @@ public:
         if (set) set = mEngine.set(mInstance, "roughness", request.roughness);
         if (!set) return set;
         Scene scene(mEngine);
-        scene.add({ .vertices = vertices,
-                    .indices = indices,
-                    .material = mInstance,
-                    .boundsMin = mesh->boundsMin(),
-                    .boundsMax = mesh->boundsMax() });
+        scene.add({ .vertices = vertices, .indices = indices, .material = mInstance });
         scene.add(SunLight{ .directionWorld = { -1, -1.5f, -1 } });
         const View view{ .camera = Camera::lookAt({ 0.7, 0.9, 1.4 }, { 0, 0, 0 }), .size = { 320, 180 }, .samples = 4 };
         const Result<Image> image = mRenderer.renderToImage(scene, view);

@@ -43,8 +43,6 @@ int main(int argc, char** argv) {
     scene.add({ .vertices = vertices,
                 .indices = indices,
                 .material = instance,
-                .boundsMin = cube->boundsMin(),
-                .boundsMax = cube->boundsMax(),
                 .worldFromObject = glm::rotate(double4x4(1), 0.6, double3(0, 1, 0)) });
     scene.add(SunLight{ .directionWorld = { -1, -2, -1.5f } });
     scene.add(SunLight{ .directionWorld = { 2, -0.5f, -1 }, .illuminance = Lux{ 15'000 }, .castsShadows = false });

@@ -34,11 +34,7 @@ int main(int argc, char** argv) {
     const Owned<MaterialInstance> instance = engine->own(engine->createInstance(material));
 
     Scene scene(*engine);
-    scene.add({ .vertices = vertices,
-                .indices = indices,
-                .material = instance,
-                .boundsMin = mesh.boundsMin(),
-                .boundsMax = mesh.boundsMax() });
+    scene.add({ .vertices = vertices, .indices = indices, .material = instance });
 
     View view{ .camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }), .size = { 320, 180 } };
     view.colorGrading.toneMapper = ToneMapper::Linear; // the colours as they are

@@ -40,12 +40,7 @@ Result<Image> draw(Backend backend) {
         if (!set) return set.error();
         double4x4 place(1);
         place[3] = double4(column - 3.5, 2 - row, 0, 1);
-        scene.add({ .vertices = vertices,
-                    .indices = indices,
-                    .material = instances.back(),
-                    .boundsMin = ball->boundsMin(),
-                    .boundsMax = ball->boundsMax(),
-                    .worldFromObject = place });
+        scene.add({ .vertices = vertices, .indices = indices, .material = instances.back(), .worldFromObject = place });
     }
     scene.add(SunLight{ .directionWorld = { -1, -1, -1 } });
     scene.add(PointLight{ .positionWorld = { 0, 0, 4 }, .intensity = Candela{ 200'000 }, .castsShadows = false });
