@@ -4,6 +4,7 @@
 #include "base/Assert.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -16,6 +17,12 @@ template <class T>
 void reserveMore(std::vector<T>& vector, size_t extra) {
     const size_t needed = vector.size() + extra;
     if (needed > vector.capacity()) vector.reserve(std::max(needed, 2 * vector.capacity()));
+}
+
+/// Rounded up to a multiple of an eighth of the next power of two, so that a block also fits slightly larger contents.
+size_t roundedSize(size_t bytes) {
+    const size_t step = std::bit_ceil(bytes) / 8;
+    return (bytes + step - 1) / step * step;
 }
 
 } // namespace
@@ -43,7 +50,7 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
 CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
     reserveMore(mUsed, 1);
     reserveMore(mSpare, mUsed.size() + 1);
-    const size_t size = std::max(bytes, kBlockBytes);
+    const size_t size = roundedSize(std::max(bytes, kBlockBytes));
     size_t best = mSpare.size();
     for (size_t i = mSpare.size(); i-- > 0;) {
         if (mSpare[i].size >= size && (best == mSpare.size() || mSpare[i].size < mSpare[best].size)) best = i;
@@ -57,6 +64,7 @@ CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
 CommandBuffer::Block CommandBuffer::takeSpare(size_t index) {
     std::swap(mSpare[index], mSpare.back());
     Block block = std::move(mSpare.back());
+    block.idleFrames = 0;
     mSpare.pop_back();
     return block;
 }
@@ -143,7 +151,10 @@ void CommandBuffer::rollBack(Mark const& mark) {
 }
 
 void CommandBuffer::reset() {
-    std::erase_if(mSpare, [](Block const& block) { return block.size > kBlockBytes; });
+    std::erase_if(mSpare, [](Block& block) {
+        ++block.idleFrames;
+        return block.size > kKeptBytes || (block.size > kBlockBytes && block.idleFrames >= kIdleFrames);
+    });
     std::move(mUsed.begin(), mUsed.end(), std::back_inserter(mSpare));
     mUsed.clear();
     mChunks.clear();

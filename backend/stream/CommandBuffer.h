@@ -2,8 +2,9 @@
 /// CommandBuffer: a recorded stream. Commands are plain structs in linear chunks; payloads live beside them.
 ///   Thread  one recorder at a time. Several buffers may be recorded in parallel and joined in order with append().
 ///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns.
-///           reset() keeps the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame
-///           did not need is freed.
+///           reset() keeps the chunks, so that steady frames allocate nothing, also if payloads are a little larger in
+///           some of them than in others: sizes are rounded up by at most a quarter. A larger chunk is freed once
+///           kIdleFrames frames in a row did not need it, one of more than kKeptBytes after the first such frame.
 ///   Fails   record(), allocate(), append(): std::bad_alloc, and nothing has changed. reset(), rollBack() and
 ///           recordInReserve() never fail: a caller that runs out of memory in the middle can still end what it began.
 ///   Names   every span and string_view given to record() inside a command is copied into the buffer.
@@ -21,6 +22,9 @@ namespace filament::backend {
 
 class CommandBuffer {
 public:
+    static constexpr uint32_t kIdleFrames = 60;
+    static constexpr size_t kKeptBytes = size_t{ 1 } << 20;
+
     CommandBuffer();
     ~CommandBuffer();
     CommandBuffer(CommandBuffer&&) noexcept;
@@ -93,6 +97,7 @@ private:
     struct Block {
         std::unique_ptr<std::byte[], FreeAligned> data;
         size_t size = 0;
+        uint32_t idleFrames = 0; // calls of reset() since it was used
     };
     struct Range {
         std::byte* at = nullptr;

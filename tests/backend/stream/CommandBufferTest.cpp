@@ -224,6 +224,33 @@ TEST(CommandBuffer, ATailGetsABlockBackForEachOneItGaveAndNoLargerOne) {
     EXPECT_GE(head.bytesReserved(), 5'000'000u);
 }
 
+// Lists of visible lights, say: a little longer in some frames than in others.
+TEST(CommandBuffer, PayloadsOfChangingSizeReserveNothingNew) {
+    CommandBuffer commands;
+    const std::vector<std::byte> most = numbered(120'000, 0);
+    const auto frame = [&](size_t i) {
+        const auto bytes = std::span(most).first(i % 7 == 0 ? 1000 : 90'000 + 1777 * i % 30'000);
+        commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = bytes });
+        commands.reset();
+        return commands.bytesReserved();
+    };
+    for (size_t warm = 0; warm < 32; ++warm) frame(warm);
+    const size_t reserved = frame(32);
+    for (size_t i = 0; i < 500; ++i) ASSERT_EQ(frame(i), reserved) << "frame " << i;
+}
+
+TEST(CommandBuffer, GivesALargerChunkBackAfterManyFramesWithoutIt) {
+    CommandBuffer commands;
+    commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = numbered(200'000, 0) });
+    commands.reset();
+    const size_t reserved = commands.bytesReserved();
+    for (uint32_t i = 1; i <= CommandBuffer::kIdleFrames; ++i) {
+        EXPECT_EQ(commands.bytesReserved(), reserved) << i;
+        commands.reset();
+    }
+    EXPECT_LT(commands.bytesReserved(), 200'000u);
+}
+
 TEST(CommandBuffer, GivesAnOversizedChunkBackAfterOneFrameWithoutIt) {
     CommandBuffer commands;
     commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = numbered(10'000'000, 0) });
