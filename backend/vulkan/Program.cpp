@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Program.h"
 
+#include "backend/vulkan/UniformConditions.h"
+
 #include <cstring>
 
 namespace filament::backend::vulkan {
@@ -25,12 +27,13 @@ const char* nameOf(ShaderStage stage) {
 
 Result<Stage> makeStage(Device& device, std::span<const std::byte> bytes, ShaderStage stage, std::string_view program) {
     const char* const stageName = nameOf(stage);
-    const std::vector<uint32_t> words = wordsOf(bytes);
+    std::vector<uint32_t> words = wordsOf(bytes);
     Result<ShaderEdges> edges = readEdges(words, stage);
     if (!edges) {
         return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; what uses it is skipped", program, stageName,
                     edges.error().message);
     }
+    if (device.physical().quirks.inlinesUniforms) words = hideUniformConditions(std::move(words), stage);
     Stage made{ .edges = std::move(*edges) };
     auto info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
     info.codeSize = words.size() * sizeof(uint32_t);

@@ -19,7 +19,10 @@ uint32_t uniformBuffersIn(BindGroupLayout const& layout, ShaderStage stage, bool
 
 } // namespace
 
-Quirks Quirks::of(VkDriverId driver) { return { .spoilsFourthUniforms = driver == VK_DRIVER_ID_MESA_LLVMPIPE }; }
+Quirks Quirks::of(VkDriverId driver) {
+    const bool isLavapipe = driver == VK_DRIVER_ID_MESA_LLVMPIPE;
+    return { .spoilsFourthUniforms = isLavapipe, .inlinesUniforms = isLavapipe };
+}
 
 uint32_t spareBindings(BindGroupLayout const& layout,
                        std::span<VkDescriptorSetLayoutBinding, kMaxSpareBindings> bindings) {

@@ -7,6 +7,8 @@
 
 #include "shaders/package/EngineMaterials.h"
 
+#include <filament/BuiltInMaterials.h>
+
 namespace filament {
 namespace {
 
@@ -43,7 +45,7 @@ private:
     std::optional<std::string> mBefore;
 };
 
-/// Spheres of several materials in the light of a sky, a sun and a lamp, of which everything changes in each frame.
+/// Spheres of several materials, with textures and without, in the light of a sky, a sun and a lamp, of which everything changes in each frame.
 class ChangingScene {
 public:
     explicit ChangingScene(test::MaterialStage& stage)
@@ -55,6 +57,13 @@ public:
             double4x4 world(1);
             world[3] = double4(2.2 * static_cast<double>(mInstances.size()) - 4.4, 0, 0, 1);
             mSpheres.push_back(stage.scene.add(mSphere.renderable(mInstances.back(), world)));
+        }
+        mMaterials.push_back(stage.engine.own(*createBuiltInMaterial(stage.engine, "lit")));
+        mPlain = stage.engine.own(stage.engine.createInstance(mMaterials.back()));
+        for (int i = 0; i < 600; ++i) { // several draws, each of which binds the parameters
+            double4x4 world(0.05);
+            world[3] = double4(0.1 * (i % 30) - 1.5, 0.1 * (i / 30) - 1, 1, 1);
+            stage.scene.add(mSphere.renderable(mPlain, world));
         }
         mSun = stage.scene.add(SunLight{});
         mLamp = stage.scene.add(PointLight{});
@@ -71,6 +80,9 @@ public:
         mLamp = mStage.scene.add(PointLight{ .positionWorld = { 0.1f * t, 2, 2 },
                                              .intensity = Candela{ 20'000 + 100 * t },
                                              .rangeMeters = 8 + 0.1f * t });
+        EXPECT_TRUE(mStage.engine.set(mPlain, "roughness", 0.3f + 0.02f * t)); // no texture: uniforms decide alone
+        EXPECT_TRUE(mStage.engine.set(mPlain, "metallic", 0.1f * t));
+        EXPECT_TRUE(mStage.engine.set(mPlain, "baseColor", float3(0.5f + 0.03f * t, 0.4f, 0.2f)));
         double4x4 world(1);
         world[3] = double4(-2.2, 0.05 * frame, 0, 1);
         mStage.scene.setTransform(mSpheres[0], world);
@@ -95,6 +107,7 @@ private:
     test::SkyObjects mSky;
     std::vector<Owned<Material>> mMaterials;
     std::vector<Owned<MaterialInstance>> mInstances;
+    Owned<MaterialInstance> mPlain;
     std::vector<Renderable> mSpheres;
     Light mSun{}, mLamp{};
 };

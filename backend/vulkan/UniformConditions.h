@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// UniformConditions: makes conditions that only uniforms decide look as if they differed from invocation to invocation.
+/// For Quirks::inlinesUniforms.
+///   In      a module that readEdges() accepts.
+///   Out     the same results: such a condition `c` becomes `v && c`, and a selector `v ? s : 0`, where v is true but no
+///           compiler can know it: gl_FragCoord.w > 0, or gl_VertexIndex > -1. Modules without such conditions stay as they are.
+///   Source  SPIR-V 1.6 specification, sections 2.4 (logical layout) and 3.52 (instructions).
+///   Thread  any; a pure function.
+///   Limits  sees through arithmetic, phis and variables of functions, not through calls. A module that is not valid
+///           may become another one that is not valid.
+///   Cost    two walks over the words; one operation for each such condition and invocation.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace filament::backend::vulkan {
+
+std::vector<uint32_t> hideUniformConditions(std::vector<uint32_t> words, ShaderStage stage);
+
+} // namespace filament::backend::vulkan
