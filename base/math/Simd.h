@@ -31,6 +31,8 @@ struct Float8 {
 
     friend Float8 operator+(Float8 const& a, Float8 const& b) { return { a.low + b.low, a.high + b.high }; }
     friend Float8 operator+(Float8 const& a, float b) { return { a.low + b, a.high + b }; }
+    friend Float8 operator*(Float8 const& a, Float8 const& b) { return { a.low * b.low, a.high * b.high }; }
+    friend Float8 operator/(Float8 const& a, Float8 const& b) { return { a.low / b.low, a.high / b.high }; }
     friend Float8 operator*(Float8 const& a, float b) { return { a.low * b, a.high * b }; }
     friend Float8 operator-(Float8 const& a) { return { -a.low, -a.high }; }
 };

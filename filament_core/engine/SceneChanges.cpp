@@ -35,7 +35,8 @@ scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Materia
              engine.layouts.intern({ vertices.layout, desc.primitive }),
              desc.firstIndex,
              desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
-             indices.format };
+             indices.format,
+             desc.primitive == PrimitiveType::Triangles };
 }
 
 scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {

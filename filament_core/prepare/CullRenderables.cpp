@@ -15,12 +15,12 @@ using simd::kLanes;
 static_assert(kCullRange % kLanes == 0, "only the last range of a scene has boxes left over");
 
 struct Tally {
-    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0;
+    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0, tooSmall = 0;
 };
 
 /// Bit or lane i: renderable first + i.
 struct Seen8 {
-    uint32_t visible = 0, nothingToDraw = 0, inOtherLayers = 0;
+    uint32_t visible = 0, nothingToDraw = 0, inOtherLayers = 0, mayBeTooSmall = 0;
     std::array<float, kLanes> depth;
 };
 
@@ -53,8 +53,8 @@ public:
         for (; i + kLanes <= end; i += kLanes) next = keep(see8(i), i, next, tally);
         for (; i < end; ++i) next = keep(see1(i), i, next, tally);
         tally.visible = static_cast<uint32_t>(next - slots);
-        tally.outOfView =
-                static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw - tally.inOtherLayers;
+        tally.outOfView = static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw -
+                          tally.inOtherLayers - tally.tooSmall;
         return tally;
     }
 
@@ -74,8 +74,9 @@ private:
             seen.nothingToDraw |=
                     simd::bitOfEachByte(flags, kCastsNoShadowsBit) | simd::bitOfEachByte(flags, kCannotCastBit);
         if (mSpace.visibleLayers != kAllLayers) seen.inOtherLayers = hidden8(i) & ~seen.nothingToDraw;
-        seen.visible = (mFrustum.intersects(boxes) | ~simd::bitOfEachByte(flags, kCulledBit)) & ~seen.nothingToDraw &
-                       ~seen.inOtherLayers & 0xFFu;
+        const uint32_t mayBeCulled = simd::bitOfEachByte(flags, kCulledBit);
+        seen.visible = (mFrustum.intersects(boxes) | ~mayBeCulled) & ~seen.nothingToDraw & ~seen.inOtherLayers & 0xFFu;
+        seen.mayBeTooSmall = mSpace.pixels.mayMiss8(boxes.center, boxes.halfExtent) & mayBeCulled;
         simd::store8(seen.depth, simd::dot(mSpace.forward, boxes.center));
         return seen;
     }
@@ -99,6 +100,7 @@ private:
         seen.nothingToDraw = nothing;
         seen.inOtherLayers = !nothing && (mRenderables.layers[i] & mSpace.visibleLayers) == 0;
         seen.visible = inView && !nothing && !seen.inOtherLayers;
+        seen.mayBeTooSmall = !mSpace.pixels.isEmpty() && (flags & scene::kCulled) != 0;
         seen.depth[0] = glm::dot(mSpace.forward, center);
         return seen;
     }
@@ -109,6 +111,10 @@ private:
         for (uint32_t left = seen.visible; left != 0; left &= left - 1) {
             const auto lane = static_cast<uint32_t>(std::countr_zero(left));
             const uint32_t renderable = static_cast<uint32_t>(first) + lane;
+            if ((seen.mayBeTooSmall >> lane & 1) != 0 && isTooSmall(renderable)) {
+                ++tally.tooSmall;
+                continue;
+            }
             const uint32_t depth = depthBits(seen.depth[lane]);
             const bool mirrored = mRenderables.flags[renderable] & scene::kMirrored;
             const uint32_t draw = drawOf(mRenderables.drawable[renderable], mirrored);
@@ -116,6 +122,13 @@ private:
             *next++ = { depth, renderable, draw };
         }
         return next;
+    }
+
+    /// It is made of triangles inside of its box, none of which covers a sample.
+    bool isTooSmall(uint32_t renderable) const {
+        if (!mRenderables.drawables.use(mRenderables.drawable[renderable]).staysInBounds) return false;
+        const float3 center(mRenderables.bounds.centerAt(renderable) - mSpace.cameraWorld);
+        return mSpace.pixels.missesAll(center, mRenderables.bounds.halfExtentAt(renderable));
     }
 
     static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
@@ -155,6 +168,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
         all.outOfView += tallies[range].outOfView;
         all.nothingToDraw += tallies[range].nothingToDraw;
         all.inOtherLayers += tallies[range].inOtherLayers;
+        all.tooSmall += tallies[range].tooSmall;
     }
     firsts[ranges] = all.visible;
     counts.renderables = renderables.count();
@@ -162,6 +176,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     counts.outOfView = all.outOfView;
     counts.nothingToDraw = all.nothingToDraw;
     counts.inOtherLayers = all.inOtherLayers;
+    counts.tooSmall = all.tooSmall;
     return { slots, firsts, spans };
 }
 

@@ -4,7 +4,8 @@
 ///   Out     the visible ones in the order of the scene, in ranges that still have gaps between them; writeKeys()
 ///           (DrawList.h) moves them together.
 ///   Visible unless it has nothing to draw, is in none of the view's layers, or may be dropped and its box lies outside
-///           of one frustum plane. A box that is not a number is visible: nothing proves it out of view.
+///           of one frustum plane, or misses all centres of pixels (PixelGrid.h). A box that is not a number is
+///           visible: nothing proves it out of view.
 ///   Thread  jobs over ranges of the scene, eight boxes at a time (math/Simd.h); the bits of one at a time.
 ///   Memory  the arena: 16 B a renderable, 4 B a drawable.
 ///   Fails   never. Cost: bench/filament_core/prepare.

@@ -89,6 +89,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
         space.clipFromView = withOrdinaryDepth(space.clipFromView);
         space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     }
+    if (view.kind != ViewKind::Shadow && view.samples == 1) space.pixels = PixelGrid(space.clipFromWorld, view.size);
     space.exposure = view.camera.exposure.factor();
     space.visibleLayers = view.visibleLayers;
     return space;

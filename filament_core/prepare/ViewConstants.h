@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/math/Frustum.h"
+#include "filament_core/prepare/PixelGrid.h"
 #include "filament_core/prepare/ViewInput.h"
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -17,6 +18,7 @@ struct ViewSpace {
     float4x4 clipFromView{ 1.0f };
     float4x4 viewFromWorld{ 1.0f };
     Frustum frustum{};
+    PixelGrid pixels{}; ///< of the views of a camera with one sample a pixel; otherwise no object is too small
     float exposure = 1;
     Layers visibleLayers = kAllLayers;
 };

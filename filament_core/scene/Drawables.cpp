@@ -27,6 +27,13 @@ uint32_t orderOf(MaterialInstance const& instance) {
            (instance.id & kInstanceMask);
 }
 
+/// Holes of a mask would do no harm, but a package does not tell them from a vertex block.
+bool staysInBounds(Drawable const& drawable) {
+    shader::MaterialPackage const& package = drawable.material->material->package;
+    return drawable.geometry.isOfTriangles && !package.depthReadsParameters &&
+           package.vertexDomain == shader::VertexDomain::Object;
+}
+
 } // namespace
 
 bool blendsInAnyOrder(MaterialInstance const& instance) {
@@ -66,7 +73,7 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
     const uint32_t number = known->second;
     if (isNew) {
         mDrawables[number] = drawable;
-        mUses[number] = { orderOf(*drawable.material), 0, placeOrder(drawable.place) };
+        mUses[number] = { orderOf(*drawable.material), 0, placeOrder(drawable.place), staysInBounds(drawable) };
     }
     ++mUses[number].users;
     return number;

@@ -23,6 +23,7 @@ struct Geometry {
     uint32_t layout = 0; ///< into GeometryLayouts: vertex layout and topology
     uint32_t firstIndex = 0, indexCount = 0;
     backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;
+    bool isOfTriangles = true;
     friend bool operator==(Geometry const&, Geometry const&) = default;
 };
 
@@ -91,6 +92,8 @@ public:
         uint32_t order = 0; ///< material << kInstanceBits | instance, and the flags above
         uint32_t users = 0;
         uint32_t place = 0; ///< placeOrder() of Drawable::place
+        bool staysInBounds =
+                false; ///< what it covers lies in the box of its vertices: triangles, where the mesh has them
     };
     Use use(uint32_t number) const { return mUses[number]; }
     /// All numbers are below this, including those of pairs without users.

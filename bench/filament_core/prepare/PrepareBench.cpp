@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of preparing a frame, step by step and as a whole. Counters: nanoseconds per renderable, wall clock and all
-// threads together (medians); everything is visible.
+// threads together (medians); everything is visible, but for cullSmall.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 #include "filament_core/prepare/SelectLights.h"
 
@@ -23,6 +23,16 @@ void cull(benchmark::State& state) {
     Setup setup(state);
     timeStep(
             state, setup, [] { return 0; }, [&](int) { return setup.cull(); });
+}
+
+/// Of a picture so small that most boxes are asked whether they cover a centre of a pixel.
+void cullSmall(benchmark::State& state) {
+    Setup setup(state);
+    setup.view.size = { 16, 16 };
+    setup.space = makeViewSpace(setup.view);
+    timeStep(
+            state, setup, [] { return 0; }, [&](int) { return setup.cull(); });
+    state.counters["tooSmall"] = setup.counts.tooSmall;
 }
 
 void keys(benchmark::State& state) {
@@ -129,6 +139,7 @@ void arguments(benchmark::internal::Benchmark* bench) {
             ->UseManualTime();
 }
 BENCHMARK(cull)->Apply(arguments);
+BENCHMARK(cullSmall)->Apply(arguments);
 BENCHMARK(keys)->Apply(arguments);
 BENCHMARK(sort)->Apply(arguments);
 BENCHMARK(merge)->Apply(arguments);

@@ -32,7 +32,7 @@ struct CullTest : testing::Test, BoxScene {
         const auto* look = material();
         Random random(count + 1);
         for (uint32_t i = 0; i < count; ++i) {
-            double4x4 world(random.next() % 16 ? random.within(-2, 2) : 0.0);
+            double4x4 world(random.next() % 16 ? random.within(-2, 2) * (random.next() % 4 ? 1 : 0.02) : 0.0);
             world[3] = double4(random.within(-15, 15), random.within(-15, 15), random.within(-30, 15), 1);
             scene::RenderableInput input = box(world, look, 1 + random.next() % 7);
             input.culled = random.next() % 8 != 0;
@@ -45,13 +45,18 @@ struct CullTest : testing::Test, BoxScene {
         }
     }
 
+    bool isTooSmall(uint32_t i) const {
+        const float3 center(renderables().bounds.centerAt(i) - space.cameraWorld);
+        return space.pixels.missesAll(center, renderables().bounds.halfExtentAt(i));
+    }
+
     bool isVisible(uint32_t i) const {
         const uint8_t flags = renderables().flags[i];
         if (flags & (scene::kNeverDrawn | scene::kCollapsed)) return false;
         if ((renderables().layers[i] & space.visibleLayers) == 0) return false;
-        return !(flags & scene::kCulled) ||
-               intersects(space.frustum, float3(renderables().bounds.centerAt(i) - space.cameraWorld),
-                          renderables().bounds.halfExtentAt(i));
+        if (!(flags & scene::kCulled)) return true;
+        const float3 center(renderables().bounds.centerAt(i) - space.cameraWorld);
+        return intersects(space.frustum, center, renderables().bounds.halfExtentAt(i)) && !isTooSmall(i);
     }
 
     void expectWhatOneByOneSees(VisibleItems const& visible) {
@@ -78,7 +83,7 @@ struct CullTest : testing::Test, BoxScene {
         EXPECT_EQ(counts.visible, expected.size());
         EXPECT_EQ(counts.nothingToDraw, nothing);
         EXPECT_EQ(counts.inOtherLayers, elsewhere);
-        EXPECT_EQ(counts.outOfView, renderables().count() - counts.visible - nothing - elsewhere);
+        EXPECT_EQ(counts.outOfView + counts.tooSmall, renderables().count() - counts.visible - nothing - elsewhere);
     }
 };
 
@@ -89,6 +94,29 @@ INSTANTIATE_TEST_SUITE_P(Renderables, CullCountTest,
 TEST_P(CullCountTest, SeesExactlyWhatTheScalarTestSeesForAnyNumberOfWorkers) {
     addMixture(GetParam());
     for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
+    EXPECT_TRUE(GetParam() < 1000 || counts.tooSmall > 10) << counts.tooSmall;
+}
+
+TEST_F(CullTest, OnlyTrianglesThatStayInTheirBoxAreTooSmall) {
+    const auto place = [](double x) {
+        double4x4 world(0.001);
+        world[3] = double4(x, 0, 0, 1);
+        return world;
+    };
+    auto* moving = material();
+    materials.back().package.depthReadsParameters = true; // a vertex block, say
+    auto* ofCamera = material();
+    materials.back().package.vertexDomain = shader::VertexDomain::View;
+    scene::RenderableInput lines = box(place(0.1), material(), 1), kept = box(place(0.1), material(), 1);
+    lines.geometry.isOfTriangles = false;
+    kept.culled = false;
+    add(place(0.1), moving), add(place(0.1), ofCamera), addRenderable(scene, lines), addRenderable(scene, kept);
+    EXPECT_EQ(cull().count(), 4u);
+    add(place(0.1), material());
+    EXPECT_EQ(cull().count(), 4u);
+    EXPECT_EQ(counts.tooSmall, 1u);
+    space.pixels = {};
+    EXPECT_EQ(cull().count(), 5u);
 }
 
 TEST_P(CullCountTest, SeesExactlyTheLayersOfTheView) {
