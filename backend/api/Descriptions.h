@@ -194,7 +194,7 @@ struct SubpassDesc {
 /// What a pipeline must know about the pass it draws in. Equal layouts are compatible.
 ///   Rules   samples > 1 excludes subpassCount > 1; resolveMask needs samples > 1.
 struct PassLayout {
-    std::array<Format, kMaxColorAttachments> colorFormats{};
+    std::array<Format, kMaxColorAttachments> colorFormats{}; ///< attachmentFormat() of the textures
     Format depthFormat = Format::None;
     uint8_t colorCount = 0;
     uint8_t samples = 1;
@@ -218,7 +218,8 @@ struct Attachment {
     TextureHandle resolve;        ///< single-sampled target, level 0 layer 0; the stencil of one is undefined then
 };
 
-/// Attachment i of `colors` has layout.colorFormats[i]. All have the size of `area` or are larger.
+/// Attachment i of `colors` is stored as layout.colorFormats[i]: attachmentFormat(). All have the size of `area` or are
+/// larger.
 struct PassDesc {
     PassLayout layout{};
     std::array<Attachment, kMaxColorAttachments> colors{};

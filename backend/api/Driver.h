@@ -51,6 +51,7 @@ struct DeviceFeatures {
     bool textureViews = false;       ///< bind groups may show a part of a texture (BindGroupEntry::range)
     bool cubeArrays = false;         ///< TextureType::CubeArray
     bool sharedMemory = false;       ///< DeviceTextureDesc::placedOn
+    bool srgbAttachments = false;    ///< passes can store the bytes of an sRGB format (attachmentFormat())
     bool halfFloatShaders = false; ///< 16-bit floats in fragment shaders: float16_t in SPIR-V; ESSL has mediump always
 };
 

@@ -32,8 +32,11 @@ inline bool isCompressed(Format format) { return formatInfo(format).blockSize > 
 inline bool hasDepth(Format format) { return formatInfo(format).kind >= FormatKind::Depth; }
 inline bool hasStencil(Format format) { return formatInfo(format).kind == FormatKind::DepthStencil; }
 
-/// Whether commands other than uploads may write it: passes, blits, mip generation. A driver would have to encode sRGB
-/// then, and its bits differ between processors (docs/conformance.md, "How far the promise reaches").
+/// What passes store in a colour attachment: of sRGB the bytes themselves, as of the format without it. Shaders encode,
+/// because a driver's encoding has other bits on other processors (docs/conformance.md, "How far the promise reaches").
+inline Format attachmentFormat(Format format) { return format == Format::RGBA8Srgb ? Format::RGBA8 : format; }
+
+/// Whether blits and mip generation may write it: they filter what is decoded, so a driver would have to encode.
 inline bool isWritable(Format format) { return formatInfo(format).isRenderable && !formatInfo(format).isSrgb; }
 
 /// Bytes of one tightly packed image of width x height texels (partial blocks count whole).

@@ -197,6 +197,10 @@ void ContextState::setBlend(uint32_t attachment, BlendState const& wanted) {
     known = wanted;
 }
 
+void ContextState::convertSrgb(bool wanted) {
+    if (mQuirks.srgbWriteControl) enable(GL_FRAMEBUFFER_SRGB_EXT, wanted, mSrgb);
+}
+
 void ContextState::allowClears(uint32_t colorCount) {
     const uint32_t masks = mQuirks.indexedBlend ? colorCount : 1;
     for (uint32_t i = 0; i < masks; ++i) setColorMask(i, 0xF);

@@ -34,6 +34,8 @@ public:
     void setRaster(RasterState const& raster);
     void setDepthStencil(DepthStencilState const& wanted, uint8_t frontReference, uint8_t backReference);
     void setBlend(uint32_t attachment, BlendState const& wanted);
+    /// Whether attachments of sRGB formats are encoded when written and decoded when blitted; else their bytes are.
+    void convertSrgb(bool wanted);
     /// Write masks for clears: everything is written.
     void allowClears(uint32_t colorCount);
     /// The value of an attribute without an array, (0, 0, 0, 1), in the type that the shader declares.
@@ -87,7 +89,7 @@ private:
     std::array<BlendState, kMaxColorAttachments> mBlend{};
 
     bool mScissorTest = false, mCull = false, mDepthTest = false, mDepthWrite = true, mStencilTest = false;
-    bool mPolygonOffset = false, mDepthClamp = false, mAlphaToCoverage = false;
+    bool mPolygonOffset = false, mDepthClamp = false, mAlphaToCoverage = false, mSrgb = true;
 };
 
 } // namespace filament::backend::gles

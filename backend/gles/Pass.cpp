@@ -57,6 +57,7 @@ bool Pass::add(FramebufferKey& key, Attachment const& attachment, bool isDepth) 
     if (isDepth) {
         key.setDepth(*texture, attachment.level, attachment.layer);
     } else {
+        if (formatInfo(texture->desc.format).isSrgb) mDevice.state.convertSrgb(false); // see attachmentFormat()
         key.addColor(*texture, attachment.level, attachment.layer);
     }
     mCoversAll = mCoversAll && std::max(texture->desc.width >> attachment.level, 1u) == mDesc.area.width &&

@@ -79,6 +79,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
     quirks.cubeArrays = es32 || hasAny(names, { "GL_EXT_texture_cube_map_array", "GL_OES_texture_cube_map_array" });
+    quirks.srgbWriteControl = names.contains("GL_EXT_sRGB_write_control");
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
     quirks.anisotropy = names.contains("GL_EXT_texture_filter_anisotropic");
     quirks.debugMessages = gl.DebugMessageCallback && gl.ObjectLabel && gl.PushDebugGroup && gl.PopDebugGroup &&
@@ -124,6 +125,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .depthResolve = true,       // ES 3.1 samples multisampled depth
         .textureViews = quirks.textureViews,
         .cubeArrays = quirks.cubeArrays,
+        .srgbAttachments = quirks.srgbWriteControl,
         .halfFloatShaders = true,
     };
     return info;

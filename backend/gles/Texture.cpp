@@ -70,7 +70,15 @@ void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
     Texture texture{ .target = glTextureTarget(desc), .desc = desc };
     texture.desc.debugName = {};
     const bool offered = !isCompressed(desc.format) || mDevice.quirks.blockCompression;
-    if (!offered) {
+    const bool isEncoded =
+            has(desc.usage, TextureUsage::ColorAttachment) && attachmentFormat(desc.format) != desc.format;
+    if (isEncoded && !mDevice.quirks.srgbWriteControl) {
+        mDevice.error(
+                DriverErrorKind::Other,
+                "texture '{}': this device encodes what passes write to {}, so that it is no attachment; draw to {}, "
+                "or see DeviceFeatures::srgbAttachments",
+                desc.debugName, formatInfo(desc.format).name, formatInfo(attachmentFormat(desc.format)).name);
+    } else if (!offered) {
         mDevice.error(DriverErrorKind::Other,
                       "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
                       formatInfo(desc.format).name);

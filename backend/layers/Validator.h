@@ -169,7 +169,7 @@ private:
     void checkColorAttachment(PassDesc const& desc, uint32_t index);
     void checkDepthAttachment(PassDesc const& desc);
     TextureModel const* checkAttachment(Attachment const& attachment, std::string_view role, Rect const& area);
-    void checkResolve(PassDesc const& desc, uint32_t index);
+    void checkResolve(PassDesc const& desc, uint32_t index, Format format);
     void checkDepthResolve(PassDesc const& desc);
     void checkAttachedOnce(PassDesc const& desc);
 

@@ -119,7 +119,10 @@ void Validator::checkTextureUsage(DeviceTextureDesc const& desc) {
     require(has(desc.usage, kAttachmentUsage | kOutlivingUsage), Harm::Crash, "the usage is empty; say what it is for");
     require(!has(desc.usage, kAttachmentUsage) || format.isRenderable, Harm::Crash,
             "format {} cannot be an attachment; drop the attachment usage or choose a renderable format", format.name);
-    if (has(desc.usage, TextureUsage::ColorAttachment)) checkWrite(desc.format, "a colour attachment");
+    require(!has(desc.usage, TextureUsage::ColorAttachment) || !format.isSrgb || mInfo.features.srgbAttachments,
+            Harm::Crash,
+            "format {} as a colour attachment needs DeviceFeatures::srgbAttachments, which this device lacks",
+            format.name);
     require(!has(desc.usage, TextureUsage::ColorAttachment) || !hasDepth(desc.format), Harm::Crash,
             "depth format {} cannot be a colour attachment", format.name);
     require(!has(desc.usage, TextureUsage::DepthAttachment) || hasDepth(desc.format), Harm::Crash,

@@ -26,7 +26,10 @@ void Validator::checkPassLayout(PassLayout const& layout) {
         FormatInfo const& format = formatInfo(layout.colorFormats[i]);
         require(layout.colorFormats[i] != Format::None && format.isRenderable && !hasDepth(layout.colorFormats[i]),
                 Harm::Crash, "colour {} has format {}, which is no renderable colour format", i, format.name);
-        checkWrite(layout.colorFormats[i], fmt::format("a pass with colour {}", i));
+        const Format stored = attachmentFormat(layout.colorFormats[i]);
+        require(layout.colorFormats[i] == stored, Harm::Crash,
+                "colour {} has format {}; passes store its bytes: say attachmentFormat(), which is {}", i, format.name,
+                formatInfo(stored).name);
     }
     require(layout.depthFormat == Format::None || hasDepth(layout.depthFormat), Harm::Crash,
             "depth has colour format {}", formatInfo(layout.depthFormat).name);
@@ -103,8 +106,9 @@ void Validator::checkColorAttachment(PassDesc const& desc, uint32_t index) {
     TextureModel const* texture = checkAttachment(desc.colors[index], role, desc.area);
     if (!texture) return;
     const Format expected = desc.layout.colorFormats[index];
-    require(texture->desc.format == expected, Harm::Crash, "{} '{}' has format {}, the layout says {}", role,
-            texture->name, formatInfo(texture->desc.format).name, formatInfo(expected).name);
+    require(attachmentFormat(texture->desc.format) == expected, Harm::Crash,
+            "{} '{}' has format {}, the layout says {}", role, texture->name, formatInfo(texture->desc.format).name,
+            formatInfo(expected).name);
     require(texture->desc.samples == desc.layout.samples, Harm::Crash, "{} '{}' has {} samples, the layout says {}",
             role, texture->name, texture->desc.samples, desc.layout.samples);
     require(has(texture->desc.usage, TextureUsage::ColorAttachment), Harm::Crash,
@@ -115,10 +119,10 @@ void Validator::checkColorAttachment(PassDesc const& desc, uint32_t index) {
     }
     require((inputs >> index & 1) == 0 || has(texture->desc.usage, TextureUsage::InputAttachment), Harm::Crash,
             "{} '{}' is read by a subpass and lacks TextureUsage::InputAttachment", role, texture->name);
-    checkResolve(desc, index);
+    checkResolve(desc, index, texture->desc.format);
 }
 
-void Validator::checkResolve(PassDesc const& desc, uint32_t index) {
+void Validator::checkResolve(PassDesc const& desc, uint32_t index, Format format) {
     const TextureHandle resolve = desc.colors[index].resolve;
     if ((desc.layout.resolveMask >> index & 1) == 0) {
         require(!resolve, Harm::WrongResult, "colour {} has a resolve target, but resolveMask does not name it", index);
@@ -128,9 +132,8 @@ void Validator::checkResolve(PassDesc const& desc, uint32_t index) {
     if (!texture) return;
     require(texture->desc.samples == 1, Harm::Crash, "resolve target '{}' has {} samples", texture->name,
             texture->desc.samples);
-    require(texture->desc.format == desc.layout.colorFormats[index], Harm::Crash,
-            "resolve target '{}' has format {}, colour {} has {}", texture->name, formatInfo(texture->desc.format).name,
-            index, formatInfo(desc.layout.colorFormats[index]).name);
+    require(texture->desc.format == format, Harm::Crash, "resolve target '{}' has format {}, colour {} has {}",
+            texture->name, formatInfo(texture->desc.format).name, index, formatInfo(format).name);
     require(has(texture->desc.usage, TextureUsage::ColorAttachment), Harm::Crash,
             "resolve target '{}' lacks TextureUsage::ColorAttachment", texture->name);
     require(covers(texture->desc, 0, desc.area), Harm::Crash, "resolve target '{}' is smaller than the area",

@@ -44,6 +44,7 @@ DeviceInfo describeNullDevice() {
                       .textureViews = true,
                       .cubeArrays = true,
                       .sharedMemory = true,
+                      .srgbAttachments = true,
                       .halfFloatShaders = true };
     return info;
 }

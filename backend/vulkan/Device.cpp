@@ -36,6 +36,7 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
         features.pNext = &provoking;
     }
     if (physical.creationFeedback) extensions.push_back(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
+    if (physical.imageFormatList) extensions.push_back(VK_KHR_IMAGE_FORMAT_LIST_EXTENSION_NAME);
     if (physical.depthResolve) {
         extensions.push_back(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME);
         extensions.push_back(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);

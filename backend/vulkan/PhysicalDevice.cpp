@@ -83,6 +83,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     auto lines = make<VkPhysicalDeviceLineRasterizationFeaturesEXT>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    device.imageFormatList = extensions.has(VK_KHR_IMAGE_FORMAT_LIST_EXTENSION_NAME);
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
     device.depthResolve = extensions.has(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME) &&
                           extensions.has(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
@@ -111,6 +112,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.sharedMemory = true; // and images that alias
     info.features.cubeArrays = features.features.imageCubeArray;
     info.features.blockCompression = features.features.textureCompressionBC;
+    info.features.srgbAttachments = true; // views of another format are core, too
     info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.lastVertexProvokes = device.provokingVertexLast;
     info.features.depthClamp = features.features.depthClamp;

@@ -30,6 +30,7 @@ struct PhysicalDevice {
     bool provokingVertexLast = false;
     bool halfFloatShaders = false;
     bool depthResolve = false;
+    bool imageFormatList = false;       ///< images may say which formats their views have
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
     Quirks quirks;

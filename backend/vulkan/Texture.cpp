@@ -25,9 +25,15 @@ VkImageUsageFlags usageFlags(TextureUsage usage) {
     return flags;
 }
 
+/// Passes see the stored bytes, samplers decode them.
+bool hasTwoFormats(DeviceTextureDesc const& desc) {
+    return has(desc.usage, TextureUsage::ColorAttachment) && attachmentFormat(desc.format) != desc.format;
+}
+
 VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = isCube(desc.type) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
+    if (hasTwoFormats(desc)) info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = native(desc.format);
     info.extent = { desc.width, desc.height, 1 };
@@ -102,8 +108,7 @@ Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDe
     std::unique_ptr<Texture> texture(new Texture(device, desc));
     VkResult result = texture->createImage(desc, host);
     if (result == VK_SUCCESS && has(desc.usage, TextureUsage::Sampled)) {
-        result = texture->createView(viewType(desc.type), copyAspectOf(desc.format), texture->uses.all(),
-                                     texture->mSampledView);
+        result = texture->createView(texture->sampledKind(), texture->uses.all(), texture->mSampledView);
     }
     if (result != VK_SUCCESS) return errorFromResult(result, describe(desc));
     return texture;
@@ -111,7 +116,11 @@ Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDe
 
 VkResult Texture::createImage(DeviceTextureDesc const& desc, Texture const* host) {
     VolkDeviceTable const& fn = mDevice.fn();
-    const VkImageCreateInfo info = imageInfo(desc);
+    VkImageCreateInfo info = imageInfo(desc);
+    const std::array formats{ native(desc.format), native(attachmentFormat(desc.format)) };
+    auto list = make<VkImageFormatListCreateInfoKHR>(VK_STRUCTURE_TYPE_IMAGE_FORMAT_LIST_CREATE_INFO_KHR);
+    list.viewFormatCount = formats.size(), list.pViewFormats = formats.data();
+    if (hasTwoFormats(desc) && mDevice.physical().imageFormatList) info.pNext = &list;
     const VkResult created = fn.vkCreateImage(mDevice.handle(), &info, nullptr, &mImage);
     if (created != VK_SUCCESS) return created;
     mDevice.setName(VK_OBJECT_TYPE_IMAGE, mImage, mName);
@@ -138,37 +147,38 @@ VkResult Texture::allocate(VkMemoryRequirements const& needs, bool isTransient) 
     return VK_SUCCESS;
 }
 
-VkResult Texture::createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
-                             VkImageView& view) {
+VkResult Texture::createView(ViewKind const& kind, SubresourceRange const& range, VkImageView& view) {
     auto info = make<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     info.image = mImage;
-    info.viewType = type;
-    info.format = native(mFormat);
-    info.subresourceRange = { aspects, range.level, range.levelCount, range.layer, range.layerCount };
+    info.viewType = kind.type;
+    info.format = native(kind.format);
+    info.subresourceRange = { kind.aspects, range.level, range.levelCount, range.layer, range.layerCount };
     const VkResult result = mDevice.fn().vkCreateImageView(mDevice.handle(), &info, nullptr, &view);
     if (result == VK_SUCCESS) mDevice.setName(VK_OBJECT_TYPE_IMAGE_VIEW, view, mName);
     return result;
 }
 
-VkImageView Texture::partView(std::vector<PartView>& views, SubresourceRange const& range, VkImageViewType type,
-                              VkImageAspectFlags aspects) {
+VkImageView Texture::partView(std::vector<PartView>& views, SubresourceRange const& range, ViewKind const& kind) {
     const auto known = std::ranges::find(views, range, &PartView::range);
     if (known != views.end()) return known->view;
     PartView made{ range };
-    if (createView(type, aspects, range, made.view) != VK_SUCCESS) return VK_NULL_HANDLE;
+    if (createView(kind, range, made.view) != VK_SUCCESS) return VK_NULL_HANDLE;
     views.push_back(made);
     return made.view;
 }
+
+Texture::ViewKind Texture::sampledKind() const { return { viewType(mType), copyAspectOf(mFormat), mFormat }; }
 
 VkImageView Texture::sampledView(TextureRange const& range) {
     const TextureRange part = withCounts(range, static_cast<uint8_t>(mLevels), static_cast<uint16_t>(mLayers));
     const SubresourceRange wanted{ part.level, part.levelCount, part.layer, part.layerCount };
     if (!isSampled() || wanted == uses.all()) return mSampledView;
-    return partView(mSampledParts, wanted, viewType(mType), copyAspectOf(mFormat));
+    return partView(mSampledParts, wanted, sampledKind());
 }
 
 VkImageView Texture::attachmentView(uint32_t level, uint32_t layer) {
-    return partView(mAttachmentViews, { level, 1, layer, 1 }, VK_IMAGE_VIEW_TYPE_2D, mAspects);
+    const ViewKind kind{ VK_IMAGE_VIEW_TYPE_2D, mAspects, attachmentFormat(mFormat) };
+    return partView(mAttachmentViews, { level, 1, layer, 1 }, kind);
 }
 
 bool Texture::owns(VkImageView view) const {

@@ -43,7 +43,7 @@ public:
     /// What shaders sample; made on first use, but for the view of everything. Null without TextureUsage::Sampled, or
     /// if the device refuses.
     VkImageView sampledView(TextureRange const& range);
-    /// 2D view of one level and layer, made on first use; null if the device refuses.
+    /// 2D view of one level and layer in its attachmentFormat(), made on first use; null if the device refuses.
     VkImageView attachmentView(uint32_t level, uint32_t layer);
     bool owns(VkImageView view) const;
 
@@ -67,6 +67,11 @@ public:
     bool isUnsettled = false; ///< listed for a transition to Use::ShaderRead
 
 private:
+    struct ViewKind {
+        VkImageViewType type;
+        VkImageAspectFlags aspects;
+        Format format;
+    };
     struct PartView {
         SubresourceRange range;
         VkImageView view = VK_NULL_HANDLE;
@@ -75,10 +80,9 @@ private:
     Texture(Device& device, DeviceTextureDesc const& desc);
     VkResult createImage(DeviceTextureDesc const& desc, Texture const* host);
     VkResult allocate(VkMemoryRequirements const& needs, bool isTransient);
-    VkResult createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
-                        VkImageView& view);
-    VkImageView partView(std::vector<PartView>& views, SubresourceRange const& range, VkImageViewType type,
-                         VkImageAspectFlags aspects);
+    VkResult createView(ViewKind const& kind, SubresourceRange const& range, VkImageView& view);
+    VkImageView partView(std::vector<PartView>& views, SubresourceRange const& range, ViewKind const& kind);
+    ViewKind sampledKind() const;
 
     Device& mDevice;
     VkImage mImage = VK_NULL_HANDLE;

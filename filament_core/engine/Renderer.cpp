@@ -72,7 +72,8 @@ struct Target {
 
 FrameOutput outputOf(Target const& target) {
     engine::TextureState const& color = target.color;
-    FrameOutput output{ color.handle, color.desc.width, color.desc.height, color.desc.format, color.hasContents };
+    FrameOutput output{ color.handle, color.desc.width, color.desc.height, attachmentFormat(color.desc.format),
+                        color.hasContents };
     if (target.depth) output.depth = target.depth->handle, output.hasDepths = target.depth->hasContents;
     return output;
 }

@@ -39,9 +39,8 @@ backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
                     "an array of cubes has six square layers per cube");
     const uint32_t full = fullMipCount(desc.width, desc.height);
     FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
-    FILAMENT_ASSERT(!desc.renderable || isWritable(desc.format),
-                    "a renderable texture, or a swap chain, has a format that passes can write, not sRGB: RGBA8 gets "
-                    "the same encoded colours");
+    FILAMENT_ASSERT(!desc.renderable || formatInfo(desc.format).isRenderable,
+                    "a renderable texture, or a swap chain, has a format that passes can write");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
     return { .type = textureType(desc.kind),
@@ -174,6 +173,8 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
 
 SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
     FILAMENT_ASSERT(desc.size.x > 0 && desc.size.y > 0, "a swap chain has at least one pixel");
+    FILAMENT_ASSERT(!formatInfo(desc.format).isSrgb,
+                    "a swap chain of sRGB codes has format RGBA8: nothing samples it, so nothing decodes them");
     FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
     engine::Draft draft(swapChains);
     engine::SwapChainState& state = draft.state();
@@ -256,9 +257,11 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
                  RenderTargetDesc const& desc) {
     FILAMENT_ASSERT(desc.color, "a render target has a colour");
     DeviceTextureDesc const& color = textures.get(desc.color).desc;
-    const bool isShown = color.format == Format::RGBA8 || color.format == Format::RGB10A2;
+    const bool isShown = attachmentFormat(color.format) == Format::RGBA8 || color.format == Format::RGB10A2;
     FILAMENT_ASSERT(isPicture(color) && (isShown || color.format == Format::RGBA16F),
-                    "the colour of a render target is a renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
+                    "the colour of a render target is a renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
+    FILAMENT_ASSERT(!desc.generateMips || isWritable(color.format),
+                    "the colour of a render target that generates mips is not RGBA8Srgb: the device would encode them");
     FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
                     "the colour of a render target that generates mips has several levels");
     if (!desc.depth) return;

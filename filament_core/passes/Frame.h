@@ -13,7 +13,7 @@
 
 namespace filament::passes {
 
-/// The destination of the picture: a texture of the engine, one sample per pixel.
+/// The destination of the picture: a texture of the engine, one sample per pixel. `format`: its attachmentFormat().
 struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;

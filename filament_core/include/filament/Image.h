@@ -19,7 +19,7 @@ namespace filament {
 
 struct Image {
     uint32_t width = 0, height = 0;
-    Format format = Format::RGBA8; ///< Renderer returns RGBA8 or RGB10A2 (display) or RGBA16F (scene-linear)
+    Format format = Format::RGBA8; ///< Renderer returns RGBA8, RGBA8Srgb, RGB10A2 (display) or RGBA16F (scene-linear)
     std::vector<std::byte> pixels{};
 };
 

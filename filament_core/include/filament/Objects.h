@@ -74,7 +74,7 @@ struct TextureDesc {
     uint32_t levels = 1;            ///< mip levels given in `pixels`
     bool generateMips = false;      ///< compute levels 1.. from level 0, on the device or, for RGBA8Srgb, before the
                                     ///< upload; `pixels` then has level 0 only
-    bool renderable = false;        ///< can be the colour of a RenderTarget; not with an sRGB format
+    bool renderable = false;        ///< can be the colour of a RenderTarget
     std::span<const std::byte> pixels{};
     std::string name{};
 };
@@ -237,11 +237,14 @@ struct LightProfileDescription {
 /// What a view is drawn to. Materials may sample its textures in every render() but those that draw to it.
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
-    Texture color{}; ///< renderable 2D RGBA8, RGB10A2, or RGBA16F (then scene-linear, without tone mapping)
+    /// Renderable 2D RGBA8, RGBA8Srgb, RGB10A2, or RGBA16F (then scene-linear, without tone mapping). Of RGBA8Srgb the
+    /// texels are those of RGBA8, and samplers decode them. OpenGL ES needs EXT_sRGB_write_control for it: without, the
+    /// texture is not created, and takeErrors() says so.
+    Texture color{};
     /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where nothing
     /// is. What blends leaves none. None: nobody asks.
     Texture depth{};
-    bool generateMips = false; ///< after every view: levels 1.. of `color`, which has several
+    bool generateMips = false; ///< after every view: levels 1.. of `color`, which has several; not of RGBA8Srgb
     std::string name{};
 };
 
@@ -249,7 +252,8 @@ struct RenderTargetDesc {
 struct SwapChainDesc {
     uint2 size{ 1280, 720 };       ///< pixels, >= 1
     uint32_t imageCount = 2;       ///< [1, 4]
-    Format format = Format::RGBA8; ///< RGBA8, RGB10A2 (display) or RGBA16F (scene-linear, without tone mapping)
+    Format format = Format::RGBA8; ///< RGBA8, RGB10A2 (display) or RGBA16F (scene-linear, without tone mapping); no
+                                   ///< RGBA8Srgb: its codes are those of RGBA8
     std::string name{};
 };
 

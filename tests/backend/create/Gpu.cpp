@@ -333,7 +333,7 @@ std::vector<Bytes> Gpu::finish() {
 PassDesc passOver(std::initializer_list<std::pair<TextureHandle, Format>> colors, uint32_t width, uint32_t height) {
     PassDesc desc;
     for (auto const& [texture, format] : colors) {
-        desc.layout.colorFormats[desc.layout.colorCount] = format;
+        desc.layout.colorFormats[desc.layout.colorCount] = attachmentFormat(format);
         desc.colors[desc.layout.colorCount++].texture = texture;
     }
     desc.area = { 0, 0, width, height };

@@ -160,7 +160,7 @@ private:
     ProgramHandle mDestroyedEarly;
 };
 
-/// Formats of a pass over these textures, all cleared to 0 and stored.
+/// A pass over these textures of these formats, all cleared to 0 and stored.
 PassDesc passOver(std::initializer_list<std::pair<TextureHandle, Format>> colors, uint32_t width, uint32_t height);
 /// No culling, no depth, triangles without vertex buffers.
 PipelineDesc pipelineFor(Program const& program, PassLayout const& pass);

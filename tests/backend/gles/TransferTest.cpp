@@ -200,6 +200,29 @@ TEST_F(GlesTest, ADeviceWithoutBlockCompressionRefusesItByName) {
     expectError(DriverErrorKind::Other, "BC7");
 }
 
+TEST_F(GlesTest, ADeviceThatAlwaysEncodesHasNoSrgbAttachmentsAndSaysSo) {
+    const DeviceTextureDesc sampled = copyable(Format::RGBA8Srgb, 2, 1);
+    DeviceTextureDesc drawn = sampled;
+    drawn.usage = drawn.usage | TextureUsage::ColorAttachment;
+    drawn.debugName = "mirror";
+    EXPECT_TRUE(driver->info().features.srgbAttachments);
+    texture(drawn);
+    run();
+    EXPECT_TRUE(sink.errors.empty());
+    start([](Quirks& quirks) { quirks.srgbWriteControl = false; });
+    EXPECT_FALSE(driver->info().features.srgbAttachments);
+    texture(drawn);
+    run();
+    expectError(DriverErrorKind::Other, "texture 'mirror': this device encodes what passes write to RGBA8Srgb");
+    const std::vector<Rgba> codes{ { 1, 2, 3, 4 }, { 200, 100, 50, 25 } };
+    const TextureHandle image = texture(sampled), light = texture(copyable(Format::RGBA32F, 2, 1));
+    commands.record(CmdUploadTexture{ .texture = image, .rect = { 0, 0, 2, 1 }, .bytes = bytesOf(codes) });
+    commands.record(
+            CmdBlit{ .source = image, .target = light, .sourceRect = { 0, 0, 2, 1 }, .targetRect = { 0, 0, 2, 1 } });
+    EXPECT_EQ(read<Rgba>(image, { 0, 0, 2, 1 }), codes);
+    EXPECT_NEAR(read<float>(light, { 0, 0, 2, 1 }).at(4), 0.5776f, 2e-3f) << "still decoded by blits";
+}
+
 // ---------------------------------------------------------------------------------------------- repack
 
 // IEEE 754 binary16, from its definition: (-1)^s 2^(e-15) (1 + m / 1024), denormal below e = 1.

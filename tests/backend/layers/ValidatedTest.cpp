@@ -90,6 +90,26 @@ TEST_F(Validated, IsSilentAboutSrgbThatIsUploadedBlittedFromAndReadBack) {
     EXPECT_THAT(mErrors.messages, IsEmpty());
 }
 
+TEST_F(Validated, IsSilentAboutSrgbWhoseBytesAPassStores) {
+    execute(recordObjects);
+    execute([](CommandBuffer& to) {
+        const TextureHandle srgb = TextureHandle::make(20, 1), samples = TextureHandle::make(21, 1);
+        using enum TextureUsage;
+        to.record(CmdCreateTexture{ srgb, { .format = Format::RGBA8Srgb, .usage = ColorAttachment | Sampled } });
+        to.record(CmdCreateTexture{ samples, { .format = Format::RGBA8Srgb, .usage = ColorAttachment, .samples = 4 } });
+        PassDesc desc{ .area = { 0, 0, 1, 1 }, .debugName = "codes" };
+        desc.layout = { .colorFormats = { attachmentFormat(Format::RGBA8Srgb) }, .colorCount = 1 };
+        desc.colors[0].texture = srgb;
+        to.record(CmdBeginPass{ desc });
+        to.record(CmdEndPass{});
+        desc.layout.samples = 4, desc.layout.resolveMask = 1;
+        desc.colors[0].texture = samples, desc.colors[0].resolve = srgb;
+        to.record(CmdBeginPass{ desc });
+        to.record(CmdEndPass{});
+    });
+    EXPECT_THAT(mErrors.messages, IsEmpty());
+}
+
 TEST_F(Validated, IsSilentAboutTexturesOfSeveralSamplesThatAreSampledAsSuch) {
     execute(recordObjects);
     execute([](CommandBuffer& to) { recordMultisampledGroup(to, [](BindGroupLayout&) {}); });
@@ -211,22 +231,9 @@ void makeSrgb(DeviceTextureDesc& desc) {
 
 std::vector<Case> objectCases() {
     return {
-        { "SrgbAttachment",
-          [](C& to) {
-              to.record(textureWith(
-                      [](auto& d) { d.format = Format::RGBA8Srgb, d.usage = TextureUsage::ColorAttachment; }));
-          },
-          "a colour attachment would let the driver encode RGBA8Srgb" },
-        { "MultisampledSrgbAttachment",
-          [](C& to) {
-              to.record(textureWith([](auto& d) {
-                  d.format = Format::RGBA8Srgb, d.usage = TextureUsage::ColorAttachment, d.samples = 4;
-              }));
-          },
-          "a colour attachment would let the driver encode RGBA8Srgb" },
         { "PipelineOfAnSrgbPass",
           [](C& to) { recordPipelineWith(to, [](auto& d) { d.pass.colorFormats[0] = Format::RGBA8Srgb; }); },
-          "a pass with colour 0 would let the driver encode RGBA8Srgb" },
+          "colour 0 has format RGBA8Srgb; passes store its bytes: say attachmentFormat(), which is RGBA8" },
         { "NoneHandle",
           [](C& to) {
               to.record(CmdCreateBuffer{ {}, { .size = 4 } });
@@ -531,7 +538,7 @@ std::vector<Case> passCases() {
           "has format RGBA8, the layout says RGBA16F" },
         { "AttachmentOfSrgb",
           [](C& to) { recordPassWith(to, [](auto& d) { d.layout.colorFormats[0] = Format::RGBA8Srgb; }); },
-          "a pass with colour 0 would let the driver encode RGBA8Srgb" },
+          "colour 0 has format RGBA8Srgb; passes store its bytes: say attachmentFormat(), which is RGBA8" },
         { "AttachmentOfOtherSampleCount",
           [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = kSamples4; }); },
           "has 4 samples, the layout says 1" },
@@ -547,6 +554,17 @@ std::vector<Case> passCases() {
         { "ResolveWithoutSamples",
           [](C& to) { recordPassWith(to, [](auto& d) { d.layout.resolveMask = 1, d.colors[0].resolve = kColor; }); },
           "a resolve needs samples > 1" },
+        { "ResolveOfNumbersToCodes",
+          [](C& to) {
+              to.record(textureWith(
+                      [](auto& d) { d.format = Format::RGBA8Srgb, d.usage = TextureUsage::ColorAttachment; }));
+              recordPassWith(to, [](auto& d) {
+                  d.layout.depthFormat = Format::None, d.layout.samples = 4, d.layout.resolveMask = 1;
+                  d.colors[0].texture = kSamples4, d.colors[0].resolve = TextureHandle::make(20, 1);
+                  d.area = { 0, 0, 8, 8 };
+              });
+          },
+          "has format RGBA8Srgb, colour 0 has RGBA8" },
         { "ResolveNotInMask", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].resolve = kColor; }); },
           "resolveMask does not name it", Outcome::Forwarded },
         { "DepthResolveNotInTheLayout", [](C& to) { recordPassWith(to, [](auto& d) { d.depth.resolve = kDepth; }); },

@@ -12,6 +12,7 @@ namespace {
 using prepare::Random;
 
 constexpr uint32_t kFilmSide = 32;
+constexpr float kDecoding = 2e-3f; ///< samplers decode sRGB by a polynomial (tests/backend/create/TextureTest.cpp)
 
 constexpr const char* kScreen = R"(material { name : screen, shadingModel : unlit, requires : [ uv0 ], flipUV : false,
     parameters : [ { type : sampler2d, name : picture, precision : high }, { type : float, name : level } ] }
@@ -66,6 +67,11 @@ struct TargetStage {
     Owned<RenderTarget> target(RenderTargetDesc const& desc) { return engine.own(engine.create(desc)); }
     void show(Texture film) { EXPECT_TRUE(engine.set(screen, "picture", film, kUnfilteredSampler)); }
     Image room16() { return test::renderLinear(engine, room, shown); }
+    Image pixelsOf(RenderTarget film) {
+        auto image = camera.waitPixels(camera.readPixels(film));
+        EXPECT_TRUE(image);
+        return image ? std::move(*image) : Image{};
+    }
 };
 
 struct RenderTargetsTest : testing::TestWithParam<Backend>, TargetStage {
@@ -102,10 +108,86 @@ TEST_P(RenderTargetsTest, EightBitColoursAreThoseOfAPicture) {
     }
 }
 
+/// Views of a target of kFilmSide that exercise what its last passes can be.
+std::vector<std::pair<const char*, View>> viewsOfEveryLastPass(View const& filmed) {
+    std::vector<std::pair<const char*, View>> views;
+    const auto add = [&](const char* name, auto const& change) {
+        views.emplace_back(name, filmed);
+        change(views.back().second);
+    };
+    add("plain", [](View&) {});
+    add("samples", [](View& view) { view.samples = 4; });
+    add("dither", [](View& view) { view.colorGrading.dither = true; });
+    add("fxaa", [](View& view) { view.quality.antiAliasing = AntiAliasing::Fxaa; });
+    add("enlarged", [](View& view) { view.effects.resolution.scale = float2(0.5f); });
+    add("bloom and grain", [](View& view) { view.effects.bloom.enabled = view.effects.grain.enabled = true; });
+    add("a part", [](View& view) {
+        view.size = { 15, 11 };
+        view.viewport = filament::Viewport{ .offset = { 9, 4 } };
+    });
+    add("a part of a cleared target", [](View& view) {
+        view.size = { 15, 11 };
+        view.viewport = filament::Viewport{ .offset = { 9, 4 },
+                                            .contents = TargetContents::Clear,
+                                            .clearColor = { 0.25f, 0.5f, 0.125f, 0.5f } };
+    });
+    add("translucent", [](View& view) {
+        view.clearColor = { 0.5f, 0.25f, 0, 0.5f };
+        view.viewport = filament::Viewport{ .blending = ViewBlending::Translucent };
+    });
+    return views;
+}
+
+TEST_P(RenderTargetsTest, AnSrgbPictureHasTheBytesOfAnRgba8One) {
+    const Owned<RenderTarget> plain = target({ .color = texture(Format::RGBA8) }),
+                              srgb = target({ .color = texture(Format::RGBA8Srgb), .depth = texture(Format::R32F) });
+    DebugDraw debug;
+    debug.screenText({ 2, 2 }, "over it", { .color = { 1, 0.5f, 0, 0.5f } });
+    std::vector<std::byte> before;
+    for (auto& [name, view] : viewsOfEveryLastPass(filmed)) {
+        for (const DebugDraw* drawn :
+             { static_cast<const DebugDraw*>(nullptr), static_cast<const DebugDraw*>(&debug) }) {
+            view.debugDraw = drawn;
+            camera.render(scene, view, plain);
+            camera.render(scene, view, srgb);
+            const Image expected = pixelsOf(plain), seen = pixelsOf(srgb);
+            EXPECT_EQ(seen.format, Format::RGBA8Srgb);
+            EXPECT_EQ(seen.pixels, expected.pixels) << name;
+            EXPECT_NE(seen.pixels, before) << name << ": each shows something else";
+            before = seen.pixels;
+        }
+        if (!view.viewport || view.viewport->contents != TargetContents::Clear) continue;
+        const float4 corner = test::bytePixel(pixelsOf(srgb), 31, 31) * 255.0f;
+        EXPECT_EQ(glm::round(corner), float4(64, 128, 32, 128)) << "the clear colour as it is, not encoded";
+    }
+}
+
+// The transfer function is applied once on the way in, by the tone mapper, and once on the way out, by the sampler.
+TEST_P(RenderTargetsTest, ASquareShowsTheLightOfAnSrgbPicture) {
+    const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8Srgb) }),
+                              again = target({ .color = texture(Format::RGBA8Srgb) });
+    filmed.colorGrading.toneMapper = shown.colorGrading.toneMapper = ToneMapper::Linear;
+    camera.render(scene, filmed, film);
+    show(engine.colorOf(film));
+    const Image seen = room16(), codes = pixelsOf(film), light = test::renderLinear(engine, scene, filmed);
+    renderer.render(room, shown, again);
+    const Image shownAgain = pixelsOf(again);
+    for (uint32_t y = 0; y < kFilmSide; ++y) {
+        for (uint32_t x = 0; x < kFilmSide; ++x) {
+            const float3 code(test::bytePixel(codes, x, y)), linear = color::linearFromSrgb(code);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(test::halfPixel(seen, x, y)[c], linear[c], kDecoding) << x << " " << y;
+                EXPECT_NEAR(test::halfPixel(light, x, y)[c], linear[c], 5e-3f) << "half a code, where it is steep";
+                EXPECT_NEAR(test::bytePixel(shownAgain, x, y)[c], code[c], 1.01f / 255) << x << " " << y;
+            }
+        }
+    }
+}
+
 // Display-referred and scene-linear targets side by side, each square a texel a pixel of a parallel lens: the top rows of
 // all are the top row of what shows them.
 TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDrawsThem) {
-    constexpr Format kFormats[] = { Format::RGBA8, Format::RGB10A2, Format::RGBA16F };
+    constexpr Format kFormats[] = { Format::RGBA8, Format::RGB10A2, Format::RGBA16F, Format::RGBA8Srgb };
     std::vector<Owned<RenderTarget>> films;
     std::vector<Owned<MaterialInstance>> screens;
     Scene wall(engine);
@@ -113,10 +195,10 @@ TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDraws
         films.push_back(target({ .color = texture(format) }));
         screens.push_back(engine.own(engine.createInstance(screenMaterial)));
         EXPECT_TRUE(engine.set(screens.back(), "picture", engine.colorOf(films.back()), Sampler{}));
-        square.add(wall, screens.back(), { 2.0 * static_cast<double>(films.size()) - 4, 0, 0 });
+        square.add(wall, screens.back(), { 2.0 * static_cast<double>(films.size()) - 5, 0, 0 });
     }
-    View composite{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, Lens::box(-3, 3, -1, 1)),
-                    .size = { 3 * kFilmSide, kFilmSide } };
+    View composite{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, Lens::box(-4, 4, -1, 1)),
+                    .size = { 4 * kFilmSide, kFilmSide } };
     for (Owned<RenderTarget> const& film : films) camera.render(scene, filmed, film);
     const Image seen = test::renderLinear(engine, renderer, wall, composite);
     const Image light = test::renderLinear(engine, scene, filmed);
@@ -126,7 +208,9 @@ TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDraws
     for (uint32_t y = 0; y < kFilmSide; ++y) {
         for (uint32_t x = 0; x < kFilmSide; ++x) {
             const float4 bytes = test::halfPixel(seen, x, y), ten = test::halfPixel(seen, kFilmSide + x, y);
+            const float3 decoded = color::linearFromSrgb(float3(test::bytePixel(*display, x, y)));
             for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(test::halfPixel(seen, 3 * kFilmSide + x, y)[c], decoded[c], kDecoding) << "decoded once";
                 EXPECT_NEAR(bytes[c], test::bytePixel(*display, x, y)[c], 5e-4f) << "codes as they are, encoded once";
                 EXPECT_NEAR(ten[c], bytes[c], 6e-3f) << "a code of eight bits";
             }
@@ -232,19 +316,22 @@ TEST_P(RenderTargetsTest, AFrameThatSamplesItsOwnTargetIsLeftOutAndSaysWhy) {
 }
 
 TEST(RenderTargets, BothApisShowTheSameBits) {
-    std::vector<std::byte> first;
-    for (const Backend backend : test::kBothApis) {
-        TargetStage stage(backend);
-        const Owned<RenderTarget> film =
-                stage.target({ .color = stage.texture(Format::RGBA8, 6), .generateMips = true });
-        EXPECT_TRUE(stage.engine.set(stage.screen, "picture", stage.engine.colorOf(film),
-                                     Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear, WrapMode::ClampToEdge,
-                                              WrapMode::ClampToEdge }));
-        EXPECT_TRUE(stage.engine.set(stage.screen, "level", 1.5f));
-        stage.camera.render(stage.scene, stage.filmed, film);
-        const Image seen = stage.room16();
-        if (first.empty()) first = seen.pixels;
-        EXPECT_EQ(seen.pixels, first);
+    for (const bool isSrgb : { false, true }) {
+        std::vector<std::byte> first, firstCodes;
+        for (const Backend backend : test::kBothApis) {
+            TargetStage stage(backend);
+            const Texture color = isSrgb ? stage.texture(Format::RGBA8Srgb) : stage.texture(Format::RGBA8, 6);
+            const Owned<RenderTarget> film = stage.target({ .color = color, .generateMips = !isSrgb });
+            EXPECT_TRUE(stage.engine.set(stage.screen, "picture", stage.engine.colorOf(film),
+                                         Sampler{ Filter::Linear, Filter::Linear, MipFilter::Linear,
+                                                  WrapMode::ClampToEdge, WrapMode::ClampToEdge }));
+            EXPECT_TRUE(stage.engine.set(stage.screen, "level", 1.5f));
+            stage.camera.render(stage.scene, stage.filmed, film);
+            const Image seen = stage.room16(), codes = stage.pixelsOf(film);
+            if (first.empty()) first = seen.pixels, firstCodes = codes.pixels;
+            EXPECT_EQ(seen.pixels, first);
+            EXPECT_EQ(codes.pixels, firstCodes);
+        }
     }
 }
 
@@ -257,12 +344,16 @@ TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
     const Owned<Texture> plain = engine.own(engine.create(TextureDesc{ .width = kFilmSide, .height = kFilmSide }));
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{}), "a render target has a colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = plain }),
-                 "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
+                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = depth }),
-                 "renderable 2D texture of RGBA8, RGB10A2 or RGBA16F");
+                 "renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = color }), "texture of R32F");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .depth = small }), "as large as its colour");
     EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = color, .generateMips = true }), "has several levels");
+    const Texture srgb = stage.texture(Format::RGBA8Srgb, 6);
+    EXPECT_DEATH((void)engine.create(RenderTargetDesc{ .color = srgb, .generateMips = true }), "is not RGBA8Srgb");
+    EXPECT_DEATH((void)engine.create(SwapChainDesc{ .size = { 4, 4 }, .format = Format::RGBA8Srgb }),
+                 "a swap chain of sRGB codes has format RGBA8");
     engine.destroy(engine.create(RenderTargetDesc{ .color = color, .depth = depth }));
 }
 

@@ -108,12 +108,5 @@ TEST_P(TextureMips, OfPlainNumbersAreLeftToTheDriver) {
 INSTANTIATE_TEST_SUITE_P(BothApis, TextureMips, testing::ValuesIn(test::kBothApis),
                          [](auto const& test) { return std::string(toString(test.param)); });
 
-TEST(SrgbTargetDeathTest, IsRefusedByNameAndCure) {
-    auto engine = test::makeEngine(Backend::Gles);
-    ASSERT_TRUE(engine);
-    EXPECT_DEATH(engine->create(TextureDesc{ .format = Format::RGBA8Srgb, .renderable = true }), "not sRGB: RGBA8");
-    EXPECT_DEATH(engine->create(SwapChainDesc{ .size = { 4, 4 }, .format = Format::RGBA8Srgb }), "not sRGB: RGBA8");
-}
-
 } // namespace
 } // namespace filament
