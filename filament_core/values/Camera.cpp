@@ -54,6 +54,12 @@ Lens Lens::offCenter(float left, float right, float bottom, float top, float nea
     return lens;
 }
 
+Lens Lens::fromFocalLength(float millimeters, float sensorHeightMillimeters, float nearMeters) {
+    FILAMENT_ASSERT(millimeters > 0 && sensorHeightMillimeters > 0, "a lens has a focal length > 0 and a sensor > 0");
+    return { .verticalFovDegrees = glm::degrees(2 * std::atan(sensorHeightMillimeters / (2 * millimeters))),
+             .nearMeters = nearMeters };
+}
+
 namespace {
 
 void checkLens(Lens const& lens) {

@@ -47,6 +47,9 @@ struct Lens {
     /// A perspective lens whose picture shows x in [left, right] and y in [bottom, top] of the plane at distance 1: a part
     /// of a wall of screens, or an eye beside the middle of its display.
     static Lens offCenter(float left, float right, float bottom, float top, float nearMeters = 0.01f);
+    /// The perspective lens of a camera, by its focal length and the height of its sensor or film, both > 0: the field of
+    /// view is 2 atan(height / (2 focal length)). 24 mm is the height of a full frame.
+    static Lens fromFocalLength(float millimeters, float sensorHeightMillimeters = 24, float nearMeters = 0.01f);
 };
 
 struct Camera {

@@ -96,6 +96,23 @@ TEST(Camera, ABoxShowsItsEdges) {
     }
 }
 
+// A pinhole at the focal length before the sensor: what meets its edge is as far off the axis as the edge is.
+TEST(Camera, AFocalLengthShowsWhatTheSensorCovers) {
+    EXPECT_NEAR(Lens::fromFocalLength(50).verticalFovDegrees, 26.99147f, 1e-4f) << "a normal lens of a full frame";
+    EXPECT_NEAR(Lens::fromFocalLength(12).verticalFovDegrees, 90, 1e-4f);
+    RandomLens random;
+    for (int i = 0; i < 200; ++i) {
+        const float focal = random.within(4, 800), height = random.within(2, 60), near = random.within(0.01f, 1);
+        Camera camera;
+        camera.lens = Lens::fromFocalLength(focal, height, near);
+        EXPECT_FALSE(camera.lens.isParallel());
+        const double3 edge = project(camera, double3(height / 2, height / 2, -focal) * 2.0, 1);
+        EXPECT_NEAR(edge.x, 1, 2e-5) << focal << " mm, " << height << " mm";
+        EXPECT_NEAR(edge.y, -1, 2e-5) << "row 0 is at the top";
+        EXPECT_NEAR(edge.z, static_cast<double>(near) / (2 * focal), 1e-6);
+    }
+}
+
 // Four quarters of a picture, each with a lens of its own, are the picture.
 TEST(Camera, PartsOfAPictureMeet) {
     Camera whole;
@@ -126,6 +143,8 @@ TEST(CameraDeathTest, LensesThatCannotBeAreRefused) {
         camera.lens = lens;
         return camera.clipFromView(1);
     };
+    EXPECT_DEATH((void)Lens::fromFocalLength(0), "a focal length > 0");
+    EXPECT_DEATH((void)Lens::fromFocalLength(50, -24), "a sensor > 0");
     const char* const rule = "a lens has a near plane > 0";
     EXPECT_DEATH(matrixOf({ .nearMeters = 0 }), rule);
     EXPECT_DEATH(matrixOf({ .nearMeters = NAN }), rule);
