@@ -82,10 +82,10 @@ double growthPerRound(double before, double after, int rounds) {
 }
 
 /// Repeats rounds until so many of them in a row left nothing behind. Drivers and the heaps of threads grow by up to 2 MiB
-/// once or twice, when pages are touched for the first time; leaks grow in every round.
+/// a few times, when pages are touched for the first time; leaks grow in every round.
 template <class Rounds>
 void expectFlat(int count, Rounds&& run) {
-    constexpr int kTries = 3;
+    constexpr int kTries = 5;
     double growth = kFlatKibibytes + 1;
     for (int attempt = 0; attempt < kTries && growth > kFlatKibibytes; ++attempt) {
         const double before = residentMebibytes();
