@@ -164,7 +164,7 @@ private:
             if (isConstant(it.op) || isArithmetic(it.op) || it.op == OpVariable || it.op == OpLoad || it.op == OpPhi ||
                 it.op == OpAccessChain || it.op == OpInBoundsAccessChain) {
                 made->made = it;
-                if (it.op == OpVariable && it.word(3) == kStorageFunction)
+                if (it.op == OpVariable && it.word(3) == kStorageFunction && !mFirstBlocks.empty())
                     mFirstBlocks.back() = it.at + it.words.size();
             }
         }
