@@ -23,7 +23,6 @@ enum Op : uint32_t {
     OpTypeVector = 23,
     OpTypePointer = 32,
     OpConstantTrue = 41,
-    OpConstantComposite = 44,
     OpConstant = 43,
     OpConstantNull = 46,
     OpSpecConstantTrue = 48,

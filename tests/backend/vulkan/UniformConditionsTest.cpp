@@ -84,6 +84,7 @@ TEST(UniformConditions, EveryStageAndFunctionHasATruthOfItsOwn) {
 
 TEST(UniformConditions, DamagedModulesCrashNothing) {
     std::mt19937 random(7);
+    int rewritten = 0;
     const std::vector<uint32_t> whole =
             spirvFromGlsl(ShaderStage::Fragment,
                           withBody("for (int i = 0; i < u.n; ++i) { if (u.many[i].x > 0.5) color.x += v[i]; }"));
@@ -92,8 +93,12 @@ TEST(UniformConditions, DamagedModulesCrashNothing) {
         for (int changes = 1 + static_cast<int>(random() % 3); changes > 0; --changes)
             words[random() % words.size()] = static_cast<uint32_t>(random() % 3 ? random() % 300 : random());
         if (random() % 4 == 0) words.resize(random() % words.size());
-        if (readEdges(words, ShaderStage::Fragment)) (void)hideUniformConditions(words, ShaderStage::Fragment);
+        if (!readEdges(words, ShaderStage::Fragment)) continue;
+        const std::vector<uint32_t> hidden = hideUniformConditions(words, ShaderStage::Fragment);
+        EXPECT_TRUE(hidden == words || hidden.size() > words.size()) << "words are only added";
+        ++rewritten;
     }
+    EXPECT_GT(rewritten, 1000);
 }
 
 } // namespace
