@@ -42,12 +42,32 @@ protected:
     std::optional<T> result;
 };
 
-class ModelTask : public LoadTaskOf<Model> {
+/// The same, created step by step by an Upload.
+template <class T, class Upload>
+class UploadTask : public LoadTaskOf<T> {
+protected:
+    using LoadTaskOf<T>::LoadTaskOf;
+
+    void finish() override {
+        this->result.emplace(upload->finish());
+        upload.reset();
+        this->engine.flush();
+    }
+
+    void drop() noexcept override {
+        upload.reset();
+        this->result.reset();
+    }
+
+    std::optional<Upload> upload;
+};
+
+class ModelTask : public UploadTask<Model, ModelUpload> {
 public:
     ModelTask(Engine::Impl& owner, std::filesystem::path path, GltfLoadOptions const& options)
-            : LoadTaskOf(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)) {}
+            : UploadTask(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)) {}
     ModelTask(Engine::Impl& owner, GltfMemory const& model, GltfLoadOptions const& options)
-            : LoadTaskOf(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
+            : UploadTask(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
               mOptions(gltfOptions(model, options)) {}
 
 private:
@@ -65,26 +85,15 @@ private:
     }
 
     size_t stepCount() const override {
-        return mRead ? mRead->data.images.size() + mRead->data.meshes.size() + 1 : mUpload->stepCount();
+        return mRead ? mRead->data.images.size() + mRead->data.meshes.size() + 1 : upload->stepCount();
     }
 
     size_t step(size_t index) override {
         if (mRead) {
-            mUpload.emplace(engine, std::move(*mRead));
+            upload.emplace(engine, std::move(*mRead));
             mRead.reset();
         }
-        return mUpload->step(index);
-    }
-
-    void finish() override {
-        result.emplace(mUpload->finish());
-        mUpload.reset();
-        engine.flush();
-    }
-
-    void drop() noexcept override {
-        mUpload.reset();
-        result.reset();
+        return upload->step(index);
     }
 
     bool mIsInMemory = false;
@@ -92,17 +101,16 @@ private:
     std::vector<std::byte> mFile; // instead of a path
     assets::GltfOptions mOptions;
     std::optional<ReadModel> mRead; // by work(), until the first step
-    std::optional<ModelUpload> mUpload;
 };
 
-class EnvironmentTask : public LoadTaskOf<Environment> {
+class EnvironmentTask : public UploadTask<Environment, EnvironmentUpload> {
 public:
     EnvironmentTask(Engine::Impl& owner, std::filesystem::path path, EnvironmentLoadOptions const& options)
-            : LoadTaskOf(owner, path.filename().string()), mName(path.filename().string()), mPath(std::move(path)),
+            : UploadTask(owner, path.filename().string()), mName(path.filename().string()), mPath(std::move(path)),
               mOptions(environmentOptions(owner, options)) {}
     EnvironmentTask(Engine::Impl& owner, std::span<const std::byte> file, std::string_view name,
                     EnvironmentLoadOptions const& options)
-            : LoadTaskOf(owner, std::string(name)), mName(name), mIsInMemory(true), mFile(file.begin(), file.end()),
+            : UploadTask(owner, std::string(name)), mName(name), mIsInMemory(true), mFile(file.begin(), file.end()),
               mOptions(environmentOptions(owner, options)) {}
 
 private:
@@ -124,19 +132,8 @@ private:
     size_t stepCount() const override { return EnvironmentUpload::kSteps; }
 
     size_t step(size_t index) override {
-        if (!mUpload) mUpload.emplace(engine, std::move(*mRead), mName);
-        return mUpload->step(index);
-    }
-
-    void finish() override {
-        result.emplace(mUpload->finish());
-        mUpload.reset();
-        engine.flush();
-    }
-
-    void drop() noexcept override {
-        mUpload.reset();
-        result.reset();
+        if (!upload) upload.emplace(engine, std::move(*mRead), mName);
+        return upload->step(index);
     }
 
     std::string mName;
@@ -145,7 +142,6 @@ private:
     std::vector<std::byte> mFile; // instead of a path
     assets::EnvironmentOptions mOptions;
     std::optional<assets::EnvironmentData> mRead; // by work(), until the first step
-    std::optional<EnvironmentUpload> mUpload;
 };
 
 template <class T>
