@@ -24,12 +24,14 @@ struct CmdCreateSampler { SamplerHandle handle; SamplerDesc desc; };
 struct CmdCreateProgram { ProgramHandle handle; ProgramDesc desc; };
 struct CmdCreatePipeline { PipelineHandle handle; PipelineDesc desc; };
 struct CmdCreateBindGroup { BindGroupHandle handle; BindGroupDesc desc; };
+struct CmdCreateSurface { SurfaceHandle handle; SurfaceDesc desc; };
 struct CmdDestroyBuffer { BufferHandle handle; };
 struct CmdDestroyTexture { TextureHandle handle; };
 struct CmdDestroySampler { SamplerHandle handle; };
 struct CmdDestroyProgram { ProgramHandle handle; };
 struct CmdDestroyPipeline { PipelineHandle handle; };
 struct CmdDestroyBindGroup { BindGroupHandle handle; };
+struct CmdDestroySurface { SurfaceHandle handle; };
 
 // Contents [O].
 /// Replaces bytes [offset, offset + bytes.size()) of a buffer.
@@ -90,6 +92,11 @@ struct CmdDrawIndexed {                                                         
 /// Runs groupsX * groupsY * groupsZ work groups of the bound pipeline's program.
 struct CmdDispatch { uint32_t groupsX = 1, groupsY = 1, groupsZ = 1; };              // [O]
 
+// Windows.
+/// Shows a single-sampled RGBA8 or RGB10A2 texture in the window, as it is: its texel 0,0 in the upper left corner, black
+/// where the window is larger. May wait for the window system. A window that shows nothing (minimised) is skipped.
+struct CmdPresent { SurfaceHandle surface; TextureHandle texture; };                 // [O]
+
 // Frames, measuring, names.
 struct CmdBeginFrame { uint64_t frame = 0; };       // [O]
 struct CmdEndFrame { uint64_t frame = 0; };         // [O] work so far starts on the GPU; finished tickets are answered
@@ -104,13 +111,14 @@ struct TypeList {
     static constexpr uint32_t kCount = sizeof...(C);
 };
 
-using Commands = TypeList<CmdCreateBuffer, CmdCreateTexture, CmdCreateSampler, CmdCreateProgram, CmdCreatePipeline,
-                          CmdCreateBindGroup, CmdDestroyBuffer, CmdDestroyTexture, CmdDestroySampler, CmdDestroyProgram,
-                          CmdDestroyPipeline, CmdDestroyBindGroup, CmdUpdateBuffer, CmdUploadTexture, CmdGenerateMips,
-                          CmdBlit, CmdReadBuffer, CmdReadTexture, CmdBeginPass, CmdNextSubpass, CmdEndPass,
-                          CmdSetViewport, CmdSetScissor, CmdSetStencilReference, CmdBindPipeline, CmdBindGroup,
-                          CmdBindVertexBuffers, CmdBindIndexBuffer, CmdDraw, CmdDrawIndexed, CmdDispatch, CmdBeginFrame,
-                          CmdEndFrame, CmdBeginTimer, CmdEndTimer, CmdPushGroup, CmdPopGroup>;
+using Commands =
+        TypeList<CmdCreateBuffer, CmdCreateTexture, CmdCreateSampler, CmdCreateProgram, CmdCreatePipeline,
+                 CmdCreateBindGroup, CmdCreateSurface, CmdDestroyBuffer, CmdDestroyTexture, CmdDestroySampler,
+                 CmdDestroyProgram, CmdDestroyPipeline, CmdDestroyBindGroup, CmdDestroySurface, CmdUpdateBuffer,
+                 CmdUploadTexture, CmdGenerateMips, CmdBlit, CmdReadBuffer, CmdReadTexture, CmdBeginPass,
+                 CmdNextSubpass, CmdEndPass, CmdSetViewport, CmdSetScissor, CmdSetStencilReference, CmdBindPipeline,
+                 CmdBindGroup, CmdBindVertexBuffers, CmdBindIndexBuffer, CmdDraw, CmdDrawIndexed, CmdDispatch,
+                 CmdPresent, CmdBeginFrame, CmdEndFrame, CmdBeginTimer, CmdEndTimer, CmdPushGroup, CmdPopGroup>;
 
 /// Position of a command in the list; its id in the stream.
 template <class C, class List = Commands>

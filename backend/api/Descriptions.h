@@ -7,6 +7,7 @@
 #include "backend/api/Handles.h"
 #include "backend/api/TextureRange.h"
 
+#include <filament/NativeWindow.h>
 #include <filament/Sampler.h>
 
 #include <array>
@@ -355,6 +356,14 @@ struct BindGroupEntry {
 struct BindGroupDesc {
     BindGroupLayout layout{};
     std::span<const BindGroupEntry> entries;
+    std::string_view debugName;
+};
+
+// ---------------------------------------------------------------------------------------------- windows
+
+struct SurfaceDesc {
+    uint64_t window = 0; ///< NativeWindow::handle, of the window system of DriverOptions::display
+    PresentMode presentMode = PresentMode::Fifo; ///< Fifo where the device has no such mode
     std::string_view debugName;
 };
 

@@ -8,6 +8,7 @@
 
 #include "backend/api/Commands.h"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -75,8 +76,10 @@ struct DriverStatistics {
     uint64_t programsFromCache = 0;  ///< of programsCreated: taken from DriverOptions::cacheDirectory, not compiled
     uint64_t pipelinesFromCache = 0; ///< of pipelinesCreated, if the device reports it
     uint64_t passes = 0;
-    uint64_t pipelinesCreatedInPasses = 0; ///< late creations: each one is a hitch
-    uint64_t deviceBytes = 0;              ///< memory now allocated for buffers and textures
+    uint64_t pipelinesCreatedInPasses = 0;               ///< late creations: each one is a hitch
+    uint64_t deviceBytes = 0;                            ///< memory now allocated for buffers and textures
+    uint64_t presents = 0;                               ///< images that reached a window
+    std::chrono::steady_clock::time_point lastPresent{}; ///< when the window system had taken the last of them
 };
 
 enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, DeviceLost, Other };
@@ -104,6 +107,7 @@ public:
 struct DriverOptions {
     std::string requireDevice; ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
     bool validation = false;   ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
+    NativeDisplay display{};   ///< of the windows of CmdCreateSurface; none: there are none, and no window system
     /// The folder that keeps compiled programs between runs, one file per device, at most kProgramCacheBytes; empty:
     /// none. Read when the driver is created, written when it ends.
     std::filesystem::path cacheDirectory{};

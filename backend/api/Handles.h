@@ -13,6 +13,7 @@ using SamplerHandle = Handle<struct SamplerTag>;
 using ProgramHandle = Handle<struct ProgramTag>;
 using PipelineHandle = Handle<struct PipelineTag>;
 using BindGroupHandle = Handle<struct BindGroupTag>;
+using SurfaceHandle = Handle<struct SurfaceTag>; ///< a window that images are presented to
 
 /// Identifies one result of the driver (a read-back, a timer). Never reused within a process; zero is none.
 struct Ticket {

@@ -62,4 +62,10 @@ void Context::makeCurrent() const {
     mEgl->MakeCurrent(mDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
 }
 
+bool Context::makeCurrent(EGLSurface surface) const {
+    if (mEgl->GetCurrentContext() == mContext && mEgl->GetCurrentSurface(EGL_DRAW) == surface) return true;
+    mEgl->BindAPI(EGL_OPENGL_ES_API);
+    return mEgl->MakeCurrent(mDisplay, surface, surface, mContext) == EGL_TRUE;
+}
+
 } // namespace filament::backend::gles

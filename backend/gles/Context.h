@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Context: one OpenGL ES context without a surface.
+/// Context: one OpenGL ES context. It has a surface only while something is presented.
 ///   Thread  made, used and destroyed on one thread; several may live on the same thread (makeCurrent() switches).
 ///   Fails   create(): DeviceUnavailable (no driver) or Unsupported (older than ES 3.1).
 ///   After   the destructor leaves no context current and releases EGL's data for the thread.
@@ -20,9 +20,12 @@ public:
             : mEgl(other.mEgl), mDisplay(other.mDisplay), mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
     Context& operator=(Context&&) = delete;
 
-    /// Free if it is already current on this thread.
+    /// Free if it is already current on this thread, with or without a surface.
     void makeCurrent() const;
+    /// Makes it current with this surface as the framebuffer 0; EGL_NO_SURFACE: none. False: EGL refuses.
+    bool makeCurrent(EGLSurface surface) const;
     Egl const& egl() const { return *mEgl; }
+    EGLDisplay display() const { return mDisplay; }
 
 private:
     Context(Egl const& egl, EGLDisplay display, EGLContext context)

@@ -31,6 +31,14 @@ bool containsIgnoringCase(std::string_view text, std::string_view part) {
     return part.empty() || std::search(text.begin(), text.end(), part.begin(), part.end(), equal) != text.end();
 }
 
+/// Where to look for a device: at the display of the app's windows, if there is one.
+Result<std::vector<DisplaySource>> sourcesOf(Egl const& egl, NativeDisplay const& display) {
+    if (display.system == WindowSystem::None) return egl.displaySources();
+    Result<DisplaySource> source = egl.displaySource(display);
+    if (!source) return source.error();
+    return std::vector{ *source };
+}
+
 } // namespace
 
 // ---------------------------------------------------------------------------------------------- choice
@@ -53,7 +61,9 @@ Result<OpenDevice> chooseDevice(DriverOptions const& options) {
     Error refusal{ ErrorCode::DeviceUnavailable,
                    "OpenGL ES: EGL has no display without a window system; install libegl-mesa0 and libgl1-mesa-dri" };
     std::string others;
-    for (DisplaySource source : (*egl)->displaySources()) {
+    const Result<std::vector<DisplaySource>> sources = sourcesOf(**egl, options.display);
+    if (!sources) return sources.error();
+    for (DisplaySource source : *sources) {
         Result<OpenDevice> device = openDevice(**egl, source, options.validation);
         if (!device) {
             refusal = { ErrorCode::DeviceUnavailable, device.error().message };

@@ -60,6 +60,16 @@ std::vector<DisplaySource> Egl::displaySources() const {
     return sources;
 }
 
+Result<DisplaySource> Egl::displaySource(NativeDisplay const& display) const {
+    const bool isX11 = display.system == WindowSystem::X11;
+    const char* client = QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (!hasExtension(client, isX11 ? "EGL_EXT_platform_x11" : "EGL_EXT_platform_wayland")) {
+        return fail(ErrorCode::Unsupported, "EGL does not know windows of {}; {}", toString(display.system), kInstall);
+    }
+    return DisplaySource{ static_cast<EGLenum>(isX11 ? EGL_PLATFORM_X11_EXT : EGL_PLATFORM_WAYLAND_EXT),
+                          display.handle };
+}
+
 Result<EGLDisplay> Egl::openDisplay(DisplaySource source) const {
     const EGLDisplay display = mGetPlatformDisplay(source.platform, source.native, nullptr);
     if (display == EGL_NO_DISPLAY) {

@@ -10,6 +10,8 @@
 
 #include "base/Result.h"
 
+#include <filament/NativeWindow.h>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -21,14 +23,15 @@ namespace filament::backend::gles {
 // Every EGL function the driver calls.
 // clang-format off
 #define FILAMENT_EGL_FUNCTIONS(X)                                                                              \
-    X(BindAPI) X(CreateContext) X(DestroyContext) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) \
-    X(GetError) X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(ReleaseThread)
+    X(BindAPI) X(ChooseConfig) X(CreateContext) X(CreateWindowSurface) X(DestroyContext) X(DestroySurface)       \
+    X(GetConfigAttrib) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError)                \
+    X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(QuerySurface) X(ReleaseThread) X(SwapBuffers) X(SwapInterval)
 // clang-format on
 
 /// One place to look for devices.
 struct DisplaySource {
     EGLenum platform = EGL_PLATFORM_SURFACELESS_MESA;
-    void* native = nullptr; ///< EGL_DEFAULT_DISPLAY, or an EGLDeviceEXT
+    void* native = nullptr; ///< EGL_DEFAULT_DISPLAY, an EGLDeviceEXT, or the display of a window system
 };
 
 class Egl {
@@ -38,6 +41,8 @@ public:
 
     /// The surfaceless platform first, then the devices that EGL enumerates. Nothing here opens a window system.
     std::vector<DisplaySource> displaySources() const;
+    /// The display of a window system that the app has opened. Unsupported: this EGL does not know that system.
+    Result<DisplaySource> displaySource(NativeDisplay const& display) const;
     /// The initialised display of the source; the same one every time.
     Result<EGLDisplay> openDisplay(DisplaySource source) const;
 

@@ -70,4 +70,13 @@ void Executor::execute(CmdGenerateMips const& command) {
     }
 }
 
+void Executor::execute(CmdPresent const& command) {
+    Surface* const surface = mSurfaces.find(command.surface);
+    Texture const* const texture = mTextures.find(command.texture);
+    if (!surface || !texture || !canRead(*texture, "presenting")) return;
+    if (!surface->present(mDevice, mFramebuffers, *texture)) return;
+    ++mDevice.statistics.presents;
+    mDevice.statistics.lastPresent = std::chrono::steady_clock::now();
+}
+
 } // namespace filament::backend::gles

@@ -23,6 +23,12 @@ void Executor::execute(CmdCreateBindGroup const& command) {
     mBindGroups.put(command.handle, std::make_unique<BindGroup>(std::move(group)));
 }
 
+void Executor::execute(CmdCreateSurface const& command) {
+    Result<std::unique_ptr<Surface>> surface = Surface::create(mContext, mDisplay, command.desc);
+    if (!surface) return mDevice.error(DriverErrorKind::Other, "{}", surface.error().message);
+    mSurfaces.put(command.handle, std::move(*surface));
+}
+
 // ---------------------------------------------------------------------------------------------- destroy
 
 void Executor::execute(CmdDestroyBuffer const& command) {

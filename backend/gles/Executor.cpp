@@ -31,10 +31,10 @@ Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options,
 }
 
 Executor::Executor(OpenDevice device, DriverOptions const& options, ResultSink& sink)
-        : mContext(std::move(device.context)), mDevice(device.gl, device.quirks, sink, options.validation),
-          mBuffers(mDevice), mTextures(mDevice), mSamplers(mDevice), mFramebuffers(mDevice), mVertices(mDevice),
-          mPass(mDevice, mTextures, mFramebuffers), mDraws(mDevice.state, mVertices),
-          mReadbacks(mDevice, mTextures, mFramebuffers), mTimers(mDevice),
+        : mContext(std::move(device.context)), mDisplay(options.display),
+          mDevice(device.gl, device.quirks, sink, options.validation), mBuffers(mDevice), mTextures(mDevice),
+          mSamplers(mDevice), mFramebuffers(mDevice), mVertices(mDevice), mPass(mDevice, mTextures, mFramebuffers),
+          mDraws(mDevice.state, mVertices), mReadbacks(mDevice, mTextures, mFramebuffers), mTimers(mDevice),
           mCompute(mDevice.state, mPipelines, mBindGroups) {
     openProgramCache(mDevice, options.cacheDirectory);
 }

@@ -15,6 +15,7 @@
 #include "backend/gles/Fence.h"
 #include "backend/gles/Pass.h"
 #include "backend/gles/Readbacks.h"
+#include "backend/gles/Surface.h"
 #include "backend/gles/Timers.h"
 #include "base/Fifo.h"
 
@@ -43,12 +44,14 @@ public:
     void execute(CmdCreateProgram const& command);
     void execute(CmdCreatePipeline const& command);
     void execute(CmdCreateBindGroup const& command);
+    void execute(CmdCreateSurface const& command);
     void execute(CmdDestroyBuffer const& command);
     void execute(CmdDestroyTexture const& command);
     void execute(CmdDestroySampler const& command) { mSamplers.destroy(command.handle); }
     void execute(CmdDestroyProgram const& command) { mPrograms.take(command.handle); }
     void execute(CmdDestroyPipeline const& command) { mPipelines.take(command.handle); }
     void execute(CmdDestroyBindGroup const& command) { mBindGroups.take(command.handle); }
+    void execute(CmdDestroySurface const& command) { mSurfaces.take(command.handle); }
 
     void execute(CmdUpdateBuffer const& command) { mBuffers.update(command.buffer, command.offset, command.bytes); }
     void execute(CmdUploadTexture const& command) { mTextures.upload(command); }
@@ -56,6 +59,7 @@ public:
     void execute(CmdBlit const& command);
     void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command) { mReadbacks.read(command); }
+    void execute(CmdPresent const& command);
 
     void execute(CmdBeginPass const& command);
     void execute(CmdNextSubpass const& command);
@@ -104,6 +108,7 @@ private:
     bool prepareDraw(bool indexed, DrawBase base);
 
     Context mContext; // outlives everything that is deleted in it
+    const NativeDisplay mDisplay;
     Device mDevice;
     Buffers mBuffers;
     Textures mTextures;
@@ -117,6 +122,7 @@ private:
     Slots<ProgramHandle, std::shared_ptr<Program const>> mPrograms;
     Slots<PipelineHandle, Pipeline> mPipelines;
     Slots<BindGroupHandle, BindGroup> mBindGroups;
+    Slots<SurfaceHandle, Surface> mSurfaces;
     ComputeState mCompute; // refers to the slots
     Fifo<Fence> mFrames;
 

@@ -86,6 +86,8 @@ inline constexpr std::array kEnumNames<BlendFactor>{ "Zero"sv,
                                                      "OneMinusDstAlpha"sv,
                                                      "SrcAlphaSaturate"sv };
 template <>
+inline constexpr std::array kEnumNames<PresentMode>{ "Fifo"sv, "Mailbox"sv, "Immediate"sv };
+template <>
 inline constexpr std::array kEnumNames<BlendOp>{ "Add"sv, "Subtract"sv, "ReverseSubtract"sv, "Min"sv, "Max"sv };
 
 /// How many enumerators (or bits) there are.

@@ -11,6 +11,7 @@ void Validator::forEachTable(F&& visit) {
     visit(mPrograms);
     visit(mPipelines);
     visit(mBindGroups);
+    visit(mSurfaces);
 }
 
 bool Validator::check(CommandView commands) {

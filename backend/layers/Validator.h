@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Validator: the rules of backend/api, and a model of the driver's state to check them against.
 ///   In      streams in sequence.  Out: reports to the sink; whether the stream may reach a driver.
-///   Files   ValidatorObjects.cpp (create, destroy), ValidatorContents.cpp (update, upload, blit, read),
+///   Files   ValidatorObjects.cpp (create, destroy), ValidatorContents.cpp (update, upload, blit, read, present),
 ///           ValidatorPasses.cpp (passes, subpasses, timers, frames), ValidatorDraws.cpp (what a draw needs).
 ///   Thread  one.
 #pragma once
@@ -32,12 +32,14 @@ public:
     void execute(CmdCreateProgram const& command);
     void execute(CmdCreatePipeline const& command);
     void execute(CmdCreateBindGroup const& command);
+    void execute(CmdCreateSurface const& command);
     void execute(CmdDestroyBuffer const& command);
     void execute(CmdDestroyTexture const& command);
     void execute(CmdDestroySampler const& command);
     void execute(CmdDestroyProgram const& command);
     void execute(CmdDestroyPipeline const& command);
     void execute(CmdDestroyBindGroup const& command);
+    void execute(CmdDestroySurface const& command);
 
     void execute(CmdUpdateBuffer const& command);
     void execute(CmdUploadTexture const& command);
@@ -45,6 +47,7 @@ public:
     void execute(CmdBlit const& command);
     void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command);
+    void execute(CmdPresent const& command);
 
     void execute(CmdBeginPass const& command);
     void execute(CmdNextSubpass const& command);
@@ -101,6 +104,10 @@ private:
         std::string name;
         BindGroupLayout layout;
         std::vector<BindGroupEntry> entries;
+    };
+
+    struct SurfaceModel {
+        std::string name;
     };
 
     /// What is bound inside a pass, for draws, or outside, for dispatches; subpasses and the begin and end of a pass reset
@@ -193,6 +200,7 @@ private:
     ObjectTable<ProgramTag, ProgramModel> mPrograms;
     ObjectTable<PipelineTag, PipelineModel> mPipelines;
     ObjectTable<BindGroupTag, BindGroupModel> mBindGroups;
+    ObjectTable<SurfaceTag, SurfaceModel> mSurfaces;
     std::unordered_set<Ticket> mUsedTickets;
 
     std::optional<OpenPass> mPass;

@@ -161,4 +161,16 @@ void Validator::checkTicket(Ticket ticket) {
             ticket.value);
 }
 
+void Validator::execute(CmdPresent const& command) {
+    enter<CmdPresent>(Place::OutsidePasses);
+    SurfaceModel const* surface = need(mSurfaces, command.surface, "surface");
+    TextureModel const* texture = need(mTextures, command.texture, "texture");
+    if (!surface || !texture) return;
+    mObject = surface->name;
+    if (!checkBlitSide(*texture, "texture", TextureUsage::TransferSource)) return;
+    const Format format = texture->desc.format;
+    require(format == Format::RGBA8 || format == Format::RGB10A2, Harm::WrongResult,
+            "texture '{}' is {}; a window shows RGBA8 or RGB10A2", texture->name, formatInfo(format).name);
+}
+
 } // namespace filament::backend

@@ -48,6 +48,7 @@ void Validator::execute(CmdDestroySampler const& command) { destroy(mSamplers, c
 void Validator::execute(CmdDestroyProgram const& command) { destroy(mPrograms, command); }
 void Validator::execute(CmdDestroyPipeline const& command) { destroy(mPipelines, command); }
 void Validator::execute(CmdDestroyBindGroup const& command) { destroy(mBindGroups, command); }
+void Validator::execute(CmdDestroySurface const& command) { destroy(mSurfaces, command); }
 
 // ---------------------------------------------------------------------------------------------- buffers, textures
 
@@ -397,6 +398,15 @@ void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry con
     const bool isInteger = kind == FormatKind::UnsignedInteger || kind == FormatKind::SignedInteger;
     require(!filters || !isInteger, Harm::WrongResult,
             "binding {}: integer texture '{}' cannot be filtered; use Nearest", entry.binding, texture->name);
+}
+
+// ---------------------------------------------------------------------------------------------- surfaces
+
+void Validator::execute(CmdCreateSurface const& command) {
+    SurfaceDesc const& desc = command.desc;
+    if (!mayCreate(mSurfaces, command, desc.debugName)) return;
+    require(desc.window != 0, Harm::Crash, "the window is none; give it the handle of one");
+    if (!mCommandCrashes) mSurfaces.create(command.handle, { std::string(desc.debugName) });
 }
 
 } // namespace filament::backend

@@ -71,6 +71,7 @@ public:
         copy.programsCreated = mPublished.programs.load(std::memory_order_relaxed);
         copy.passes = mPublished.passes.load(std::memory_order_relaxed);
         copy.deviceBytes = mPublished.bytes.load(std::memory_order_relaxed);
+        copy.presents = mPublished.presents.load(std::memory_order_relaxed);
         return copy;
     }
 
@@ -111,6 +112,8 @@ public:
 
     void execute(CmdDispatch const&) { ++mCount.commands, ++mCount.dispatches; }
 
+    void execute(CmdPresent const&) { ++mCount.commands, ++mCount.presents; }
+
     void execute(CmdReadBuffer const& command) {
         ++mCount.commands;
         if (mBuffers.contains(command.buffer)) mReadbacks.push_back({ command.ticket, command.size });
@@ -141,7 +144,7 @@ private:
     };
     struct Published {
         std::atomic<uint64_t> commands{ 0 }, draws{ 0 }, dispatches{ 0 }, pipelines{ 0 }, programs{ 0 }, passes{ 0 },
-                bytes{ 0 };
+                bytes{ 0 }, presents{ 0 };
     };
 
     void answer() {
@@ -162,6 +165,7 @@ private:
         mPublished.programs.store(mCount.programsCreated, std::memory_order_relaxed);
         mPublished.passes.store(mCount.passes, std::memory_order_relaxed);
         mPublished.bytes.store(mCount.deviceBytes, std::memory_order_relaxed);
+        mPublished.presents.store(mCount.presents, std::memory_order_relaxed);
     }
 
     ResultSink& mSink;

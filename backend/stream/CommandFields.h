@@ -166,6 +166,9 @@ FILAMENT_FIELDS(BindGroupEntry, "BindGroupEntry", FILAMENT_FIELD(BindGroupEntry,
 FILAMENT_FIELDS(BindGroupDesc, "BindGroupDesc", FILAMENT_FIELD(BindGroupDesc, layout),
                 FILAMENT_FIELD(BindGroupDesc, entries), FILAMENT_FIELD(BindGroupDesc, debugName));
 
+FILAMENT_FIELDS(SurfaceDesc, "SurfaceDesc", FILAMENT_FIELD(SurfaceDesc, window),
+                FILAMENT_FIELD(SurfaceDesc, presentMode), FILAMENT_FIELD(SurfaceDesc, debugName));
+
 // ---------------------------------------------------------------------------------------------- commands
 
 #define FILAMENT_CREATE_FIELDS(C, name) FILAMENT_FIELDS(C, name, FILAMENT_FIELD(C, handle), FILAMENT_FIELD(C, desc))
@@ -176,12 +179,14 @@ FILAMENT_CREATE_FIELDS(CmdCreateSampler, "CreateSampler");
 FILAMENT_CREATE_FIELDS(CmdCreateProgram, "CreateProgram");
 FILAMENT_CREATE_FIELDS(CmdCreatePipeline, "CreatePipeline");
 FILAMENT_CREATE_FIELDS(CmdCreateBindGroup, "CreateBindGroup");
+FILAMENT_CREATE_FIELDS(CmdCreateSurface, "CreateSurface");
 FILAMENT_DESTROY_FIELDS(CmdDestroyBuffer, "DestroyBuffer");
 FILAMENT_DESTROY_FIELDS(CmdDestroyTexture, "DestroyTexture");
 FILAMENT_DESTROY_FIELDS(CmdDestroySampler, "DestroySampler");
 FILAMENT_DESTROY_FIELDS(CmdDestroyProgram, "DestroyProgram");
 FILAMENT_DESTROY_FIELDS(CmdDestroyPipeline, "DestroyPipeline");
 FILAMENT_DESTROY_FIELDS(CmdDestroyBindGroup, "DestroyBindGroup");
+FILAMENT_DESTROY_FIELDS(CmdDestroySurface, "DestroySurface");
 FILAMENT_FIELDS(CmdUpdateBuffer, "UpdateBuffer", FILAMENT_FIELD(CmdUpdateBuffer, buffer),
                 FILAMENT_FIELD(CmdUpdateBuffer, offset), FILAMENT_FIELD(CmdUpdateBuffer, bytes));
 FILAMENT_FIELDS(CmdUploadTexture, "UploadTexture", FILAMENT_FIELD(CmdUploadTexture, texture),
@@ -221,6 +226,7 @@ FILAMENT_FIELDS(CmdDrawIndexed, "DrawIndexed", FILAMENT_FIELD(CmdDrawIndexed, in
                 FILAMENT_FIELD(CmdDrawIndexed, vertexOffset), FILAMENT_FIELD(CmdDrawIndexed, firstInstance));
 FILAMENT_FIELDS(CmdDispatch, "Dispatch", FILAMENT_FIELD(CmdDispatch, groupsX), FILAMENT_FIELD(CmdDispatch, groupsY),
                 FILAMENT_FIELD(CmdDispatch, groupsZ));
+FILAMENT_FIELDS(CmdPresent, "Present", FILAMENT_FIELD(CmdPresent, surface), FILAMENT_FIELD(CmdPresent, texture));
 FILAMENT_FIELDS(CmdBeginFrame, "BeginFrame", FILAMENT_FIELD(CmdBeginFrame, frame));
 FILAMENT_FIELDS(CmdEndFrame, "EndFrame", FILAMENT_FIELD(CmdEndFrame, frame));
 FILAMENT_FIELDS(CmdBeginTimer, "BeginTimer", FILAMENT_FIELD(CmdBeginTimer, ticket));

@@ -26,6 +26,7 @@ struct CommandStream::State {
     HandleAllocator<ProgramTag> programs;
     HandleAllocator<PipelineTag> pipelines;
     HandleAllocator<BindGroupTag> bindGroups;
+    HandleAllocator<SurfaceTag> surfaces;
 
     /// ResultMailbox::waitFor(), which also checks the driver thread from time to time.
     ResultMailbox::Wait waitFor(Ticket ticket, uint64_t submission, std::chrono::steady_clock::time_point deadline) {
@@ -60,6 +61,7 @@ SamplerHandle CommandStream::allocateSampler() { return mState->samplers.allocat
 ProgramHandle CommandStream::allocateProgram() { return mState->programs.allocate(); }
 PipelineHandle CommandStream::allocatePipeline() { return mState->pipelines.allocate(); }
 BindGroupHandle CommandStream::allocateBindGroup() { return mState->bindGroups.allocate(); }
+SurfaceHandle CommandStream::allocateSurface() { return mState->surfaces.allocate(); }
 
 void CommandStream::free(BufferHandle handle) { mState->buffers.free(handle); }
 void CommandStream::free(TextureHandle handle) { mState->textures.free(handle); }
@@ -67,10 +69,12 @@ void CommandStream::free(SamplerHandle handle) { mState->samplers.free(handle); 
 void CommandStream::free(ProgramHandle handle) { mState->programs.free(handle); }
 void CommandStream::free(PipelineHandle handle) { mState->pipelines.free(handle); }
 void CommandStream::free(BindGroupHandle handle) { mState->bindGroups.free(handle); }
+void CommandStream::free(SurfaceHandle handle) { mState->surfaces.free(handle); }
 
 uint32_t CommandStream::liveHandles() const {
     return mState->buffers.liveCount() + mState->textures.liveCount() + mState->samplers.liveCount() +
-           mState->programs.liveCount() + mState->pipelines.liveCount() + mState->bindGroups.liveCount();
+           mState->programs.liveCount() + mState->pipelines.liveCount() + mState->bindGroups.liveCount() +
+           mState->surfaces.liveCount();
 }
 
 Ticket CommandStream::nextTicket() { return { gLastTicket.fetch_add(1, std::memory_order_relaxed) + 1 }; }
@@ -78,6 +82,7 @@ Ticket CommandStream::nextTicket() { return { gLastTicket.fetch_add(1, std::memo
 CommandBuffer& CommandStream::acquire() { return mState->driver.acquire(); }
 void CommandStream::submit(CommandBuffer& commands) { mState->driver.submit(commands); }
 void CommandStream::waitIdle() { mState->driver.waitIdle(); }
+void CommandStream::waitReplayed(uint64_t submission) { mState->driver.waitReplayed(submission); }
 uint64_t CommandStream::submissions() const { return mState->driver.submissions(); }
 uint64_t CommandStream::replayedSubmissions() const { return mState->driver.replayedSubmissions(); }
 uint64_t CommandStream::backPressureNanoseconds() const { return mState->driver.backPressureNanoseconds(); }

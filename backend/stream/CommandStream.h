@@ -85,6 +85,7 @@ public:
     ProgramHandle allocateProgram();
     PipelineHandle allocatePipeline();
     BindGroupHandle allocateBindGroup();
+    SurfaceHandle allocateSurface();
     /// Returns the handle for reuse; call right after recording the matching CmdDestroy.
     void free(BufferHandle handle);
     void free(TextureHandle handle);
@@ -92,6 +93,7 @@ public:
     void free(ProgramHandle handle);
     void free(PipelineHandle handle);
     void free(BindGroupHandle handle);
+    void free(SurfaceHandle handle);
     /// Records the destruction and returns the handle. Never fails: without memory to record it, object and handle stay
     /// until the driver ends.
     template <class Tag>
@@ -107,10 +109,12 @@ public:
     void submit(CommandBuffer& commands);
     /// Waits until everything submitted has been replayed and the device is idle.
     void waitIdle();
+    /// Waits until the driver thread has finished that submission; the time counts as back-pressure.
+    void waitReplayed(uint64_t submission);
     /// Number of submitted buffers, and how many of them the driver thread has finished.
     uint64_t submissions() const;
     uint64_t replayedSubmissions() const;
-    /// Nanoseconds that acquire() has waited in total.
+    /// Nanoseconds that acquire() and waitReplayed() have waited in total.
     uint64_t backPressureNanoseconds() const;
     std::vector<FrameTiming> takeTimings();
     void takeTimings(std::vector<FrameTiming>& into); ///< replaces what it holds, and keeps its memory
@@ -143,6 +147,7 @@ inline CmdDestroySampler destruction(SamplerHandle handle) { return { handle }; 
 inline CmdDestroyProgram destruction(ProgramHandle handle) { return { handle }; }
 inline CmdDestroyPipeline destruction(PipelineHandle handle) { return { handle }; }
 inline CmdDestroyBindGroup destruction(BindGroupHandle handle) { return { handle }; }
+inline CmdDestroySurface destruction(SurfaceHandle handle) { return { handle }; }
 } // namespace detail
 
 template <class Tag>

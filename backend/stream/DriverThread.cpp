@@ -272,6 +272,14 @@ void DriverThread::waitIdle() {
     waitForProgress(lock, [&] { return mIdleReached >= submission; });
 }
 
+void DriverThread::waitReplayed(uint64_t submission) {
+    std::unique_lock lock(mMutex);
+    if (mReplayed >= submission) return;
+    const int64_t begin = now();
+    waitForProgress(lock, [&] { return mReplayed >= submission; });
+    mBackPressure += static_cast<uint64_t>(now() - begin);
+}
+
 uint64_t DriverThread::submissions() const {
     const std::lock_guard lock(mMutex);
     return mSubmitted;

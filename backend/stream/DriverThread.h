@@ -49,6 +49,7 @@ public:
     /// Requests an idle device after everything submitted so far; ResultMailbox::onIdle() reports that number.
     uint64_t requestIdle();
     void waitIdle();
+    void waitReplayed(uint64_t submission);
 
 private:
     struct Slot {

@@ -6,7 +6,8 @@
 namespace filament::backend::vulkan {
 namespace {
 
-VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physical, VkDevice& handle) {
+VkResult createHandle(Instance const& instance, PhysicalDevice const& physical, VkDevice& handle) {
+    InstanceFunctions const& fn = instance.fn();
     const float priority = 1;
     auto queue = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
     queue.queueFamilyIndex = physical.queueFamily;
@@ -41,6 +42,7 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
         extensions.push_back(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME);
         extensions.push_back(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
     }
+    if (instance.display().system != WindowSystem::None) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     if (physical.bresenhamLines) {
         extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
         lines.pNext = features.pNext;
@@ -67,7 +69,7 @@ Result<std::unique_ptr<Device>> Device::create(std::unique_ptr<Instance> instanc
     std::unique_ptr<Device> device(new Device);
     device->mInstance = std::move(instance);
     device->mPhysical = std::move(physical);
-    const VkResult result = createHandle(device->mInstance->fn(), device->mPhysical, device->mHandle);
+    const VkResult result = createHandle(*device->mInstance, device->mPhysical, device->mHandle);
     if (result != VK_SUCCESS) {
         device->mHandle = VK_NULL_HANDLE;
         return fail(ErrorCode::DeviceUnavailable, "Vulkan: '{}' refused to make a device ({}); update its driver",

@@ -187,4 +187,26 @@ void Executor::recordReadback(CmdReadTexture const& command, Texture& texture, s
     mReadbacks->add(command.ticket, texture.format(), std::move(target), mSubmissions->recordingSerial());
 }
 
+// ---------------------------------------------------------------------------------------------- windows
+
+void Executor::execute(CmdPresent const& command) {
+    Surface* const surface = mSurfaces.find(command.surface);
+    Texture* const texture = mTextures.find(command.texture);
+    if (!surface || !texture) return;
+    commands(); // opens the submission that will wait for the image
+    const Result<std::optional<Surface::Target>> target =
+            surface->acquire(texture->format(), texture->extent(0), *mSubmissions);
+    if (!target && !std::exchange(surface->isReported, true)) report(target.error());
+    if (!target || !*target) return;
+    mBarriers.image(*texture, { 0, 1, 0, 1 }, Use::TransferRead);
+    flushBarriers();
+    surface->recordCopy(commands(), texture->image(), texture->extent(0), **target);
+    if (!check(mSubmissions->submit((*target)->acquired, (*target)->drawn), "submit")) return;
+    const VkResult presented = surface->present(**target);
+    if (presented == VK_ERROR_DEVICE_LOST) check(presented, "present");
+    if (presented < VK_SUCCESS) return;
+    ++mStatistics.presents;
+    mStatistics.lastPresent = std::chrono::steady_clock::now();
+}
+
 } // namespace filament::backend::vulkan

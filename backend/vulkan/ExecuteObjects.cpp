@@ -80,6 +80,10 @@ void Executor::execute(CmdCreateBindGroup const& command) {
           DriverErrorKind::Other);
 }
 
+void Executor::execute(CmdCreateSurface const& command) {
+    store(mSurfaces, command.handle, Surface::create(*mDevice, command.desc), DriverErrorKind::Other);
+}
+
 // ---------------------------------------------------------------------------------------------- destroy
 
 void Executor::execute(CmdDestroyBuffer const& command) { mSubmissions->keep(mBuffers.take(command.handle)); }
@@ -99,5 +103,7 @@ void Executor::execute(CmdDestroyProgram const& command) { mPrograms.take(comman
 void Executor::execute(CmdDestroyPipeline const& command) { mSubmissions->keep(mPipelines.take(command.handle)); }
 
 void Executor::execute(CmdDestroyBindGroup const& command) { mSubmissions->keep(mBindGroups.take(command.handle)); }
+
+void Executor::execute(CmdDestroySurface const& command) { mSurfaces.take(command.handle); } // waits for the device
 
 } // namespace filament::backend::vulkan

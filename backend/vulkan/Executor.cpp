@@ -27,7 +27,7 @@ struct Dispatch {
 // ---------------------------------------------------------------------------------------------- life time
 
 Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options, ResultSink& sink) {
-    auto instance = Instance::create(options.validation ? &sink : nullptr);
+    auto instance = Instance::create(options.validation ? &sink : nullptr, options.display);
     if (!instance) return instance.error();
     std::vector<PhysicalDevice> devices = surveyDevices(**instance);
     const Result<size_t> choice = chooseDevice(devices, options.requireDevice);

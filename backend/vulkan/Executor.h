@@ -24,6 +24,7 @@
 #include "backend/vulkan/Readbacks.h"
 #include "backend/vulkan/Sampler.h"
 #include "backend/vulkan/Submissions.h"
+#include "backend/vulkan/Surface.h"
 #include "backend/vulkan/Texture.h"
 #include "backend/vulkan/Timers.h"
 #include "backend/vulkan/Upload.h"
@@ -57,12 +58,14 @@ public:
     void execute(CmdCreateProgram const& command);
     void execute(CmdCreatePipeline const& command);
     void execute(CmdCreateBindGroup const& command);
+    void execute(CmdCreateSurface const& command);
     void execute(CmdDestroyBuffer const& command);
     void execute(CmdDestroyTexture const& command);
     void execute(CmdDestroySampler const& command);
     void execute(CmdDestroyProgram const& command);
     void execute(CmdDestroyPipeline const& command);
     void execute(CmdDestroyBindGroup const& command);
+    void execute(CmdDestroySurface const& command);
 
     void execute(CmdUpdateBuffer const& command);
     void execute(CmdUploadTexture const& command);
@@ -70,6 +73,7 @@ public:
     void execute(CmdBlit const& command);
     void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command);
+    void execute(CmdPresent const& command);
 
     void execute(CmdBeginPass const& command);
     void execute(CmdNextSubpass const& command);
@@ -135,6 +139,7 @@ private:
     Slots<ProgramHandle, Program> mPrograms;
     Slots<PipelineHandle, Pipeline> mPipelines;
     Slots<BindGroupHandle, BindGroup> mBindGroups;
+    Slots<SurfaceHandle, Surface> mSurfaces;
     std::optional<Timers> mTimers;
     std::optional<Readbacks> mReadbacks;
     std::optional<Submissions> mSubmissions;

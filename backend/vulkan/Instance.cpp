@@ -53,7 +53,11 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ResultSink* sink) {
     return info;
 }
 
-VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle) {
+const char* surfaceExtension(WindowSystem system) {
+    return system == WindowSystem::X11 ? "VK_KHR_xlib_surface" : "VK_KHR_wayland_surface";
+}
+
+VkResult createHandle(ResultSink* sink, WindowSystem windows, uint32_t apiVersion, VkInstance& handle) {
     auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
     application.pEngineName = "filament_core";
     application.apiVersion = apiVersion;
@@ -66,14 +70,17 @@ VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle)
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
     features.pNext = &messenger; // receives messages about creating and destroying the instance
-    const std::array extensions{ VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME };
+    std::vector<const char*> extensions;
+    if (windows != WindowSystem::None) extensions = { VK_KHR_SURFACE_EXTENSION_NAME, surfaceExtension(windows) };
     if (sink) {
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
-        info.ppEnabledExtensionNames = extensions.data();
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     return vkCreateInstance(&info, nullptr, &handle);
 }
 
@@ -84,12 +91,12 @@ VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle)
 void keepDriversLoaded(uint32_t apiVersion) {
     static std::once_flag once;
     static VkInstance kept = VK_NULL_HANDLE;
-    std::call_once(once, [apiVersion] { createHandle(nullptr, apiVersion, kept); });
+    std::call_once(once, [apiVersion] { createHandle(nullptr, WindowSystem::None, apiVersion, kept); });
 }
 
 } // namespace
 
-Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink) {
+Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink, NativeDisplay const& display) {
     if (initializeLoader() != VK_SUCCESS) {
         return fail(ErrorCode::DeviceUnavailable,
                     "Vulkan: no loader (libvulkan.so.1) on this machine; install libvulkan1 and mesa-vulkan-drivers");
@@ -109,12 +116,19 @@ Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink) {
     std::unique_ptr<Instance> instance(new Instance);
     const uint32_t apiVersion = std::min(version, kNewestApi);
     keepDriversLoaded(apiVersion);
-    const VkResult result = createHandle(sink, apiVersion, instance->mHandle);
+    const VkResult result = createHandle(sink, display.system, apiVersion, instance->mHandle);
     if (result != VK_SUCCESS) {
         instance->mHandle = VK_NULL_HANDLE;
+        if (result == VK_ERROR_EXTENSION_NOT_PRESENT && display.system != WindowSystem::None) {
+            return fail(ErrorCode::Unsupported,
+                        "Vulkan: no driver presents to windows of {} ({}); install "
+                        "mesa-vulkan-drivers",
+                        toString(display.system), surfaceExtension(display.system));
+        }
         return fail(ErrorCode::DeviceUnavailable, "Vulkan: no driver could be loaded ({}); install mesa-vulkan-drivers",
                     toString(result));
     }
+    instance->mDisplay = display;
     instance->loadFunctions();
     publishDeviceProcAddr(instance->mHandle);
     if (sink) {
@@ -145,6 +159,11 @@ void Instance::loadFunctions() {
     load(fn.vkGetPhysicalDeviceImageFormatProperties, "vkGetPhysicalDeviceImageFormatProperties");
     load(fn.vkEnumerateDeviceExtensionProperties, "vkEnumerateDeviceExtensionProperties");
     load(fn.vkCreateDevice, "vkCreateDevice");
+    load(fn.vkDestroySurfaceKHR, "vkDestroySurfaceKHR");
+    load(fn.vkGetPhysicalDeviceSurfaceSupportKHR, "vkGetPhysicalDeviceSurfaceSupportKHR");
+    load(fn.vkGetPhysicalDeviceSurfaceCapabilitiesKHR, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+    load(fn.vkGetPhysicalDeviceSurfaceFormatsKHR, "vkGetPhysicalDeviceSurfaceFormatsKHR");
+    load(fn.vkGetPhysicalDeviceSurfacePresentModesKHR, "vkGetPhysicalDeviceSurfacePresentModesKHR");
     load(fn.vkCreateDebugUtilsMessengerEXT, "vkCreateDebugUtilsMessengerEXT");
     load(fn.vkDestroyDebugUtilsMessengerEXT, "vkDestroyDebugUtilsMessengerEXT");
     load(fn.vkSetDebugUtilsObjectNameEXT, "vkSetDebugUtilsObjectNameEXT");

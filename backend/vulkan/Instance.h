@@ -2,6 +2,7 @@
 /// Instance: the loader, the instance and the validation messenger.
 ///   Thread  create(): any, also several at once. After that one thread at a time.
 ///   Fails   DeviceUnavailable without a loader, without Vulkan 1.1 or without any driver.
+///               Unsupported if the loader knows no surfaces of the display.
 ///   Validation  if requested but not installed: one ResultSink::onError, and no validation.
 #pragma once
 
@@ -13,7 +14,8 @@
 
 namespace filament::backend::vulkan {
 
-/// The functions that we call on the instance and its physical devices. The last three are null without debug utils.
+/// The functions that we call on the instance and its physical devices. Those of surfaces are null without a display,
+/// those of debug utils without validation.
 struct InstanceFunctions {
     PFN_vkDestroyInstance vkDestroyInstance = nullptr;
     PFN_vkEnumeratePhysicalDevices vkEnumeratePhysicalDevices = nullptr;
@@ -25,6 +27,11 @@ struct InstanceFunctions {
     PFN_vkGetPhysicalDeviceImageFormatProperties vkGetPhysicalDeviceImageFormatProperties = nullptr;
     PFN_vkEnumerateDeviceExtensionProperties vkEnumerateDeviceExtensionProperties = nullptr;
     PFN_vkCreateDevice vkCreateDevice = nullptr;
+    PFN_vkDestroySurfaceKHR vkDestroySurfaceKHR = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceSupportKHR vkGetPhysicalDeviceSurfaceSupportKHR = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR vkGetPhysicalDeviceSurfaceCapabilitiesKHR = nullptr;
+    PFN_vkGetPhysicalDeviceSurfaceFormatsKHR vkGetPhysicalDeviceSurfaceFormatsKHR = nullptr;
+    PFN_vkGetPhysicalDeviceSurfacePresentModesKHR vkGetPhysicalDeviceSurfacePresentModesKHR = nullptr;
     PFN_vkCreateDebugUtilsMessengerEXT vkCreateDebugUtilsMessengerEXT = nullptr;
     PFN_vkDestroyDebugUtilsMessengerEXT vkDestroyDebugUtilsMessengerEXT = nullptr;
     PFN_vkSetDebugUtilsObjectNameEXT vkSetDebugUtilsObjectNameEXT = nullptr;
@@ -35,7 +42,8 @@ struct InstanceFunctions {
 class Instance {
 public:
     /// `sink` receives validation messages and must outlive the instance; null: no validation.
-    static Result<std::unique_ptr<Instance>> create(ResultSink* sink);
+    /// `display`: of the windows that devices will present to.
+    static Result<std::unique_ptr<Instance>> create(ResultSink* sink, NativeDisplay const& display = {});
     ~Instance();
     Instance(Instance const&) = delete;
     Instance& operator=(Instance const&) = delete;
@@ -45,6 +53,7 @@ public:
     VkInstance handle() const { return mHandle; }
     InstanceFunctions const& fn() const { return mFunctions; }
     bool hasValidation() const { return mMessenger != VK_NULL_HANDLE; }
+    NativeDisplay const& display() const { return mDisplay; }
 
 private:
     Instance() = default;
@@ -52,6 +61,7 @@ private:
 
     VkInstance mHandle = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
+    NativeDisplay mDisplay{};
     InstanceFunctions mFunctions;
 };
 

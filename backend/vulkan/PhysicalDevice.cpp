@@ -84,6 +84,9 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     device.imageFormatList = extensions.has(VK_KHR_IMAGE_FORMAT_LIST_EXTENSION_NAME);
+    device.swapchains = extensions.has(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    if (!device.swapchains && instance.display().system != WindowSystem::None)
+        device.unusable = "presents to no window";
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
     device.depthResolve = extensions.has(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME) &&
                           extensions.has(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);

@@ -61,7 +61,7 @@ VkResult Submissions::open() {
     return VK_SUCCESS;
 }
 
-VkResult Submissions::submit() {
+VkResult Submissions::submit(VkSemaphore waits, VkSemaphore signals) {
     if (!mIsOpen) return VK_SUCCESS;
     mIsOpen = false;
     VolkDeviceTable const& fn = mDevice.fn();
@@ -71,6 +71,12 @@ VkResult Submissions::submit() {
     auto info = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     info.commandBufferCount = 1;
     info.pCommandBuffers = &slot.commands;
+    const VkPipelineStageFlags transfers = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    info.waitSemaphoreCount = waits ? 1 : 0;
+    info.pWaitSemaphores = &waits;
+    info.pWaitDstStageMask = &transfers;
+    info.signalSemaphoreCount = signals ? 1 : 0;
+    info.pSignalSemaphores = &signals;
     result = fn.vkQueueSubmit(mDevice.queue(), 1, &info, slot.fence);
     if (result == VK_SUCCESS) slot.serial = ++mSubmitted;
     return result;

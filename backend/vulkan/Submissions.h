@@ -30,7 +30,8 @@ public:
     VkResult open();
     bool isOpen() const { return mIsOpen; }
     VkCommandBuffer commands() const { return mSlots[mCurrent].commands; } ///< between open() and submit()
-    VkResult submit();
+    /// `waits`: before the transfers of this submission; `signals`: when all of it is done. Null: none.
+    VkResult submit(VkSemaphore waits = VK_NULL_HANDLE, VkSemaphore signals = VK_NULL_HANDLE);
 
     uint64_t recordingSerial() const { return mSubmitted + 1; }
     uint64_t finishedSerial() const { return mFinished; }

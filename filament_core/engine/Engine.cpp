@@ -66,7 +66,10 @@ std::filesystem::path programCache(EngineOptions const& options) {
 DriverFactory driverFactory(EngineOptions const& options) {
     return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         const auto innermost = [&options](ResultSink& results) {
-            const DriverOptions driverOptions{ options.requireDevice, options.validation, programCache(options) };
+            const DriverOptions driverOptions{ .requireDevice = options.requireDevice,
+                                               .validation = options.validation,
+                                               .display = options.display,
+                                               .cacheDirectory = programCache(options) };
             auto device = createDriver(backendType(options.backend), driverOptions, results);
             if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
             return device;
@@ -107,6 +110,11 @@ jobs::AffinityPolicy affinityPolicy(EngineOptions const& options) {
 
 jobs::JobSystemOptions jobOptions(EngineOptions const& options) {
     return { .workers = options.workers, .affinity = affinityPolicy(options), .trace = options.traceJobs };
+}
+
+/// A frame of a window is several submissions: its views, and the presentation. present() keeps the app close.
+uint32_t framesAhead(EngineOptions const& options) {
+    return options.display.system == WindowSystem::None ? CommandStreamOptions{}.maxFramesAhead : 8;
 }
 
 template <class Table>
@@ -237,7 +245,8 @@ Result<Engine> Engine::create(EngineOptions const& options) {
     const ApiCall call("Engine::create(EngineOptions)");
     return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
         if (Result<void> cores = checkCores(options); !cores) return cores.error();
-        auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore,
+        auto stream = CommandStream::start(driverFactory(options), { .maxFramesAhead = framesAhead(options),
+                                                                     .driverCore = options.driverCore,
                                                                      .repinAfterWaits = options.repinAfterWaits,
                                                                      .hashStreams = options.hashFrames });
         if (!stream) return stream.error();
@@ -283,6 +292,8 @@ EngineStatistics Engine::statistics() const {
              driver.commands,
              driver.deviceBytes,
              mImpl->stream->backPressureNanoseconds(),
+             driver.presents,
+             driver.presents == 0 ? 0 : mImpl->secondsSinceStart(driver.lastPresent.time_since_epoch().count()),
              latencyOf(mImpl->stream->latency()) };
 }
 

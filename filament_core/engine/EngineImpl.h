@@ -99,6 +99,9 @@ struct SwapChainState {
     std::vector<Texture> images;
     uint32_t current = 0; ///< the one rendered last
     uint2 size{};
+    Format format = Format::RGBA8;
+    backend::SurfaceHandle surface{};   ///< of its window; none: headless
+    std::array<uint64_t, 2> presents{}; ///< the submissions of the last ones, the older one first
     std::string name;
 };
 
@@ -170,6 +173,8 @@ struct Engine::Impl {
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
+    void resize(engine::SwapChainState& state, uint2 size);
+    void present(engine::SwapChainState& state);
     void updateBuffer(backend::BufferHandle buffer, uint64_t offset, std::span<const std::byte> data);
     void update(engine::VertexBufferState& state, std::span<const std::byte> data, uint32_t firstVertex);
     void update(engine::IndexBufferState const& state, std::span<const std::byte> data, uint32_t firstIndex);

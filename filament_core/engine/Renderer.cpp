@@ -386,6 +386,18 @@ void Renderer::render(Scene const& scene, View const& view, RenderTarget target)
     (void)mImpl->render(scene, view, drawn);
 }
 
+void Renderer::present(SwapChain swapChain) {
+    const PublicCall call(mImpl, "Renderer::present(SwapChain)");
+    engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
+    mImpl->engine.orReport("presenting an image", state.name, [&] { mImpl->engine.present(state); });
+}
+
+bool Renderer::mayPresent(SwapChain swapChain) const {
+    const PublicCall call(mImpl, "Renderer::mayPresent(SwapChain)");
+    const uint64_t older = mImpl->engine.swapChains.get(swapChain).presents[0];
+    return mImpl->engine.stream->replayedSubmissions() >= older;
+}
+
 void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
     const PublicCall call(mImpl, "Renderer::expect(Scene, View, SwapChain)");
     mImpl->check(scene);

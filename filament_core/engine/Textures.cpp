@@ -171,37 +171,6 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
     return draft.keep();
 }
 
-SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
-    FILAMENT_ASSERT(desc.size.x > 0 && desc.size.y > 0, "a swap chain has at least one pixel");
-    FILAMENT_ASSERT(!formatInfo(desc.format).isSrgb,
-                    "a swap chain of sRGB codes has format RGBA8: nothing samples it, so nothing decodes them");
-    FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
-    engine::Draft draft(swapChains);
-    engine::SwapChainState& state = draft.state();
-    state.size = desc.size;
-    state.name = desc.name;
-    state.images.reserve(desc.imageCount);
-    try {
-        for (uint32_t i = 0; i < desc.imageCount; ++i) {
-            state.images.push_back(createTexture({ .format = desc.format,
-                                                   .width = desc.size.x,
-                                                   .height = desc.size.y,
-                                                   .renderable = true,
-                                                   .name = desc.name }));
-        }
-    } catch (...) {
-        for (Texture image : state.images) destroy(image);
-        throw;
-    }
-    return draft.keep();
-}
-
-void Engine::Impl::destroy(SwapChain swapChain) {
-    if (!swapChain) return;
-    for (Texture image : swapChains.get(swapChain).images) destroy(image);
-    swapChains.remove(swapChain);
-}
-
 // ---------------------------------------------------------------------------------------------- the public functions
 
 Texture Engine::create(filament::TextureDesc const& desc) {
@@ -283,11 +252,6 @@ RenderTarget Engine::create(RenderTargetDesc const& desc) {
     });
 }
 
-SwapChain Engine::create(SwapChainDesc const& desc) {
-    const PublicCall call(mImpl, "Engine::create(SwapChainDesc)", desc.name);
-    return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
-}
-
 Texture Engine::colorOf(RenderTarget target) const {
     const PublicCall call(mImpl, "Engine::colorOf(RenderTarget)");
     const Texture color = mImpl->renderTargets.get(target).color;
@@ -328,11 +292,6 @@ void Engine::destroy(Skybox skybox) {
 void Engine::destroy(RenderTarget target) {
     const PublicCall call(mImpl, "Engine::destroy(RenderTarget)");
     mImpl->removeNow(mImpl->renderTargets, target);
-}
-
-void Engine::destroy(SwapChain swapChain) {
-    const PublicCall call(mImpl, "Engine::destroy(SwapChain)");
-    mImpl->destroy(swapChain);
 }
 
 } // namespace filament

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <filament/Backend.h>
+#include <filament/NativeWindow.h>
 #include <filament/Objects.h>
 #include <filament/Result.h>
 #include <filament/Stencil.h>
@@ -73,6 +74,9 @@ struct EngineOptions {
     /// Threads with cores of their own take them again each time they wake up: for systems that move processes between
     /// groups of cores, as Android does. One system call per wake-up.
     bool repinAfterWaits = false;
+    /// Of the windows that the engine presents to (SwapChainDesc::window); none: it opens no window system. With one, only
+    /// devices that can present to its windows are used.
+    NativeDisplay display{};
     bool validation = false; ///< check every stream, and enable the Vulkan validation layers or KHR_debug
     /// The engine's own shaders write their arithmetic out, so that both APIs draw the same bits. Off: the drivers
     /// choose, as in other engines. Materials that you compile yourself follow the options given to matc.
@@ -104,6 +108,8 @@ struct EngineStatistics {
     uint64_t commands = 0;
     uint64_t deviceBytes = 0;
     uint64_t backPressureNanoseconds = 0; ///< time that the app waited for the driver thread
+    uint64_t presents = 0;                ///< images that windows have taken
+    double lastPresentSeconds = 0;        ///< when they took the last one, since the engine started
     FrameLatency latency{};
 };
 
@@ -165,6 +171,10 @@ public:
     void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0);
     void update(IndexBuffer buffer, std::span<const std::byte> data, uint32_t firstIndex = 0);
     void update(Texture texture, TextureUpdate const& update);
+
+    /// New images of another size, without contents; a window keeps its image until the next present(). Pixels that were
+    /// asked for arrive.
+    void resize(SwapChain swapChain, uint2 size);
 
     /// The textures of a render target, for parameters of materials. They are the app's own; depthOf() may be none.
     Texture colorOf(RenderTarget target) const;

@@ -9,6 +9,7 @@
 #include <filament/Handle.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
+#include <filament/NativeWindow.h>
 #include <filament/Quality.h>
 #include <filament/Sampler.h>
 #include <filament/Units.h>
@@ -69,7 +70,7 @@ enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
 struct TextureDesc {
     TextureKind kind = TextureKind::Texture2D;
     Format format = Format::RGBA8;
-    uint32_t width = 1, height = 1; ///< >= 1, at most DeviceInfo::maxTextureSize
+    uint32_t width = 1, height = 1; ///< >= 1, at most DeviceDescription::maxTextureSize
     uint32_t layers = 1;            ///< 6 for a cube
     uint32_t levels = 1;            ///< mip levels given in `pixels`
     bool generateMips = false;      ///< compute levels 1.. from level 0, on the device or, for RGBA8Srgb, before the
@@ -248,12 +249,17 @@ struct RenderTargetDesc {
     std::string name{};
 };
 
-/// A headless swap chain: a ring of images that frames are presented to and read back from.
+/// A ring of images that frames are drawn to and read back from. With a window, Renderer::present() shows the image drawn
+/// last in it, bit by bit.
 struct SwapChainDesc {
     uint2 size{ 1280, 720 };       ///< pixels, >= 1
     uint32_t imageCount = 2;       ///< [1, 4]
     Format format = Format::RGBA8; ///< RGBA8, RGB10A2 (display) or RGBA16F (scene-linear, without tone mapping); no
                                    ///< RGBA8Srgb: its codes are those of RGBA8
+    /// Of EngineOptions::display; none: headless. Its images are RGBA8, or RGB10A2 for displays of 10 bits. Destroy the swap
+    /// chain before the window.
+    NativeWindow window{};
+    PresentMode presentMode = PresentMode::Fifo; ///< Fifo where the window has no such mode
     std::string name{};
 };
 

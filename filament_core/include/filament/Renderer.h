@@ -100,6 +100,13 @@ public:
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
+    /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before it
+    /// have not reached the window yet: then it waits for the first of them, so that the app is never further ahead. A
+    /// swap chain without a window, or without a picture: nothing happens.
+    void present(SwapChain swapChain);
+    /// Whether present() would not wait: an app that has other work can do that first.
+    bool mayPresent(SwapChain swapChain) const;
+
     /// Announces the passes of such frames to Engine::compile() and requests the passes' own pipelines, without
     /// drawing. Only the scene's environment matters, not its contents.
     void expect(Scene const& scene, View const& view, SwapChain swapChain);

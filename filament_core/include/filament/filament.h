@@ -24,6 +24,7 @@
 #include <filament/Math.h>
 #include <filament/Mesh.h>
 #include <filament/ModelCopy.h>
+#include <filament/NativeWindow.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
 #include <filament/Photometry.h>

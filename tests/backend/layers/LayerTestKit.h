@@ -28,6 +28,7 @@ inline const BufferHandle kVertices = BufferHandle::make(0, 1), kIndices = Buffe
 inline const TextureHandle kColor = TextureHandle::make(0, 1), kDepth = TextureHandle::make(1, 1),
                            kImage = TextureHandle::make(2, 1), kSamples4 = TextureHandle::make(3, 1);
 inline const SamplerHandle kSampler = SamplerHandle::make(0, 1), kCompare = SamplerHandle::make(1, 1);
+inline const SurfaceHandle kWindow = SurfaceHandle::make(0, 1);
 inline const ProgramHandle kProgram = ProgramHandle::make(0, 1), kCountProgram = ProgramHandle::make(1, 1);
 inline const PipelineHandle kPipeline = PipelineHandle::make(0, 1), kCount = PipelineHandle::make(1, 1);
 inline const BindGroupHandle kGroup = BindGroupHandle::make(0, 1), kCountGroup = BindGroupHandle::make(1, 1);
@@ -157,6 +158,11 @@ inline void recordTextures(CommandBuffer& to) {
     to.record(CmdCreateSampler{ kCompare, { .compare = CompareOp::Less } });
 }
 
+inline void recordSurface(CommandBuffer& to) {
+    to.record(CmdCreateSurface{ kWindow,
+                                { .window = 0x400001, .presentMode = PresentMode::Mailbox, .debugName = "window" } });
+}
+
 inline void recordPrograms(CommandBuffer& to) {
     to.record(createProgram());
     to.record(CmdCreatePipeline{ kPipeline, pipelineDesc() });
@@ -173,6 +179,7 @@ inline void recordObjects(CommandBuffer& to) {
     recordBuffers(to);
     recordTextures(to);
     recordPrograms(to);
+    recordSurface(to);
 }
 
 inline void recordBindings(CommandBuffer& to) {
@@ -218,11 +225,13 @@ inline void recordFrame(CommandBuffer& to, uint64_t frame = 1, uint64_t firstTic
     to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 16, 16 }, .ticket = { firstTicket + 1 } });
     recordDispatch(to);
     to.record(CmdReadBuffer{ .buffer = kBins, .offset = kAlign, .size = 64, .ticket = { firstTicket + 2 } });
+    to.record(CmdPresent{ kWindow, kColor });
     to.record(CmdPopGroup{});
     to.record(CmdEndFrame{ frame });
 }
 
 inline void recordDestroys(CommandBuffer& to) {
+    to.record(CmdDestroySurface{ kWindow });
     for (const BindGroupHandle group : { kGroup, kCountGroup }) to.record(CmdDestroyBindGroup{ group });
     for (const PipelineHandle pipeline : { kPipeline, kCount }) to.record(CmdDestroyPipeline{ pipeline });
     for (const ProgramHandle program : { kProgram, kCountProgram }) to.record(CmdDestroyProgram{ program });

@@ -193,7 +193,7 @@ TEST_F(TraceFile, HoldsEveryStreamBeforeTheDriverExecutesTheNext) {
     recordObjects(objects);
     recordFrame(frame);
     (*driver)->execute(objects.view());
-    EXPECT_THAT(content(), testing::EndsWith("debugName=\"counters\" }\n"));
+    EXPECT_THAT(content(), testing::EndsWith("debugName=\"window\" }\n"));
     (*driver)->execute(frame.view());
     const auto loaded = loadTrace(mPath); // the driver still runs: all output has been flushed
     ASSERT_TRUE(loaded.ok()) << loaded.error().message;

@@ -623,6 +623,59 @@ std::vector<Case> passCases() {
     };
 }
 
+std::vector<Case> surfaceCases() {
+    const auto other = SurfaceHandle::make(7, 1);
+    return {
+        { "SurfaceOfNoWindow",
+          [=](C& to) {
+              to.record(CmdCreateSurface{ other, {} });
+          },
+          "the window is none" },
+        { "SurfaceTwice",
+          [](C& to) {
+              to.record(CmdCreateSurface{ kWindow, { .window = 1 } });
+          },
+          "is in use" },
+        { "PresentToNoSurface",
+          [=](C& to) {
+              to.record(CmdPresent{ other, kColor });
+          },
+          "the surface 0x100007" },
+        { "PresentNoTexture",
+          [](C& to) {
+              to.record(CmdPresent{ kWindow, {} });
+          },
+          "the texture is none" },
+        { "PresentInAPass", [](C& to) { inPass(to, [](C& in) {
+                                            in.record(CmdPresent{ kWindow, kColor });
+                                        }); },
+          "only outside of passes" },
+        { "PresentSamples",
+          [](C& to) {
+              to.record(CmdPresent{ kWindow, kSamples4 });
+          },
+          "lacks TextureUsage" },
+        { "PresentLight",
+          [](C& to) {
+              const auto light = TextureHandle::make(20, 1);
+              to.record(CmdCreateTexture{ light,
+                                          { .format = Format::RGBA16F,
+                                            .usage = TextureUsage::TransferSource,
+                                            .width = 4,
+                                            .height = 4,
+                                            .debugName = "light" } });
+              to.record(CmdPresent{ kWindow, light });
+          },
+          "'light' is RGBA16F; a window shows RGBA8 or RGB10A2", Outcome::Forwarded },
+        { "SurfaceDestroyedTwice",
+          [](C& to) {
+              to.record(CmdDestroySurface{ kWindow });
+              to.record(CmdDestroySurface{ kWindow });
+          },
+          "was destroyed" },
+    };
+}
+
 std::vector<Case> drawCases() {
     return {
         { "NoPipeline",
@@ -901,6 +954,7 @@ INSTANTIATE_TEST_SUITE_P(BindGroups, ValidatedRule, testing::ValuesIn(groupCases
 INSTANTIATE_TEST_SUITE_P(Contents, ValidatedRule, testing::ValuesIn(contentCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Passes, ValidatedRule, testing::ValuesIn(passCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Compute, ValidatedRule, testing::ValuesIn(computeCases()), kCaseName);
+INSTANTIATE_TEST_SUITE_P(Surfaces, ValidatedRule, testing::ValuesIn(surfaceCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Draws, ValidatedRule, testing::ValuesIn(drawCases()), kCaseName);
 
 } // namespace

@@ -126,11 +126,11 @@ int recordAllWithScratch(CommandBuffer& commands, std::vector<std::byte>& scratc
 TEST(CommandBuffer, AdoptsEveryPayloadFieldOfEveryCommand) {
     std::vector<std::byte> scratch(256);
     CommandBuffer commands;
-    EXPECT_EQ(recordAllWithScratch(commands, scratch, Commands{}), 9); // 5 names, program, 2 byte spans, group
+    EXPECT_EQ(recordAllWithScratch(commands, scratch, Commands{}), 10); // 6 names, program, 2 byte spans, group
     const auto begin = reinterpret_cast<uintptr_t>(scratch.data());
     ScratchChecker checker{ begin, begin + scratch.size() };
     replay(commands.view(), checker);
-    EXPECT_EQ(checker.adopted, 14); // 7 names, 4 spans of the program, 1 of the bind group, 2 of bytes
+    EXPECT_EQ(checker.adopted, 15); // 8 names, 4 spans of the program, 1 of the bind group, 2 of bytes
 }
 
 TEST(CommandBuffer, CarriesPayloadsLargerThanAChunkAndTinyOnesAtAnyAlignment) {

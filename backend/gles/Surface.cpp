@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Surface.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+namespace filament::backend::gles {
+namespace {
+
+/// libwayland-egl, opened at run time: EGL takes its windows, not those of Wayland.
+struct WaylandEgl {
+    void* (*create)(void* surface, int width, int height) = nullptr;
+    void (*resize)(void* window, int width, int height, int dx, int dy) = nullptr;
+    void (*destroy)(void* window) = nullptr;
+
+    WaylandEgl() {
+        void* library = dlopen("libwayland-egl.so.1", RTLD_NOW | RTLD_LOCAL);
+        if (!library) return;
+        create = reinterpret_cast<decltype(create)>(dlsym(library, "wl_egl_window_create"));
+        resize = reinterpret_cast<decltype(resize)>(dlsym(library, "wl_egl_window_resize"));
+        destroy = reinterpret_cast<decltype(destroy)>(dlsym(library, "wl_egl_window_destroy"));
+    }
+    bool isComplete() const { return create && resize && destroy; }
+};
+
+WaylandEgl const& waylandEgl() {
+    static const WaylandEgl library;
+    return library;
+}
+
+/// EGL offers more bits than one asks for, and those first.
+bool hasEightBits(Egl const& egl, EGLDisplay display, EGLConfig config) {
+    EGLint bits = 0;
+    return egl.GetConfigAttrib(display, config, EGL_GREEN_SIZE, &bits) && bits == 8;
+}
+
+/// Configurations of 8 bits a channel for windows: opaque ones first.
+std::vector<EGLConfig> windowConfigs(Egl const& egl, EGLDisplay display) {
+    std::vector<EGLConfig> configs;
+    for (EGLint alpha : { 0, 8 }) {
+        const std::array<EGLint, 17> wanted{ EGL_SURFACE_TYPE,
+                                             EGL_WINDOW_BIT,
+                                             EGL_RENDERABLE_TYPE,
+                                             EGL_OPENGL_ES3_BIT,
+                                             EGL_RED_SIZE,
+                                             8,
+                                             EGL_GREEN_SIZE,
+                                             8,
+                                             EGL_BLUE_SIZE,
+                                             8,
+                                             EGL_ALPHA_SIZE,
+                                             alpha,
+                                             EGL_SAMPLES,
+                                             0,
+                                             EGL_DEPTH_SIZE,
+                                             0,
+                                             EGL_NONE };
+        std::array<EGLConfig, 64> found{};
+        EGLint count = 0;
+        if (!egl.ChooseConfig(display, wanted.data(), found.data(), found.size(), &count)) continue;
+        std::copy_if(found.begin(), found.begin() + count, std::back_inserter(configs),
+                     [&](EGLConfig each) { return hasEightBits(egl, display, each); });
+    }
+    return configs;
+}
+
+} // namespace
+
+Surface::Surface(Context const& context, SurfaceDesc const& desc)
+        : mContext(context), mInterval(desc.presentMode == PresentMode::Fifo ? 1 : 0), mName(desc.debugName) {}
+
+Result<std::unique_ptr<Surface>> Surface::create(Context const& context, NativeDisplay const& display,
+                                                 SurfaceDesc const& desc) {
+    std::unique_ptr<Surface> surface(new Surface(context, desc));
+    if (Result<void> opened = surface->open(display, desc); !opened) return opened.error();
+    return surface;
+}
+
+Result<void> Surface::open(NativeDisplay const& display, SurfaceDesc const& desc) {
+    if (display.system == WindowSystem::None) {
+        return fail(ErrorCode::Unsupported,
+                    "window '{}': the engine was made without a display; set "
+                    "EngineOptions::display",
+                    mName);
+    }
+    auto window = static_cast<EGLNativeWindowType>(desc.window);
+    if (display.system == WindowSystem::Wayland) {
+        if (!waylandEgl().isComplete()) {
+            return fail(ErrorCode::Unsupported,
+                        "window '{}': libwayland-egl.so.1 cannot be opened; install "
+                        "libwayland-egl1",
+                        mName);
+        }
+        mWaylandWindow = waylandEgl().create(reinterpret_cast<void*>(desc.window), 1, 1); // follow() sets the size
+        window = reinterpret_cast<EGLNativeWindowType>(mWaylandWindow);
+    }
+    Egl const& egl = mContext.egl();
+    for (EGLConfig config : windowConfigs(egl, mContext.display())) {
+        mSurface = egl.CreateWindowSurface(mContext.display(), config, window, nullptr);
+        if (mSurface != EGL_NO_SURFACE) return {}; // X11: a configuration whose visual is that of the window
+    }
+    return fail(ErrorCode::Internal,
+                "window '{}': EGL has no surface for it (EGL error {:#x}); is it a window of this "
+                "display, and nobody else's to draw to?",
+                mName, egl.GetError());
+}
+
+Surface::~Surface() {
+    Egl const& egl = mContext.egl();
+    if (mSurface != EGL_NO_SURFACE) {
+        mContext.makeCurrent(EGL_NO_SURFACE);
+        egl.DestroySurface(mContext.display(), mSurface);
+    }
+    if (mWaylandWindow) waylandEgl().destroy(mWaylandWindow);
+}
+
+/// A window of Wayland is as large as its images; windows of X11 have a size of their own.
+void Surface::follow(Texture const& texture) {
+    if (!mWaylandWindow) return;
+    waylandEgl().resize(mWaylandWindow, static_cast<int>(texture.desc.width), static_cast<int>(texture.desc.height), 0,
+                        0);
+}
+
+void Surface::copy(Device& device, Framebuffers& framebuffers, Texture const& texture) {
+    const auto imageWidth = static_cast<GLint>(texture.desc.width),
+               imageHeight = static_cast<GLint>(texture.desc.height);
+    EGLint width = imageWidth, height = imageHeight;
+    if (!mWaylandWindow) { // else EGL tells the size of the last image, not of this one
+        mContext.egl().QuerySurface(mContext.display(), mSurface, EGL_WIDTH, &width);
+        mContext.egl().QuerySurface(mContext.display(), mSurface, EGL_HEIGHT, &height);
+    }
+    const GLint right = std::min(imageWidth, width), rows = std::min(imageHeight, height);
+    device.state.bindFramebuffers(0, framebuffers.single(Framebuffers::Side::Read, texture, 0, 0));
+    const GLenum back = GL_BACK;
+    device.gl.DrawBuffers(1, &back); // none after a start without a surface
+    device.state.setScissor({});
+    if (imageWidth < width || imageHeight < height) {
+        constexpr std::array<GLfloat, 4> kBlack{ 0, 0, 0, 1 };
+        device.state.allowClears(1);
+        device.gl.ClearBufferfv(GL_COLOR, 0, kBlack.data());
+    }
+    device.gl.BlitFramebuffer(0, 0, right, rows, 0, height, right, height - rows, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+bool Surface::present(Device& device, Framebuffers& framebuffers, Texture const& texture) {
+    follow(texture);
+    if (!mContext.makeCurrent(mSurface)) {
+        reportOnce(device, "cannot be drawn to");
+        return false;
+    }
+    Egl const& egl = mContext.egl();
+    if (!mHasInterval) mHasInterval = egl.SwapInterval(mContext.display(), mInterval) == EGL_TRUE;
+    copy(device, framebuffers, texture);
+    if (egl.SwapBuffers(mContext.display(), mSurface)) return true;
+    reportOnce(device, "does not take the image");
+    return false;
+}
+
+void Surface::reportOnce(Device& device, const char* what) {
+    const EGLint error = mContext.egl().GetError();
+    if (std::exchange(mIsReported, true)) return;
+    device.error(DriverErrorKind::Other,
+                 "window '{}' {} (EGL error {:#x}); was it closed before its swap chain was "
+                 "destroyed?",
+                 mName, what, error);
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Surface: a window that images are copied to.
+///   Rows    the only place that turns a picture over: row 0 is the top row of a texture, but the bottom row of a window.
+///   Thread  the driver thread, context current.
+///   Needs   a context on the display of the window (DriverOptions::display).
+///   Fails   create(): Unsupported or Internal, with the window and the error of EGL. present() returns what it did; a
+///           window that is gone is reported once.
+#pragma once
+
+#include "backend/gles/Device.h"
+#include "backend/gles/Framebuffers.h"
+
+#include <memory>
+#include <string>
+
+namespace filament::backend::gles {
+
+class Surface {
+public:
+    static Result<std::unique_ptr<Surface>> create(Context const& context, NativeDisplay const& display,
+                                                   SurfaceDesc const& desc);
+    ~Surface();
+    Surface(Surface const&) = delete;
+    Surface& operator=(Surface const&) = delete;
+
+    /// Copies the texture into the window, and shows it. False: the window did not take it.
+    bool present(Device& device, Framebuffers& framebuffers, Texture const& texture);
+
+private:
+    Surface(Context const& context, SurfaceDesc const& desc);
+    Result<void> open(NativeDisplay const& display, SurfaceDesc const& desc);
+    void follow(Texture const& texture);
+    void copy(Device& device, Framebuffers& framebuffers, Texture const& texture);
+    void reportOnce(Device& device, const char* what);
+
+    Context const& mContext;
+    EGLSurface mSurface = EGL_NO_SURFACE;
+    void* mWaylandWindow = nullptr; ///< wl_egl_window*, which has the size of what is presented
+    EGLint mInterval;               ///< refreshes of the display between two images
+    bool mHasInterval = false;
+    bool mIsReported = false;
+    std::string mName;
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Surface.h"
+
+#include "backend/vulkan/Barriers.h"
+
+#include <algorithm>
+#include <array>
+
+// The structures of surfaces, without the headers of the window systems.
+using Display = struct _XDisplay;
+using Window = unsigned long;
+using VisualID = unsigned long;
+#include <vulkan/vulkan_wayland.h>
+#include <vulkan/vulkan_xlib.h>
+
+namespace filament::backend::vulkan {
+namespace {
+
+template <class F>
+F instanceFunction(Instance const& instance, const char* name) {
+    return reinterpret_cast<F>(vkGetInstanceProcAddr(instance.handle(), name));
+}
+
+VkResult createX11(Instance const& instance, uint64_t window, VkSurfaceKHR& surface) {
+    auto info = make<VkXlibSurfaceCreateInfoKHR>(VK_STRUCTURE_TYPE_XLIB_SURFACE_CREATE_INFO_KHR);
+    info.dpy = static_cast<Display*>(instance.display().handle);
+    info.window = static_cast<Window>(window);
+    return instanceFunction<PFN_vkCreateXlibSurfaceKHR>(instance, "vkCreateXlibSurfaceKHR")(instance.handle(), &info,
+                                                                                            nullptr, &surface);
+}
+
+VkResult createWayland(Instance const& instance, uint64_t window, VkSurfaceKHR& surface) {
+    auto info = make<VkWaylandSurfaceCreateInfoKHR>(VK_STRUCTURE_TYPE_WAYLAND_SURFACE_CREATE_INFO_KHR);
+    info.display = static_cast<wl_display*>(instance.display().handle);
+    info.surface = reinterpret_cast<wl_surface*>(window);
+    return instanceFunction<PFN_vkCreateWaylandSurfaceKHR>(instance, "vkCreateWaylandSurfaceKHR")(
+            instance.handle(), &info, nullptr, &surface);
+}
+
+/// The two calls of Vulkan's enumerations.
+template <class T, class F>
+std::vector<T> enumerate(F&& call) {
+    uint32_t count = 0;
+    if (call(&count, nullptr) != VK_SUCCESS) return {};
+    std::vector<T> list(count);
+    if (call(&count, list.data()) < VK_SUCCESS) return {};
+    list.resize(count);
+    return list;
+}
+
+std::span<const VkFormat> formatsFor(Format format) {
+    static constexpr std::array kTen{ VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_A2R10G10B10_UNORM_PACK32,
+                                      VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM };
+    static constexpr std::array kEight{ VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM };
+    return format == Format::RGB10A2 ? std::span<const VkFormat>(kTen) : std::span<const VkFormat>(kEight);
+}
+
+VkCompositeAlphaFlagBitsKHR compositeAlpha(VkSurfaceCapabilitiesKHR const& capabilities) {
+    constexpr std::array kChoices{ VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR, VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR,
+                                   VK_COMPOSITE_ALPHA_PRE_MULTIPLIED_BIT_KHR,
+                                   VK_COMPOSITE_ALPHA_POST_MULTIPLIED_BIT_KHR };
+    const auto found =
+            std::ranges::find_if(kChoices, [&](auto bit) { return (capabilities.supportedCompositeAlpha & bit) != 0; });
+    return found == kChoices.end() ? kChoices[0] : *found;
+}
+
+/// What the window is, or what we want where it takes the size of its images.
+VkExtent2D extentOf(VkSurfaceCapabilitiesKHR const& capabilities, VkExtent2D wanted) {
+    constexpr uint32_t kOurs = 0xFFFFFFFF;
+    if (capabilities.currentExtent.width != kOurs) return capabilities.currentExtent;
+    return { std::clamp(wanted.width, capabilities.minImageExtent.width, capabilities.maxImageExtent.width),
+             std::clamp(wanted.height, capabilities.minImageExtent.height, capabilities.maxImageExtent.height) };
+}
+
+constexpr VkImageSubresourceRange kWhole{ VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1 };
+
+VkImageMemoryBarrier barrierOf(VkImage image, VkImageLayout before, VkImageLayout after) {
+    auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
+    barrier.oldLayout = before;
+    barrier.newLayout = after;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = kWhole;
+    return barrier;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- life time
+
+Surface::Surface(Device& device, SurfaceDesc const& desc)
+        : mDevice(device), mName(desc.debugName), mMode(desc.presentMode) {}
+
+Result<std::unique_ptr<Surface>> Surface::create(Device& device, SurfaceDesc const& desc) {
+    std::unique_ptr<Surface> surface(new Surface(device, desc));
+    if (Result<void> opened = surface->open(desc); !opened) return opened.error();
+    return surface;
+}
+
+Result<void> Surface::open(SurfaceDesc const& desc) {
+    Instance const& instance = mDevice.instance();
+    const WindowSystem system = instance.display().system;
+    if (system == WindowSystem::None) {
+        return fail(ErrorCode::Unsupported,
+                    "window '{}': the engine was made without a display; set EngineOptions::display", mName);
+    }
+    const VkResult result = system == WindowSystem::X11 ? createX11(instance, desc.window, mSurface)
+                                                        : createWayland(instance, desc.window, mSurface);
+    if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: window '{}'", mName));
+    VkBool32 isSupported = VK_FALSE;
+    PhysicalDevice const& physical = mDevice.physical();
+    instance.fn().vkGetPhysicalDeviceSurfaceSupportKHR(physical.handle, physical.queueFamily, mSurface, &isSupported);
+    if (!isSupported) {
+        return fail(ErrorCode::Unsupported, "window '{}': '{}' cannot present to it; choose another device", mName,
+                    mDevice.info().deviceName);
+    }
+    return {};
+}
+
+Surface::~Surface() {
+    VolkDeviceTable const& fn = mDevice.fn();
+    fn.vkDeviceWaitIdle(mDevice.handle());
+    dropImages();
+    for (Acquisition const& each : mAcquisitions) fn.vkDestroySemaphore(mDevice.handle(), each.semaphore, nullptr);
+    if (mSwapchain != VK_NULL_HANDLE) fn.vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    if (mSurface != VK_NULL_HANDLE) {
+        mDevice.instance().fn().vkDestroySurfaceKHR(mDevice.instance().handle(), mSurface, nullptr);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------- swapchain
+
+Result<VkSurfaceFormatKHR> Surface::chooseFormat(Format format) const {
+    const auto formats = enumerate<VkSurfaceFormatKHR>([&](uint32_t* count, VkSurfaceFormatKHR* list) {
+        return mDevice.instance().fn().vkGetPhysicalDeviceSurfaceFormatsKHR(mDevice.physical().handle, mSurface, count,
+                                                                            list);
+    });
+    for (VkFormat wanted : formatsFor(format)) {
+        const auto found = std::ranges::find_if(formats, [&](VkSurfaceFormatKHR const& each) {
+            return each.format == wanted && each.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+        });
+        if (found != formats.end()) return *found;
+    }
+    return fail(ErrorCode::Unsupported, "window '{}' has no format of 8 bits that takes encoded colours", mName);
+}
+
+VkPresentModeKHR Surface::chooseMode() const {
+    const VkPresentModeKHR wanted = mMode == PresentMode::Mailbox     ? VK_PRESENT_MODE_MAILBOX_KHR
+                                    : mMode == PresentMode::Immediate ? VK_PRESENT_MODE_IMMEDIATE_KHR
+                                                                      : VK_PRESENT_MODE_FIFO_KHR;
+    const auto modes = enumerate<VkPresentModeKHR>([&](uint32_t* count, VkPresentModeKHR* list) {
+        return mDevice.instance().fn().vkGetPhysicalDeviceSurfacePresentModesKHR(mDevice.physical().handle, mSurface,
+                                                                                 count, list);
+    });
+    return std::ranges::find(modes, wanted) != modes.end() ? wanted : VK_PRESENT_MODE_FIFO_KHR;
+}
+
+Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
+    VolkDeviceTable const& fn = mDevice.fn();
+    VkSurfaceCapabilitiesKHR capabilities{};
+    VkResult result = mDevice.instance().fn().vkGetPhysicalDeviceSurfaceCapabilitiesKHR(mDevice.physical().handle,
+                                                                                        mSurface, &capabilities);
+    if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: window '{}'", mName));
+    const VkExtent2D extent = extentOf(capabilities, wanted);
+    if (extent.width == 0 || extent.height == 0) return false; // minimised
+    const Result<VkSurfaceFormatKHR> surfaceFormat = chooseFormat(format);
+    if (!surfaceFormat) return surfaceFormat.error();
+
+    auto info = make<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
+    info.surface = mSurface;
+    info.minImageCount = std::max(capabilities.minImageCount, 3u);
+    if (capabilities.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
+    info.imageFormat = surfaceFormat->format;
+    info.imageColorSpace = surfaceFormat->colorSpace;
+    info.imageExtent = extent;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.preTransform = capabilities.currentTransform;
+    info.compositeAlpha = compositeAlpha(capabilities);
+    info.presentMode = chooseMode();
+    info.clipped = VK_TRUE;
+    info.oldSwapchain = mSwapchain;
+
+    fn.vkDeviceWaitIdle(mDevice.handle()); // images of the old one may be on their way to the window
+    VkSwapchainKHR made = VK_NULL_HANDLE;
+    result = fn.vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made);
+    dropImages();
+    if (mSwapchain != VK_NULL_HANDLE) fn.vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
+    mSwapchain = made;
+    if (result == VK_SUCCESS) result = takeImages();
+    if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: swapchain of window '{}'", mName));
+    mExtent = extent, mWanted = wanted, mFormat = format;
+    mIsStale = false;
+    return true;
+}
+
+VkResult Surface::takeImages() {
+    const auto images = enumerate<VkImage>([&](uint32_t* count, VkImage* list) {
+        return mDevice.fn().vkGetSwapchainImagesKHR(mDevice.handle(), mSwapchain, count, list);
+    });
+    if (images.empty()) return VK_ERROR_OUT_OF_HOST_MEMORY;
+    for (VkImage image : images) {
+        const Result<VkSemaphore> drawn = makeSemaphore();
+        if (!drawn) return VK_ERROR_OUT_OF_HOST_MEMORY;
+        mImages.push_back({ image, *drawn });
+        mDevice.setName(VK_OBJECT_TYPE_IMAGE, image, mName);
+    }
+    return VK_SUCCESS;
+}
+
+void Surface::dropImages() {
+    for (Image const& each : mImages) mDevice.fn().vkDestroySemaphore(mDevice.handle(), each.drawn, nullptr);
+    mImages.clear();
+}
+
+// ---------------------------------------------------------------------------------------------- images
+
+Result<VkSemaphore> Surface::makeSemaphore() const {
+    const auto info = make<VkSemaphoreCreateInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO);
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    const VkResult result = mDevice.fn().vkCreateSemaphore(mDevice.handle(), &info, nullptr, &semaphore);
+    if (result != VK_SUCCESS) return errorFromResult(result, fmt::format("Vulkan: window '{}'", mName));
+    return semaphore;
+}
+
+Result<VkSemaphore> Surface::freeSemaphore(Submissions& submissions) {
+    const auto idle = std::ranges::find_if(
+            mAcquisitions, [&](Acquisition const& each) { return each.serial <= submissions.finishedSerial(); });
+    const uint64_t serial = submissions.recordingSerial(); // of the submission that will wait for it
+    if (idle != mAcquisitions.end()) {
+        idle->serial = serial;
+        return idle->semaphore;
+    }
+    const Result<VkSemaphore> made = makeSemaphore();
+    if (made) mAcquisitions.push_back({ *made, serial });
+    return made;
+}
+
+Result<std::optional<Surface::Target>> Surface::acquire(Format format, VkExtent2D wanted, Submissions& submissions) {
+    const bool isResized = wanted.width != mWanted.width || wanted.height != mWanted.height || format != mFormat;
+    mIsStale |= isResized;
+    constexpr int kTries = 3; // a window that is being resized may change again at once
+    for (int i = 0; i < kTries; ++i) {
+        if (mIsStale) {
+            const Result<bool> built = rebuild(format, wanted);
+            if (!built) return built.error();
+            if (!*built) return std::optional<Target>{};
+        }
+        const Result<VkSemaphore> acquired = freeSemaphore(submissions);
+        if (!acquired) return acquired.error();
+        Target target{ .extent = mExtent, .acquired = *acquired };
+        const uint64_t timeout = std::chrono::nanoseconds(kAcquireTimeout).count();
+        const VkResult result = mDevice.fn().vkAcquireNextImageKHR(mDevice.handle(), mSwapchain, timeout, *acquired,
+                                                                   VK_NULL_HANDLE, &target.index);
+        if (result == VK_SUBOPTIMAL_KHR) mIsStale = true; // the image is there, and fits the next time
+        if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR) {
+            target.image = mImages[target.index].image;
+            target.drawn = mImages[target.index].drawn;
+            return std::optional(target);
+        }
+        for (Acquisition& each : mAcquisitions) {
+            if (each.semaphore == *acquired) each.serial = 0; // nobody signals it
+        }
+        if (result == VK_TIMEOUT || result == VK_NOT_READY) return std::optional<Target>{};
+        if (result != VK_ERROR_OUT_OF_DATE_KHR) {
+            return errorFromResult(result, fmt::format("Vulkan: image of window '{}'", mName));
+        }
+        mIsStale = true;
+    }
+    return std::optional<Target>{};
+}
+
+void Surface::recordCopy(VkCommandBuffer commands, VkImage source, VkExtent2D extent, Target const& target) const {
+    VolkDeviceTable const& fn = mDevice.fn();
+    constexpr VkImageLayout kWritten = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkImageMemoryBarrier barrier = barrierOf(target.image, VK_IMAGE_LAYOUT_UNDEFINED, kWritten);
+    barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    fn.vkCmdPipelineBarrier(commands, kTransfer, kTransfer, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+
+    if (extent.width < target.extent.width || extent.height < target.extent.height) {
+        constexpr VkClearColorValue kBlack{ { 0, 0, 0, 1 } };
+        fn.vkCmdClearColorImage(commands, target.image, kWritten, &kBlack, 1, &kWhole);
+        barrier = barrierOf(target.image, kWritten, kWritten);
+        barrier.srcAccessMask = barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+        fn.vkCmdPipelineBarrier(commands, kTransfer, kTransfer, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    }
+    VkImageBlit blit{}; // of one texel to one: only the order of the channels may change
+    blit.srcSubresource = blit.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1 };
+    blit.srcOffsets[1] =
+            blit.dstOffsets[1] = { static_cast<int32_t>(std::min(extent.width, target.extent.width)),
+                                   static_cast<int32_t>(std::min(extent.height, target.extent.height)), 1 };
+    fn.vkCmdBlitImage(commands, source, infoOf(Use::TransferRead).layout, target.image, kWritten, 1, &blit,
+                      VK_FILTER_NEAREST);
+
+    barrier = barrierOf(target.image, kWritten, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    fn.vkCmdPipelineBarrier(commands, kTransfer, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0, nullptr, 0, nullptr, 1,
+                            &barrier);
+}
+
+VkResult Surface::present(Target const& target) {
+    auto info = make<VkPresentInfoKHR>(VK_STRUCTURE_TYPE_PRESENT_INFO_KHR);
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &target.drawn;
+    info.swapchainCount = 1;
+    info.pSwapchains = &mSwapchain;
+    info.pImageIndices = &target.index;
+    const VkResult result = mDevice.fn().vkQueuePresentKHR(mDevice.queue(), &info);
+    mIsStale |= result != VK_SUCCESS; // suboptimal, out of date, or the window is gone: the next acquire() finds out
+    return result;
+}
+
+} // namespace filament::backend::vulkan

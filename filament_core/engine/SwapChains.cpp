@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Swap chains: rings of images, and the windows that show them.
+#include "base/ApiCall.h"
+#include "filament_core/engine/EngineImpl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace filament {
+
+using engine::PublicCall;
+
+namespace {
+
+using namespace backend;
+
+void requireSize(uint2 size) { FILAMENT_ASSERT(size.x > 0 && size.y > 0, "a swap chain has at least one pixel"); }
+
+void checkWindow(NativeDisplay const& display, SwapChainDesc const& desc) {
+    if (!desc.window) return;
+    if (desc.window.system != display.system) {
+        misused(fmt::format("a window of {} needs an engine whose EngineOptions::display is of {}, not of {}",
+                            toString(desc.window.system), toString(desc.window.system), toString(display.system)));
+    }
+    FILAMENT_ASSERT(desc.format == Format::RGBA8 || desc.format == Format::RGB10A2,
+                    "a window shows RGBA8 or RGB10A2: tone map linear light first");
+}
+
+/// All of them, or none.
+std::vector<Texture> createImages(Engine::Impl& engine, engine::SwapChainState const& state, uint32_t count) {
+    std::vector<Texture> images;
+    images.reserve(count);
+    try {
+        for (uint32_t i = 0; i < count; ++i) {
+            images.push_back(engine.createTexture({ .format = state.format,
+                                                    .width = state.size.x,
+                                                    .height = state.size.y,
+                                                    .renderable = true,
+                                                    .name = state.name }));
+        }
+    } catch (...) {
+        for (Texture image : images) engine.destroy(image);
+        throw;
+    }
+    return images;
+}
+
+SurfaceHandle createSurface(Engine::Impl& engine, SwapChainDesc const& desc) {
+    NewHandle surface(*engine.stream, engine.stream->allocateSurface());
+    engine.pending.record(CmdCreateSurface{ surface, { desc.window.handle, desc.presentMode, desc.name } });
+    return surface.keep();
+}
+
+} // namespace
+
+SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
+    requireSize(desc.size);
+    FILAMENT_ASSERT(!formatInfo(desc.format).isSrgb,
+                    "a swap chain of sRGB codes has format RGBA8: nothing samples it, so nothing decodes them");
+    FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
+    checkWindow(options.display, desc);
+    engine::Draft draft(swapChains);
+    engine::SwapChainState& state = draft.state();
+    state.size = desc.size;
+    state.format = desc.format;
+    state.name = desc.name;
+    state.images = createImages(*this, state, desc.imageCount);
+    try {
+        if (desc.window) state.surface = createSurface(*this, desc);
+    } catch (...) {
+        for (Texture image : state.images) destroy(image);
+        throw;
+    }
+    return draft.keep();
+}
+
+void Engine::Impl::resize(engine::SwapChainState& state, uint2 size) {
+    requireSize(size);
+    if (size == state.size) return;
+    const uint2 before = std::exchange(state.size, size);
+    try {
+        std::vector<Texture> images = createImages(*this, state, static_cast<uint32_t>(state.images.size()));
+        images.swap(state.images);
+        for (Texture image : images) destroy(image);
+        state.current = 0;
+    } catch (...) {
+        state.size = before;
+        throw;
+    }
+}
+
+void Engine::Impl::present(engine::SwapChainState& state) {
+    engine::TextureState const& image = textures.get(state.images[state.current]);
+    if (!state.surface || !image.hasContents) return;
+    auto& [older, newer] = state.presents;
+    stream->waitReplayed(older);
+    FrameCommands commands(*stream);
+    drainPending(*commands);
+    commands->record(CmdPresent{ state.surface, image.handle });
+    older = std::exchange(newer, stream->submissions() + 1);
+}
+
+void Engine::Impl::destroy(SwapChain swapChain) {
+    if (!swapChain) return;
+    engine::SwapChainState const& state = swapChains.get(swapChain);
+    const SurfaceHandle surface = state.surface;
+    for (Texture image : state.images) destroy(image);
+    swapChains.remove(swapChain);
+    if (!surface) return;
+    stream->destroy(pending, surface);
+    orReport("letting go of a window", {}, [&] { flush(); });
+    stream->waitIdle(); // the app may close the window now
+}
+
+// ---------------------------------------------------------------------------------------------- the public functions
+
+SwapChain Engine::create(SwapChainDesc const& desc) {
+    const PublicCall call(mImpl, "Engine::create(SwapChainDesc)", desc.name);
+    return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
+}
+
+void Engine::resize(SwapChain swapChain, uint2 size) {
+    const PublicCall call(mImpl, "Engine::resize(SwapChain, uint2)");
+    engine::SwapChainState& state = mImpl->swapChains.get(swapChain);
+    mImpl->orReport("resizing a swap chain", state.name, [&] { mImpl->resize(state, size); });
+}
+
+void Engine::destroy(SwapChain swapChain) {
+    const PublicCall call(mImpl, "Engine::destroy(SwapChain)");
+    mImpl->destroy(swapChain);
+}
+
+} // namespace filament
