@@ -233,6 +233,11 @@ Box Scene::bounds() const {
     const PublicCall call(mImpl, "Scene::bounds()");
     return scene::sceneBounds(mImpl->upToDate());
 }
+Box Scene::bounds(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::bounds(Renderable)");
+    scene::Renderables const& renderables = mImpl->upToDate().renderables;
+    return renderables.bounds.at(renderables.index.at(renderable));
+}
 uint32_t Scene::renderableCount() const {
     const PublicCall call(mImpl, "Scene::renderableCount()");
     return mImpl->data.renderables.count();

@@ -13,6 +13,7 @@
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"
 
+#include <filament/Box.h>
 #include <filament/Objects.h>
 
 #include <array>
@@ -29,6 +30,9 @@ struct BoundsColumns {
 
     double3 centerAt(size_t i) const { return { center[0][i], center[1][i], center[2][i] }; }
     float3 halfExtentAt(size_t i) const { return { halfExtent[0][i], halfExtent[1][i], halfExtent[2][i] }; }
+    Box at(size_t i) const {
+        return { centerAt(i) - double3(halfExtentAt(i)), centerAt(i) + double3(halfExtentAt(i)) };
+    }
     void set(size_t i, double3 const& newCenter, float3 newHalfExtent);
     void add();
     void remove(uint32_t gap);

@@ -64,12 +64,7 @@ void removeLight(SceneData& scene, Light light) {
 
 Box sceneBounds(SceneData const& scene) {
     Box box;
-    BoundsColumns const& bounds = scene.renderables.bounds;
-    for (uint32_t i = 0; i < scene.renderables.count(); ++i) {
-        const double3 center = bounds.centerAt(i), half(bounds.halfExtentAt(i));
-        box.min = glm::min(box.min, center - half);
-        box.max = glm::max(box.max, center + half);
-    }
+    for (uint32_t i = 0; i < scene.renderables.count(); ++i) box.add(scene.renderables.bounds.at(i));
     return box;
 }
 

@@ -183,6 +183,7 @@ public:
     void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
 
     Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
+    Box bounds(Renderable renderable) const; ///< in the world; as that
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;
