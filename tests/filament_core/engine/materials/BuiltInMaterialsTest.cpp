@@ -6,6 +6,7 @@
 #include <filament/BuiltInMaterials.h>
 #include <filament/Primitives.h>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
 #include <fstream>
