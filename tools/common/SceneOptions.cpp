@@ -36,6 +36,7 @@ Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
         auto look = loadLook(words.look);
         if (!look) return fail(look.error().code, "--look {}", look.error().message);
         options.colorGrading.look = std::move(*look);
+        options.lookFile = words.look;
     }
     if (auto done = convertSwitch("--skybox", words.skybox, options.skybox); !done) return done;
     if (auto done = convertSwitch("--dither", words.dither, options.colorGrading.dither); !done) return done;

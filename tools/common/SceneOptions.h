@@ -39,6 +39,7 @@ struct SceneOptions {
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
     Effects effects{};                           ///< --set fog=on, fog.density=0.2
+    std::filesystem::path lookFile{};            ///< that colorGrading.look was read from; empty: none
     std::filesystem::path dirt;                  ///< --set bloom.dirt=FILE.png: of the lens; empty: none
     DebugView debugView = DebugView::None;       ///< --set debugView=froxels; not of traced pictures
     uint8_t samples = 1;                         ///< --set samples=4: MSAA; not of traced pictures

@@ -43,8 +43,8 @@ struct DocumentEnvironment {
 
 /// Of a node of the model's file.
 struct NodeEdit {
-    uint32_t node = 0;                         ///< its place in ModelCopy::nodes()
-    bool isVisible = true;                     ///< false: nor is anything below it
+    uint32_t node = 0;                         ///< its place in Stage::nodes()
+    bool isVisible = true;                     ///< false: nor is what is below it
     std::optional<double4x4> parentFromNode{}; ///< affine; none: that of the file, or of the animation
 };
 
@@ -66,7 +66,7 @@ struct DocumentLight {
 
 /// Of a light of the model's file.
 struct ModelLightEdit {
-    uint32_t light = 0; ///< its place in ModelCopy::lights()
+    uint32_t light = 0; ///< its place in Stage::modelLights()
     bool isOn = true;
     std::optional<AnyLight>
             replacement{}; ///< in the space of its node; keeps the profile of the file. None: the file's

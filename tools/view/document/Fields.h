@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of them:
+/// comparing, writing, reading, checking, and tests that change each one.
+///   Complete  a member that is added to a struct and not listed here does not compile: isComplete().
+///   Texts     Quality, Effects and ColorGrading have names and texts of their own (qualityChoices() and so on).
+#pragma once
+
+#include "tools/view/document/Document.h"
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+
+namespace filament::view {
+
+/// Beyond what a float holds, so no limit at all.
+inline constexpr double kAnyNumber = 1e300, kFinite = 3e38;
+
+/// A number, or every number of a vector, is in [low, high].
+template <class T, class M>
+struct Field {
+    const char* name;
+    M T::*member;
+    double low, high;
+};
+
+template <class T, class M>
+constexpr Field<T, M> field(const char* name, M T::*member, double low = -kAnyNumber, double high = kAnyNumber) {
+    return { name, member, low, high };
+}
+
+/// `list`: a tuple of Field; `others`: how many members are no part of a Document.
+template <class T>
+struct Fields;
+
+template <class T>
+concept HasFields = requires {
+    Fields<T>::list;
+};
+
+/// Calls visit(field) for each.
+template <HasFields T, class Visit>
+void forEachField(Visit const& visit) {
+    std::apply([&](auto const&... fields) { (visit(fields), ...); }, Fields<T>::list);
+}
+
+struct AnyMember {
+    template <class T>
+    operator T() const;
+};
+
+/// How many members an aggregate has: as many as it can be initialised with.
+template <class T, class... Given>
+constexpr size_t memberCount() {
+    if constexpr (requires { T{ Given{}..., AnyMember{} }; })
+        return memberCount<T, Given..., AnyMember>();
+    else
+        return sizeof...(Given);
+}
+
+template <HasFields T>
+constexpr bool isComplete() {
+    return std::tuple_size_v<std::remove_cvref_t<decltype(Fields<T>::list)>> + Fields<T>::others == memberCount<T>();
+}
+
+// clang-format off
+template <> struct Fields<Exposure> {
+    static constexpr auto list = std::tuple{ field("aperture", &Exposure::aperture, 1e-6, 1e6),
+                                             field("shutterSeconds", &Exposure::shutterSeconds, 1e-6, 1e6),
+                                             field("iso", &Exposure::iso, 1e-6, 1e9) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<Lens> {
+    static constexpr auto list = std::tuple{ field("verticalFovDegrees", &Lens::verticalFovDegrees, 1e-4, 179.9),
+                                             field("nearMeters", &Lens::nearMeters, 0, kFinite),
+                                             field("parallelMeters", &Lens::parallelMeters, 0, kFinite),
+                                             field("farMeters", &Lens::farMeters, 0, kFinite),
+                                             field("shift", &Lens::shift, -1e6, 1e6),
+                                             field("aspect", &Lens::aspect, 0, 1e6) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<Camera> {
+    static constexpr auto list = std::tuple{ field("worldFromView", &Camera::worldFromView),
+                                             field("lens", &Camera::lens), field("exposure", &Camera::exposure) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<View> {
+    static constexpr auto list = std::tuple{ field("camera", &View::camera), field("size", &View::size, 1, 16384),
+                                             field("colorGrading", &View::colorGrading), field("quality", &View::quality),
+                                             field("effects", &View::effects),
+                                             field("clearColor", &View::clearColor, -kFinite, kFinite),
+                                             field("samples", &View::samples, 1, 4), field("debugView", &View::debugView),
+                                             field("timeSeconds", &View::timeSeconds),
+                                             field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
+                                             field("visibleLayers", &View::visibleLayers) };
+    static constexpr size_t others = 2; // viewport, debugDraw
+};
+template <> struct Fields<GltfLoadOptions> {
+    static constexpr auto list = std::tuple{ field("positions", &GltfLoadOptions::positions),
+                                             field("tangents", &GltfLoadOptions::tangents),
+                                             field("deformable", &GltfLoadOptions::deformable),
+                                             field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
+    static constexpr size_t others = 1; // progress
+};
+template <> struct Fields<EnvironmentLoadOptions> {
+    static constexpr auto list = std::tuple{ field("faceSize", &EnvironmentLoadOptions::faceSize, 16, 2048),
+                                             field("format", &EnvironmentLoadOptions::format),
+                                             field("roughnessMapping", &EnvironmentLoadOptions::roughnessMapping),
+                                             field("samples", &EnvironmentLoadOptions::samples, 1, 65536) };
+    static constexpr size_t others = 1; // progress
+};
+template <> struct Fields<EnvironmentSettings> {
+    static constexpr auto list = std::tuple{ field("illuminance", &EnvironmentSettings::illuminance, 0, 1e12),
+                                             field("rotationRadians", &EnvironmentSettings::rotationRadians, -1e6, 1e6),
+                                             field("skybox", &EnvironmentSettings::skybox) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<SunLight> {
+    static constexpr auto list = std::tuple{
+        field("directionWorld", &SunLight::directionWorld, -kFinite, kFinite), field("illuminance", &SunLight::illuminance, 0, 1e12),
+        field("color", &SunLight::color, 0, 1e9), field("angularRadiusDegrees", &SunLight::angularRadiusDegrees, 0, 20),
+        field("showsDisc", &SunLight::showsDisc), field("haloSize", &SunLight::haloSize, 1, 1000),
+        field("haloFalloff", &SunLight::haloFalloff, 0, 10'000), field("castsShadows", &SunLight::castsShadows),
+        field("contactShadows", &SunLight::contactShadows), field("lightChannels", &SunLight::lightChannels) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<PointLight> {
+    static constexpr auto list = std::tuple{
+        field("positionWorld", &PointLight::positionWorld), field("intensity", &PointLight::intensity, 0, 1e12),
+        field("color", &PointLight::color, 0, 1e9), field("rangeMeters", &PointLight::rangeMeters, 0, kFinite),
+        field("sourceRadiusMeters", &PointLight::sourceRadiusMeters, 0, kFinite),
+        field("castsShadows", &PointLight::castsShadows), field("contactShadows", &PointLight::contactShadows),
+        field("lightChannels", &PointLight::lightChannels), field("directionWorld", &PointLight::directionWorld, -kFinite, kFinite),
+        field("upWorld", &PointLight::upWorld, -kFinite, kFinite) };
+    static constexpr size_t others = 1; // profile
+};
+template <> struct Fields<SpotLight> {
+    static constexpr auto list = std::tuple{
+        field("positionWorld", &SpotLight::positionWorld), field("directionWorld", &SpotLight::directionWorld, -kFinite, kFinite),
+        field("intensity", &SpotLight::intensity, 0, 1e12), field("color", &SpotLight::color, 0, 1e9),
+        field("rangeMeters", &SpotLight::rangeMeters, 0, kFinite), field("innerConeRadians", &SpotLight::innerConeRadians, 0, 1.5707963),
+        field("outerConeRadians", &SpotLight::outerConeRadians, 0, 1.5707964),
+        field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters, 0, kFinite),
+        field("castsShadows", &SpotLight::castsShadows), field("contactShadows", &SpotLight::contactShadows),
+        field("lightChannels", &SpotLight::lightChannels), field("upWorld", &SpotLight::upWorld, -kFinite, kFinite) };
+    static constexpr size_t others = 1; // profile
+};
+template <> struct Fields<RectLight> {
+    static constexpr auto list = std::tuple{
+        field("positionWorld", &RectLight::positionWorld), field("directionWorld", &RectLight::directionWorld, -kFinite, kFinite),
+        field("upWorld", &RectLight::upWorld, -kFinite, kFinite), field("widthMeters", &RectLight::widthMeters, 0, 1e9),
+        field("heightMeters", &RectLight::heightMeters, 0, 1e9), field("luminance", &RectLight::luminance, 0, 1e12),
+        field("color", &RectLight::color, 0, 1e9), field("rangeMeters", &RectLight::rangeMeters, 0, kFinite),
+        field("isTwoSided", &RectLight::isTwoSided), field("castsShadows", &RectLight::castsShadows),
+        field("lightChannels", &RectLight::lightChannels) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<DiscLight> {
+    static constexpr auto list = std::tuple{
+        field("positionWorld", &DiscLight::positionWorld), field("directionWorld", &DiscLight::directionWorld, -kFinite, kFinite),
+        field("radiusMeters", &DiscLight::radiusMeters, 0, 1e9), field("luminance", &DiscLight::luminance, 0, 1e12),
+        field("color", &DiscLight::color, 0, 1e9), field("rangeMeters", &DiscLight::rangeMeters, 0, kFinite),
+        field("isTwoSided", &DiscLight::isTwoSided), field("castsShadows", &DiscLight::castsShadows),
+        field("lightChannels", &DiscLight::lightChannels) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<TubeLight> {
+    static constexpr auto list = std::tuple{
+        field("positionWorld", &TubeLight::positionWorld), field("axisWorld", &TubeLight::axisWorld, -kFinite, kFinite),
+        field("lengthMeters", &TubeLight::lengthMeters, 0, 1e9), field("radiusMeters", &TubeLight::radiusMeters, 0, 1e9),
+        field("luminance", &TubeLight::luminance, 0, 1e12), field("color", &TubeLight::color, 0, 1e9),
+        field("rangeMeters", &TubeLight::rangeMeters, 0, kFinite), field("castsShadows", &TubeLight::castsShadows),
+        field("lightChannels", &TubeLight::lightChannels) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<DocumentModel> {
+    static constexpr auto list = std::tuple{ field("file", &DocumentModel::file), field("options", &DocumentModel::options),
+                                             field("fit", &DocumentModel::fit), field("variant", &DocumentModel::variant) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<DocumentEnvironment> {
+    static constexpr auto list = std::tuple{ field("file", &DocumentEnvironment::file),
+                                             field("prefersModels", &DocumentEnvironment::prefersModels),
+                                             field("options", &DocumentEnvironment::options),
+                                             field("settings", &DocumentEnvironment::settings) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<NodeEdit> {
+    static constexpr auto list = std::tuple{ field("node", &NodeEdit::node), field("isVisible", &NodeEdit::isVisible),
+                                             field("parentFromNode", &NodeEdit::parentFromNode) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<MaterialEdit> {
+    static constexpr auto list = std::tuple{ field("material", &MaterialEdit::material),
+                                             field("parameter", &MaterialEdit::parameter),
+                                             field("value", &MaterialEdit::value) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<DocumentLight> {
+    static constexpr auto list = std::tuple{ field("name", &DocumentLight::name), field("isOn", &DocumentLight::isOn),
+                                             field("light", &DocumentLight::light),
+                                             field("profileFile", &DocumentLight::profileFile) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<ModelLightEdit> {
+    static constexpr auto list = std::tuple{ field("light", &ModelLightEdit::light), field("isOn", &ModelLightEdit::isOn),
+                                             field("replacement", &ModelLightEdit::replacement) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<MorphEdit> {
+    static constexpr auto list = std::tuple{ field("target", &MorphEdit::target),
+                                             field("weight", &MorphEdit::weight, -1e6, 1e6) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<Playback> {
+    static constexpr auto list = std::tuple{ field("animation", &Playback::animation), field("seconds", &Playback::seconds),
+                                             field("isPlaying", &Playback::isPlaying),
+                                             field("speed", &Playback::speed, -100, 100), field("loops", &Playback::loops) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<Bookmark> {
+    static constexpr auto list = std::tuple{ field("name", &Bookmark::name), field("camera", &Bookmark::camera) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<CameraKey> {
+    static constexpr auto list = std::tuple{ field("seconds", &CameraKey::seconds, -1e9, 1e9),
+                                             field("camera", &CameraKey::camera) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<CameraPath> {
+    static constexpr auto list = std::tuple{ field("name", &CameraPath::name), field("keys", &CameraPath::keys),
+                                             field("isClosed", &CameraPath::isClosed),
+                                             field("closingSeconds", &CameraPath::closingSeconds, 1e-6, 1e9) };
+    static constexpr size_t others = 0;
+};
+template <> struct Fields<Document> {
+    static constexpr auto list = std::tuple{
+        field("model", &Document::model), field("environment", &Document::environment), field("nodes", &Document::nodes),
+        field("materials", &Document::materials), field("lights", &Document::lights),
+        field("modelLights", &Document::modelLights), field("playback", &Document::playback),
+        field("morphs", &Document::morphs), field("view", &Document::view), field("look", &Document::look),
+        field("dirt", &Document::dirt), field("bookmarks", &Document::bookmarks), field("paths", &Document::paths) };
+    static constexpr size_t others = 0;
+};
+// clang-format on
+
+template <class... T>
+constexpr bool areComplete() {
+    return (isComplete<T>() && ...);
+}
+static_assert(
+        areComplete<Exposure, Lens, Camera, View, GltfLoadOptions, EnvironmentLoadOptions, EnvironmentSettings>());
+static_assert(areComplete<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>());
+static_assert(areComplete<DocumentModel, DocumentEnvironment, NodeEdit, MaterialEdit, DocumentLight, ModelLightEdit>());
+static_assert(areComplete<MorphEdit, Playback, Bookmark, CameraKey, CameraPath, Document>());
+
+// ---- what a field may be
+
+template <class T>
+struct VectorOf : std::false_type {};
+template <int N, class T, glm::qualifier Q>
+struct VectorOf<glm::vec<N, T, Q>> : std::true_type {
+    static constexpr int size = N;
+};
+template <class T>
+concept IsVector = VectorOf<T>::value;
+
+template <class T>
+struct MatrixOf : std::false_type {};
+template <int N, class T, glm::qualifier Q>
+struct MatrixOf<glm::mat<N, N, T, Q>> : std::true_type {
+    static constexpr int size = N;
+};
+template <class T>
+concept IsMatrix = MatrixOf<T>::value;
+
+/// Lux, Candela, Nits.
+template <class T>
+concept IsUnit = std::is_class_v<T> && requires(T unit) {
+    { unit.value } -> std::same_as<float&>;
+};
+
+/// Has names: nameOf() and setByName().
+template <class T>
+concept IsNamed = std::is_enum_v<T>;
+
+/// Has texts for each of its options.
+template <class T>
+concept IsOptions = std::is_same_v<T, Quality> || std::is_same_v<T, Effects> || std::is_same_v<T, ColorGrading>;
+
+template <class T>
+struct IsListType : std::false_type {};
+template <class T>
+struct IsListType<std::vector<T>> : std::true_type {};
+template <class T>
+concept IsList = IsListType<T>::value;
+
+template <class T>
+struct IsOptionalType : std::false_type {};
+template <class T>
+struct IsOptionalType<std::optional<T>> : std::true_type {};
+template <class T>
+concept IsOptional = IsOptionalType<T>::value;
+
+template <class T>
+concept IsNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+using Globals = std::array<float4, 4>; ///< View::materialGlobals
+
+// ---- names
+
+inline const char* nameOf(PositionStorage value) { return toString(value); }
+inline const char* nameOf(TangentStorage value) { return toString(value); }
+inline const char* nameOf(RoughnessMapping value) { return toString(value); }
+inline const char* nameOf(DebugView value) { return toString(value); }
+/// Null for a format that no environment has.
+inline const char* nameOf(Format value) {
+    for (const char* name : { "RGBA16F", "R11G11B10F", "RGB9E5", "RGBM" }) {
+        if (environmentFormatFromName(name) == value) return name;
+    }
+    return nullptr;
+}
+inline std::optional<PositionStorage> fromName(PositionStorage, std::string_view name) {
+    return positionStorageFromName(name);
+}
+inline std::optional<TangentStorage> fromName(TangentStorage, std::string_view name) {
+    return tangentStorageFromName(name);
+}
+inline std::optional<RoughnessMapping> fromName(RoughnessMapping, std::string_view name) {
+    return roughnessMappingFromName(name);
+}
+inline std::optional<DebugView> fromName(DebugView, std::string_view name) { return debugViewFromName(name); }
+inline std::optional<Format> fromName(Format, std::string_view name) { return environmentFormatFromName(name); }
+inline const char* validNames(PositionStorage) { return "asAuthored, half or unorm16"; }
+inline const char* validNames(TangentStorage) { return "snorm16, snorm8 or float"; }
+inline const char* validNames(RoughnessMapping) { return "quadratic, logarithmic or linear"; }
+inline const char* validNames(DebugView) { return debugViewNames(); }
+inline const char* validNames(Format) { return "RGBA16F, R11G11B10F, RGB9E5 or RGBM"; }
+
+/// Of the alternatives of AnyLight.
+inline constexpr std::array<const char*, std::variant_size_v<AnyLight>> kLightKinds{ "sun",  "point", "spot",
+                                                                                     "rect", "disc",  "tube" };
+/// Of an alternative of ParameterValue: "float3".
+const char* parameterTypeName(size_t index);
+
+/// Name, text and setter of each option of Quality, Effects or ColorGrading.
+std::vector<std::string_view> optionNames(Quality const*);
+std::vector<std::string_view> optionNames(Effects const*);
+std::vector<std::string_view> optionNames(ColorGrading const*);
+std::string optionText(Quality const& quality, std::string_view name);
+std::string optionText(Effects const& effects, std::string_view name);
+std::string optionText(ColorGrading const& grading, std::string_view name);
+Result<void> setOption(Quality& quality, std::string_view name, std::string_view text);
+Result<void> setOption(Effects& effects, std::string_view name, std::string_view text);
+Result<void> setOption(ColorGrading& grading, std::string_view name, std::string_view text);
+
+} // namespace filament::view
