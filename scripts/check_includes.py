@@ -88,6 +88,7 @@ LIBRARIES = {
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "bench"],
     r"embree\d?/": ["tools"],
+    r"imgui": ["tools", "tests"],
     r"gtest/|gmock/": ["tests"],
     r"benchmark/|oneapi/|tbb/|omp\.h": ["bench"],
 }
