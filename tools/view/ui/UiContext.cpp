@@ -22,6 +22,7 @@ ImGuiStyle interfaceStyle() {
 } // namespace
 
 UiContext::UiContext(float scale) : mContext(ImGui::CreateContext()) {
+    ImGui::SetCurrentContext(mContext.get());
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.LogFilename = nullptr;
@@ -46,6 +47,7 @@ bool UiContext::setScale(float scale) {
 }
 
 void UiContext::newFrame(uint2 pixels, float seconds) {
+    ImGui::SetCurrentContext(mContext.get());
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(pixels.x), static_cast<float>(pixels.y));
     io.DisplayFramebufferScale = ImVec2(1, 1);
