@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/panels/PanelFrame.h"
+
+#include <fmt/format.h>
+
+#include <imgui_stdlib.h>
+
+namespace filament::view {
+namespace {
+
+constexpr float kDegreesOfRadian = 57.29577951f, kMostLux = 1e6f;
+
+} // namespace
+
+void drawEnvironmentPanel(PanelFrame& frame) {
+    DocumentEnvironment& environment = frame.document.environment;
+    ImGui::TextWrapped("%s", environment.file.empty() ? "no file: drop a .hdr or .exr into the window"
+                                                      : environment.file.filename().c_str());
+    tooltip(environment.file.string());
+    if (frame.stage.hasModelEnvironment()) quietText("the model's own lights it");
+    ImGui::Checkbox("the model's own comes first", &environment.prefersModels);
+    if (!environment.file.empty() && ImGui::Button("remove")) environment.file.clear();
+    ImGui::PushItemWidth(-ImGui::GetFontSize() * 9);
+    float degrees = environment.settings.rotationRadians * kDegreesOfRadian;
+    if (ImGui::SliderFloat("rotation, degrees", &degrees, -180, 180, "%.1f"))
+        environment.settings.rotationRadians = degrees / kDegreesOfRadian;
+    numberField("illuminance, lx", environment.settings.illuminance.value, 0, kMostLux, true);
+    tooltip("what radiance 1 of the picture stands for");
+    ImGui::Checkbox("background", &environment.settings.skybox);
+    if (!environment.settings.skybox || environment.file.empty())
+        ImGui::ColorEdit3("colour", &frame.document.view.clearColor.x,
+                          ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    ImGui::PopItemWidth();
+}
+
+} // namespace filament::view

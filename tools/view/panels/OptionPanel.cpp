@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/panels/PanelFrame.h"
+#include "tools/view/panels/PanelText.h"
+
+#include <filament/RenderPreset.h>
+
+#include <fmt/format.h>
+
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <array>
+
+namespace filament::view {
+namespace {
+
+/// "-0.31 ms, error 1.2 %" or "".
+std::string costText(PanelFrame const& frame, Option const& option, std::string const& current,
+                     std::string const& value) {
+    if (option.group != OptionGroup::Quality) return {};
+    const double milliseconds = frame.changes.medianMilliseconds().value_or(frame.history.latestMilliseconds());
+    const auto cost = tabledCost(defaultQualityCosts(), frame.stage.engine().device().backend, option.name, current,
+                                 value, milliseconds);
+    if (!cost) return {};
+    const std::string time = milliseconds > 0 ? differenceText(cost->milliseconds) + ", " : std::string();
+    return fmt::format("{}error {:.2g} %", time, cost->error * 100);
+}
+
+std::string helpOf(PanelFrame const& frame, Option const& option, std::string const& value) {
+    std::string text = fmt::format("{}: {}\nstandard: {}", option.name, option.range, option.standard);
+    for (std::string const& word : option.words) {
+        const std::string cost = costText(frame, option, value, word);
+        if (!cost.empty()) text += fmt::format("\n{} {}: {}", word == value ? ">" : " ", word, cost);
+    }
+    if (MeasuredChange const* change = frame.changes.changeOf(option.name))
+        text += fmt::format("\nmeasured here, {} frames each: {} to {}: {}", change->frames, change->from, change->to,
+                            differenceText(change->milliseconds));
+    return text;
+}
+
+void drawChoice(PanelFrame& frame, Option const& option, std::string const& value) {
+    if (!ImGui::BeginCombo("##value", value.c_str())) return;
+    for (std::string const& word : option.words) {
+        const std::string cost = costText(frame, option, value, word);
+        const std::string label = cost.empty() ? word : fmt::format("{}    {}", word, cost);
+        if (ImGui::Selectable(label.c_str(), word == value)) editOption(frame, option, word);
+    }
+    ImGui::EndCombo();
+}
+
+void drawNumbers(PanelFrame& frame, Option const& option, std::string const& value) {
+    std::vector<float> numbers = optionNumbers(option, value);
+    if (numbers.empty()) return;
+    const auto least = static_cast<float>(option.least), most = static_cast<float>(option.most);
+    bool isChanged = false;
+    if (option.components == 1 && option.isWhole && most - least <= 64) {
+        auto whole = static_cast<int>(numbers[0]);
+        isChanged = ImGui::SliderInt("##value", &whole, static_cast<int>(least), static_cast<int>(most), "%d",
+                                     ImGuiSliderFlags_AlwaysClamp);
+        numbers[0] = static_cast<float>(whole);
+    } else if (option.components == 1) {
+        isChanged = numberField("##value", numbers[0], least, most, most - least > 100);
+    } else if (option.components == 3 && matchesFilter(option.name, "color")) {
+        isChanged = ImGui::ColorEdit3("##value", numbers.data(), ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    } else {
+        isChanged = ImGui::DragScalarN("##value", ImGuiDataType_Float, numbers.data(), static_cast<int>(numbers.size()),
+                                       0.005f, &least, &most, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+    }
+    for (float& number : numbers) number = std::clamp(number, least, most);
+    if (isChanged) editOption(frame, option, optionText(option, numbers));
+}
+
+void drawOptionValue(PanelFrame& frame, Option const& option, std::string value) {
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    switch (option.kind) {
+    case OptionKind::Switch: {
+        bool isOn = value == "on";
+        if (ImGui::Checkbox("##value", &isOn)) editOption(frame, option, isOn ? "on" : "off");
+        return;
+    }
+    case OptionKind::Choice:
+        return drawChoice(frame, option, value);
+    case OptionKind::Number:
+        return drawNumbers(frame, option, value);
+    case OptionKind::Text:
+        if (ImGui::InputText("##value", &value, ImGuiInputTextFlags_EnterReturnsTrue)) editOption(frame, option, value);
+        return;
+    }
+}
+
+void drawOption(PanelFrame& frame, Option const& option) {
+    const std::string value = optionValue(frame.document.view, option);
+    const bool isChanged = value != option.standard;
+    ImGui::PushID(option.name.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    if (isChanged)
+        ImGui::TextColored(kEditedColor, "%s", option.name.c_str());
+    else
+        ImGui::TextUnformatted(option.name.c_str());
+    tooltip(ImGui::IsItemHovered() ? helpOf(frame, option, value) : std::string());
+    ImGui::TableNextColumn();
+    drawOptionValue(frame, option, value);
+    ImGui::TableNextColumn();
+    if (MeasuredChange const* change = frame.changes.changeOf(option.name))
+        quietText(differenceText(change->milliseconds));
+    if (isChanged) {
+        if (ImGui::SmallButton("x")) editOption(frame, option, option.standard);
+        tooltip("as it was: " + option.standard);
+    }
+    ImGui::PopID();
+}
+
+void drawPresets(PanelFrame& frame) {
+    constexpr std::array kPresets{ RenderPreset::Fast, RenderPreset::Balanced, RenderPreset::Fine,
+                                   RenderPreset::Cinematic };
+    for (const RenderPreset preset : kPresets) {
+        if (ImGui::Button(toString(preset))) applyPreset(frame.document.view, preset);
+        ImGui::SameLine();
+    }
+    ImGui::Checkbox("changed only", &frame.state.onlyChangedOptions);
+}
+
+/// Whether the group has a row to show.
+bool showsOption(PanelFrame const& frame, Option const& option) {
+    if (!matchesFilter(option.name, frame.state.optionFilter)) return false;
+    return !frame.state.onlyChangedOptions || optionValue(frame.document.view, option) != option.standard;
+}
+
+void drawOptionGroup(PanelFrame& frame, OptionGroup group) {
+    const auto isShown = [&](Option const& option) { return option.group == group && showsOption(frame, option); };
+    if (std::ranges::none_of(frame.options, isShown)) return;
+    if (!ImGui::CollapsingHeader(toString(group), ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (!ImGui::BeginTable(toString(group), 3, ImGuiTableFlags_RowBg)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1.2f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableSetupColumn("cost", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
+    for (Option const& option : frame.options)
+        if (isShown(option)) drawOption(frame, option);
+    ImGui::EndTable();
+}
+
+} // namespace
+
+void editOption(PanelFrame& frame, Option const& option, std::string_view value) {
+    const std::string before = optionValue(frame.document.view, option);
+    if (const Result<void> done = setOption(frame.document.view, option, value); !done) {
+        frame.state.addMessage(done.error().message);
+        return;
+    }
+    const std::string after = optionValue(frame.document.view, option);
+    if (before != after) frame.changes.changed(option.name, before, after);
+}
+
+void drawOptionPanel(PanelFrame& frame) {
+    drawPresets(frame);
+    filterField("##option filter", frame.state.optionFilter);
+    if (ImGui::BeginChild("options")) {
+        for (const OptionGroup group :
+             { OptionGroup::Picture, OptionGroup::Quality, OptionGroup::Effects, OptionGroup::Grading })
+            drawOptionGroup(frame, group);
+    }
+    ImGui::EndChild();
+}
+
+} // namespace filament::view

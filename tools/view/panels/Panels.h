@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
+/// looked into. Left: scene, materials, lights, environment, animation. Right: camera, options, demand, graph, timeline,
+/// statistics. Every panel is a thin function over a model of plain functions; the models have tests of their own.
+///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
+///            render, and panels.collect(stage).
+///   Edits    go into the Document, and nowhere else. What a click asks of the program is in `requests`.
+///   Thread   the app thread of the stage; ImGui's context is current.
+///   Cost     what the visible panels show: the tree is read again only when Stage::generation() changes.
+#pragma once
+
+#include "tools/view/document/Document.h"
+#include "tools/view/panels/FrameHistory.h"
+#include "tools/view/panels/GraphModel.h"
+#include "tools/view/panels/OptionCosts.h"
+#include "tools/view/panels/OptionTable.h"
+#include "tools/view/panels/PanelLayout.h"
+#include "tools/view/panels/SceneTree.h"
+
+#include <filament/Renderer.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::view {
+
+class Stage;
+
+/// A light of the document, or of the model's file.
+struct LightSelection {
+    bool isModels = false;
+    uint32_t light = 0;
+    friend bool operator==(LightSelection const&, LightSelection const&) = default;
+};
+
+/// What the panels remember: a plain value, which programs may read and set (a click into the picture selects a node).
+struct PanelState {
+    std::optional<uint32_t> selectedNode{};
+    std::string selectedMaterial{};
+    std::optional<LightSelection> selectedLight{};
+    TreeState tree{};
+    std::string treeFilter{}, materialFilter{}, optionFilter{}, demandFilter{};
+    bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
+    bool showsPanels = true, showsShortcuts = false;
+    std::string opensPanel{};            ///< one of panelNames(): comes to the front of its column; then empty again
+    std::vector<std::string> messages{}; ///< the newest last; Stage::takeMessages() and edits that were refused
+
+    void addMessage(std::string message); ///< keeps the last 50
+};
+
+/// "Scene", "Materials", ...: those of the left column, then those of the right one.
+std::vector<std::string_view> panelNames();
+
+/// What the program is asked to do; it sets them back.
+struct PanelRequests {
+    bool cancelsLoading = false;
+    bool reloads = false;
+    bool framesSelection = false;
+};
+
+class Panels {
+public:
+    Panels();
+
+    void draw(Document& document, Stage& stage);
+    /// Takes the timings of finished frames and the statistics of the last one.
+    void collect(Stage& stage);
+
+    PanelState state{};
+    PanelRequests requests{};
+    PanelLayout const& layout() const { return mLayout; }
+    FrameHistory const& history() const { return mHistory; }
+    ChangeMeter const& changes() const { return mChanges; }
+
+private:
+    void readScene(Stage& stage);
+
+    PanelLayout mLayout{};
+    FrameHistory mHistory{};
+    ChangeMeter mChanges{};
+    std::vector<Option> mOptions;
+    std::vector<SceneNode> mNodes{};
+    std::optional<uint64_t> mGeneration{};
+};
+
+} // namespace filament::view
