@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Bisect.h"
 
+#include <fmt/format.h>
+
 namespace filament::conformance {
 namespace {
 
@@ -52,14 +54,6 @@ std::optional<At> firstDifferent(CapturedFrame const& a, CapturedFrame const& b)
     return std::nullopt;
 }
 
-Result<CapturedFrame> inside(Stage& stage, uint32_t drawLimit) {
-    Result<Shot> shot = stage.shoot(backend::CaptureRequest{ .drawLimit = drawLimit });
-    if (!shot) return shot.error();
-    if (!shot->inside)
-        return fail(ErrorCode::Internal, "{}: the frame was not captured", toString(stage.device().backend));
-    return std::move(*shot->inside);
-}
-
 Disagreement describe(CapturedFrame const& a, CapturedFrame const& b, At at) {
     CapturedPass const& pass = a.passes[at.pass];
     CapturedAttachment const& attachment = attachmentAt(a, at);
@@ -72,17 +66,18 @@ Disagreement describe(CapturedFrame const& a, CapturedFrame const& b, At at) {
 }
 
 /// How the attachment differs if both frames end after `draws` draws.
-Result<std::optional<PixelDifference>> after(Stage& a, Stage& b, At at, uint32_t draws) {
-    Result<CapturedFrame> x = inside(a, draws);
+Result<std::optional<PixelDifference>> after(FrameSource const& a, FrameSource const& b, At at, uint32_t draws) {
+    Result<CapturedFrame> x = a(draws);
     if (!x) return x.error();
-    Result<CapturedFrame> y = inside(b, draws);
+    Result<CapturedFrame> y = b(draws);
     if (!y) return y.error();
     if (const Result<void> equal = requireEqualPasses(*x, *y); !equal) return equal.error();
     return difference(*x, *y, at);
 }
 
 /// Narrows (good, bad] to one draw: after `good` draws the attachments agree, after `bad` they do not.
-Result<void> findDraw(Stage& a, Stage& b, At at, CapturedFrame const& frame, Disagreement& found) {
+Result<void> findDraw(FrameSource const& a, FrameSource const& b, At at, CapturedFrame const& frame,
+                      Disagreement& found) {
     CapturedPass const& pass = frame.passes[at.pass];
     uint32_t good = pass.firstDraw, bad = pass.firstDraw + pass.drawCount;
     found.afterDraw = found.pixel;
@@ -121,10 +116,10 @@ Result<std::optional<Disagreement>> compareFrames(CapturedFrame const& a, Captur
     return at ? std::optional(describe(a, b, *at)) : std::nullopt;
 }
 
-Result<std::optional<Disagreement>> bisect(Stage& a, Stage& b) {
-    Result<CapturedFrame> x = inside(a, backend::kAllDraws);
+Result<std::optional<Disagreement>> bisect(FrameSource const& a, FrameSource const& b) {
+    Result<CapturedFrame> x = a(backend::kAllDraws);
     if (!x) return x.error();
-    Result<CapturedFrame> y = inside(b, backend::kAllDraws);
+    Result<CapturedFrame> y = b(backend::kAllDraws);
     if (!y) return y.error();
     if (const Result<void> equal = requireEqualPasses(*x, *y); !equal) return equal.error();
     const std::optional<At> at = firstDifferent(*x, *y);

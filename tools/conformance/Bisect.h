@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// bisect: finds the first pass, then the first draw, after which two stages that draw the same case disagree.
-///   In      two stages with capture, both set() to the case.
+/// bisect: finds the first pass, then the first draw, after which two sources that draw the same frame disagree.
+///   In      two sources: stages of filament-conformance (insideOf()), or traces that are replayed.
 ///   Out     nothing if every attachment of every pass has the same bits.
 ///   Method  compares all attachments of both in the order of the passes; then finds N by binary search, cutting frames
 ///           off after N draws and comparing the attachment again.
-///   Fails   errors of the stages; Unsupported if the two frames have different passes.
-///   Cost    one frame per stage, and one more for every step of the search.
+///   Fails   errors of the sources; Unsupported if the two frames have different passes.
+///   Cost    one frame per source, and one more for every step of the search.
 #pragma once
 
+#include "base/Result.h"
 #include "tools/conformance/ImageChecks.h"
-#include "tools/conformance/Stage.h"
+
+#include <functional>
 
 namespace filament::conformance {
 
@@ -26,7 +28,10 @@ struct Disagreement {
     std::string line() const;    ///< everything as one line of text
 };
 
-Result<std::optional<Disagreement>> bisect(Stage& a, Stage& b);
+/// Draws the frame again, cut off after `drawLimit` draws: all of its attachments.
+using FrameSource = std::function<Result<backend::CapturedFrame>(uint32_t drawLimit)>;
+
+Result<std::optional<Disagreement>> bisect(FrameSource const& a, FrameSource const& b);
 
 /// The first attachment that differs between two captured frames, without its draw.
 Result<std::optional<Disagreement>> compareFrames(backend::CapturedFrame const& a, backend::CapturedFrame const& b);

@@ -4,6 +4,7 @@
 #include "base/Assert.h"
 #include "tools/common/Console.h"
 #include "tools/common/Interrupt.h"
+#include "tools/conformance/Bisect.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
@@ -114,7 +115,7 @@ private:
         if (!mReference.inside || !shot.inside) return blame(actor.configuration.name, "the frame was not captured");
         auto differs = compareFrames(*mReference.inside, *shot.inside);
         if (differs && !*differs) return;
-        if (differs) differs = bisect(*mActors[0].stage, *actor.stage);
+        if (differs) differs = bisect(insideOf(*mActors[0].stage), insideOf(*actor.stage));
         const std::string where = !differs   ? differs.error().message
                                   : *differs ? (*differs)->line()
                                              : std::string("differs from frame to frame");
@@ -321,7 +322,7 @@ Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> co
     for (Stage* stage : { stages->a.get(), stages->b.get() }) {
         if (const Result<void> set = stage->set(*spec); !set) return set.error();
     }
-    auto found = bisect(*stages->a, *stages->b);
+    auto found = bisect(insideOf(*stages->a), insideOf(*stages->b));
     if (!found) return found.error();
     return *found ? (*found)->line() : std::string();
 }

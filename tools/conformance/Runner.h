@@ -9,9 +9,9 @@
 #pragma once
 
 #include "tools/conformance/Baselines.h"
-#include "tools/conformance/Bisect.h"
 #include "tools/conformance/Options.h"
 #include "tools/conformance/Results.h"
+#include "tools/conformance/Stage.h"
 
 namespace filament::conformance {
 

@@ -196,4 +196,14 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
     return shot;
 }
 
+FrameSource insideOf(Stage& stage) {
+    return [&stage](uint32_t drawLimit) -> Result<backend::CapturedFrame> {
+        Result<Shot> shot = stage.shoot(backend::CaptureRequest{ .drawLimit = drawLimit });
+        if (!shot) return shot.error();
+        if (!shot->inside)
+            return fail(ErrorCode::Internal, "{}: the frame was not captured", toString(stage.device().backend));
+        return std::move(*shot->inside);
+    };
+}
+
 } // namespace filament::conformance

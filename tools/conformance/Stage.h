@@ -7,6 +7,7 @@
 #pragma once
 
 #include "backend/layers/Captured.h"
+#include "tools/conformance/Bisect.h"
 #include "tools/conformance/MaterialModel.h"
 #include "tools/conformance/SceneAssets.h"
 
@@ -75,5 +76,8 @@ private:
     SceneSpec mSpec;
     std::vector<Node> mCopies;
 };
+
+/// For bisect(): frames of the case that was set. The stage must have been opened with capture, and outlive the result.
+FrameSource insideOf(Stage& stage);
 
 } // namespace filament::conformance
