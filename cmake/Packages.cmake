@@ -60,8 +60,8 @@ filament_package(tools filament-core-tools graphics SHLIBDEPS RECOMMENDS "${driv
     TEXT "${about}
 .
 Compiles materials (matc, matinfo), bakes environments (cmgen), draws models
-(filament-render), traces their true picture (filament-reference), and compares
-pictures (imgdiff).")
+(filament-render), draws saved frames again (filament-replay), traces the true
+picture of models (filament-reference), and compares pictures (imgdiff).")
 filament_package(docs libfilament-core-doc doc
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - documents"
     TEXT "${about}

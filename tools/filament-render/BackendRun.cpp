@@ -63,13 +63,8 @@ View viewOf(Options const& options) {
 }
 
 Result<Engine> createEngine(Options const& options, Backend backend) {
-    EngineOptions engineOptions{ .backend = backend, .requireDevice = options.requireDevice };
-    engineOptions.workers = options.workers;
-    engineOptions.affinity = options.affinity;
-    engineOptions.driverCore = options.driverCore;
-    engineOptions.repinAfterWaits = options.repinAfterWaits;
-    engineOptions.exactShaders = options.exactShaders;
-    engineOptions.traceJobs = !options.traceJobs.empty();
+    EngineOptions engineOptions = engineOptionsOf(options);
+    engineOptions.backend = backend;
     if (options.trace) engineOptions.traceFile = options.out / fmt::format("{}.trace", fileStem(backend));
     Result<Engine> engine = Engine::create(engineOptions);
     if (!engine) return engine;
@@ -303,6 +298,27 @@ std::filesystem::path traceFileOf(Options const& options, Backend backend) {
 
 const char* fileStem(Backend backend) {
     return backend == Backend::Vulkan ? "vulkan" : backend == Backend::Gles ? "gles" : "null";
+}
+
+EngineOptions engineOptionsOf(Options const& options) {
+    EngineOptions engineOptions{ .requireDevice = options.requireDevice };
+    engineOptions.workers = options.workers;
+    engineOptions.affinity = options.affinity;
+    engineOptions.driverCore = options.driverCore;
+    engineOptions.repinAfterWaits = options.repinAfterWaits;
+    engineOptions.exactShaders = options.exactShaders;
+    engineOptions.traceJobs = !options.traceJobs.empty();
+    return engineOptions;
+}
+
+Result<Image> drawPicture(Engine& engine, Options const& options, std::filesystem::path const& model,
+                          std::filesystem::path const& environment) {
+    BackendRun run{ .backend = engine.device().backend };
+    Stage stage(engine, options);
+    if (const Result<void> loaded = stage.load(run, model, environment); !loaded) return loaded.error();
+    stage.drawFirst(run);
+    stage.drawOthers(run);
+    return stage.readPixels();
 }
 
 Result<BackendRun> runBackend(Options const& options, Backend backend, std::filesystem::path const& model,

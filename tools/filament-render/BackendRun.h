@@ -61,6 +61,13 @@ inline constexpr size_t kWarmUpSamples = 7;
 /// Used in file names and as keys in reports: "vulkan", "gles".
 const char* fileStem(Backend backend);
 
+/// What the command line says about any engine.
+EngineOptions engineOptionsOf(Options const& options);
+
+/// Draws the frames of the command line on a given engine, and returns the last one.
+Result<Image> drawPicture(Engine& engine, Options const& options, std::filesystem::path const& model,
+                          std::filesystem::path const& environment);
+
 Result<BackendRun> runBackend(Options const& options, Backend backend, std::filesystem::path const& model,
                               std::filesystem::path const& environment);
 

@@ -17,7 +17,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook;
+                saveLook, saveFrame;
     std::vector<std::string> values;
 };
 
@@ -129,6 +129,8 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_flag("--timing", options.timing, "print the time taken by start-up and frames");
     app.add_flag("--explain", options.explain, "print what ran, what was culled, and why");
     app.add_flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");
+    app.add_option("--save-frame", words.saveFrame,
+                   "FOLDER: save the frame with its commands for each API, for filament-replay and for bug reports");
     app.add_option("--trace-jobs", words.traceJobs,
                    "FILE: the timeline of every thread, for chrome://tracing or tools/plot/plot.py jobs");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
@@ -163,6 +165,8 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!*parsed) return std::optional<Options>{};
     options.requireDevice = words.requireDevice;
     options.traceJobs = words.traceJobs;
+    options.saveFrame = words.saveFrame;
+    if (argc > 1) options.arguments.assign(argv + 1, argv + argc);
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
     for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertTime }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();

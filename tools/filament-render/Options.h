@@ -28,8 +28,10 @@ struct Options : SceneOptions {
     std::optional<double> seconds; ///< time of the animation and of materials; none: rest pose, 0
     std::string animation;         ///< name or index; empty: the first, if there is a time
     bool timing = false, explain = false, trace = false;
-    std::filesystem::path traceJobs; ///< empty: none
-    int workers = -1;                ///< as EngineOptions::workers
+    std::filesystem::path traceJobs;    ///< empty: none
+    std::filesystem::path saveFrame;    ///< folder of a saved frame (tools/view/record); empty: none
+    std::vector<std::string> arguments; ///< of the command line, as given
+    int workers = -1;                   ///< as EngineOptions::workers
     ThreadAffinity affinity = ThreadAffinity::None;
     int driverCore = -1; ///< -1: the driver thread is not pinned
     bool repinAfterWaits = false;

@@ -9,6 +9,7 @@
 #include "tools/filament-render/BackendRun.h"
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
+#include "tools/filament-render/SaveFrame.h"
 #include "tools/imgdiff/ImageCompare.h"
 #include "tools/materials/MaterialFile.h"
 
@@ -130,6 +131,8 @@ int render(Options const& options) {
                                        { options, files->model, files->environment, runs, comparison, errors });
     if (!reported) errors.push_back(reported.error().message);
     if (const Result<void> written = writeCosts(options, runs); !written) errors.push_back(written.error().message);
+    if (const Result<void> saved = saveRunAsFrame(options, *files, runs); !saved)
+        errors.push_back(saved.error().message);
 
     if (!errors.empty()) return failed(fail(ErrorCode::Internal, "{}", fmt::join(errors, "; ")));
     return comparison && !comparison->within(options.tolerance) ? 1 : 0;

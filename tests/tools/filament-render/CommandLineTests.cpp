@@ -112,6 +112,23 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     }
 }
 
+TEST_F(CommandLine, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
+    const Outcome outcome =
+            run("triangle.gltf --size 80x45 --sun 100000 0 -1 -1 --backend gles --out saved --save-frame saved/frame");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_THAT(outcome.output, HasSubstr("saved/frame: filament-replay draws it again"));
+    EXPECT_EQ(textOf(sFolder / "saved" / "frame" / "picture.png"), textOf(sFolder / "saved" / "gles.png"));
+    const auto frame = nlohmann::json::parse(textOf(sFolder / "saved" / "frame" / "frame.json"));
+    EXPECT_EQ(frame["settings"]["arguments"][0], "triangle.gltf");
+    ASSERT_EQ(frame["traces"].size(), 2u); // also of the API that the command line did not ask for
+    for (auto const& trace : frame["traces"]) {
+        EXPECT_EQ(trace["problem"], "");
+        EXPECT_EQ(trace["pictures"][0]["hash"], frame["pictures"][0]["hash"]);
+    }
+    expectRefused("triangle.gltf --size 80x45 --out saved --save-frame triangle.gltf", { "triangle.gltf" });
+}
+
 TEST_F(CommandLine, AFullStandardOutputIsAnError) {
     for (const char* arguments : { "--list-devices", "--help" }) {
         const std::string command = (tools::buildDir() / "bin/filament-render ").string() + arguments +

@@ -195,6 +195,8 @@ TEST(Options, AllReachTheirFields) {
                                      "9",
                                      "--trace-jobs",
                                      "jobs.json",
+                                     "--save-frame",
+                                     "frame",
                                      "--workers",
                                      "3",
                                      "--affinity",
@@ -227,6 +229,9 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_TRUE(options.timing && options.explain && options.trace);
     EXPECT_EQ(options.copies, 9u);
     EXPECT_EQ(options.traceJobs, "jobs.json");
+    EXPECT_EQ(options.saveFrame, "frame");
+    EXPECT_EQ(options.arguments.front(), "a b.glb");
+    EXPECT_EQ(options.arguments.back(), "llvm");
     EXPECT_EQ(options.workers, 3);
     EXPECT_EQ(options.affinity, ThreadAffinity::BigCores);
     EXPECT_EQ(options.driverCore, 0);

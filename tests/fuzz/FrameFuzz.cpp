@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/FrameFuzzBody.h"
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+    filament::test::fuzzFrame({ reinterpret_cast<const char*>(data), size });
+    return 0;
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filament-render/SaveFrame.h"
+
+#include "tools/common/Console.h"
+#include "tools/view/record/SavedFrame.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace filament::tools {
+namespace {
+
+std::string settingsOf(Options const& options, showcase::Files const& files) {
+    const nlohmann::ordered_json json{ { "arguments", options.arguments },
+                                       { "model", files.model.string() },
+                                       { "environment", files.environment.string() } };
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+} // namespace
+
+Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files, std::span<const BackendRun> runs) {
+    if (options.saveFrame.empty() || runs.empty()) return {};
+    Options drawn = options;
+    if (runs[0].decision) drawn.quality = runs[0].decision->quality;
+    const OutputSpace space = options.colorGrading.outputSpace;
+    record::SaveRequest request{ .folder = options.saveFrame,
+                                 .shown = { { .image = runs[0].image, .space = space } },
+                                 .engine = engineOptionsOf(options),
+                                 .program = "filament-render",
+                                 .settings = settingsOf(options, files) };
+    request.recipe = [&](Engine& engine) -> Result<std::vector<record::FramePicture>> {
+        Result<Image> image = drawPicture(engine, drawn, files.model, files.environment);
+        if (!image) return image.error();
+        std::vector<record::FramePicture> pictures(1);
+        pictures[0].image = std::move(*image);
+        pictures[0].space = space;
+        return pictures;
+    };
+    const Result<record::Manifest> saved = record::saveFrame(request);
+    clearProgress();
+    if (!saved) return saved.error();
+    std::printf("saved   %s: filament-replay draws it again\n", options.saveFrame.c_str());
+    for (record::AbsentBackend const& absent : saved->absent)
+        printWarning(fmt::format("--save-frame: {} is missing: {}", toString(absent.backend), absent.reason));
+    for (record::TraceRecord const& trace : saved->traces) {
+        if (!trace.problem.empty())
+            return fail(ErrorCode::Internal, "--save-frame: {} does not draw the frame again: {}",
+                        toString(trace.backend), trace.problem);
+    }
+    return {};
+}
+
+} // namespace filament::tools

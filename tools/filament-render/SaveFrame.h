@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// saveRunAsFrame: --save-frame, the picture of a command line as a folder that anyone can replay (docs/saved-frames.md).
+///   In      the runs of the command line: the picture of the first one is what was shown.
+///   Fails   errors of saveFrame(); Internal if an API does not draw again what was shown. The folder is then complete.
+#pragma once
+
+#include "tools/filament-render/BackendRun.h"
+#include "tools/showcase/Showcase.h"
+
+#include <span>
+
+namespace filament::tools {
+
+Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files, std::span<const BackendRun> runs);
+
+} // namespace filament::tools
