@@ -53,6 +53,7 @@ struct DeviceFeatures {
     bool cubeArrays = false;         ///< TextureType::CubeArray
     bool sharedMemory = false;       ///< DeviceTextureDesc::placedOn
     bool srgbAttachments = false;    ///< passes can store the bytes of an sRGB format (attachmentFormat())
+    bool primitiveIds = false;       ///< gl_PrimitiveID in fragment shaders
     bool halfFloatShaders = false; ///< 16-bit floats in fragment shaders: float16_t in SPIR-V; ESSL has mediump always
 };
 

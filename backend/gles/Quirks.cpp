@@ -78,6 +78,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
     quirks.textureViews = gl.TextureView && hasAny(names, { "GL_EXT_texture_view", "GL_OES_texture_view" });
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
+    quirks.primitiveIds = hasAny(names, { "GL_EXT_geometry_shader" });
     quirks.cubeArrays = es32 || hasAny(names, { "GL_EXT_texture_cube_map_array", "GL_OES_texture_cube_map_array" });
     quirks.srgbWriteControl = names.contains("GL_EXT_sRGB_write_control");
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
@@ -126,6 +127,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .textureViews = quirks.textureViews,
         .cubeArrays = quirks.cubeArrays,
         .srgbAttachments = quirks.srgbWriteControl,
+        .primitiveIds = quirks.primitiveIds,
         .halfFloatShaders = true,
     };
     return info;

@@ -20,6 +20,7 @@ struct Quirks {
     bool blockCompression = false; ///< BC1..BC7 complete, or not offered
     bool srgbWriteControl = false; ///< else textures of sRGB are no attachments
     bool cubeArrays = false;
+    bool primitiveIds = false;  ///< gl_PrimitiveID in fragment shaders
     bool depthClamp = false;    ///< else geometry in front of the near plane is clipped
     bool anisotropy = false;    ///< else samplers are isotropic
     bool debugMessages = false; ///< KHR_debug or ES 3.2

@@ -45,6 +45,7 @@ DeviceInfo describeNullDevice() {
                       .cubeArrays = true,
                       .sharedMemory = true,
                       .srgbAttachments = true,
+                      .primitiveIds = true,
                       .halfFloatShaders = true };
     return info;
 }

@@ -29,6 +29,7 @@ VkResult createHandle(Instance const& instance, PhysicalDevice const& physical, 
     features.features.imageCubeArray = physical.features.imageCubeArray;
     features.features.textureCompressionBC = physical.features.textureCompressionBC;
     features.features.independentBlend = physical.features.independentBlend;
+    features.features.geometryShader = physical.features.geometryShader; // for gl_PrimitiveID
 
     std::vector<const char*> extensions;
     if (physical.provokingVertexLast) {

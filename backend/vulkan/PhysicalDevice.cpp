@@ -117,6 +117,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.srgbAttachments = true; // views of another format are core, too
     info.features.halfFloatShaders = device.halfFloatShaders;
+    info.features.primitiveIds = features.features.geometryShader;
     info.features.lastVertexProvokes = device.provokingVertexLast;
     info.features.depthClamp = features.features.depthClamp;
     if (!features.features.samplerAnisotropy) info.limits.maxAnisotropy = 1;

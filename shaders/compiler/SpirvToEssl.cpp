@@ -80,6 +80,13 @@ void requireCubeArrays(CompilerGLSL& compiler) {
     }
 }
 
+/// Part of ESSL 3.20; SPIRV-Cross does not know that 3.10 has it with an extension.
+void requirePrimitiveId(CompilerGLSL& compiler) {
+    compiler.update_active_builtins();
+    if (compiler.has_active_builtin(spv::BuiltInPrimitiveId, spv::StorageClassInput))
+        compiler.add_header_line("#extension GL_EXT_geometry_shader : require");
+}
+
 } // namespace
 
 Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::ProgramLayout const& layout) {
@@ -89,6 +96,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
         dropUnread(compiler);
         renumberAll(compiler, layout);
         requireCubeArrays(compiler);
+        requirePrimitiveId(compiler);
         return compiler.compile();
     } catch (std::exception const& error) {
         return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());

@@ -67,5 +67,14 @@ TEST(FeatureLevel, FunctionsOfEssl310CompileFromLevelTwoOn) {
             << "functions of the author are no features";
 }
 
+TEST(PrimitiveId, AsksForTheExtensionOfEssl310WhereItIsRead) {
+    const auto essl = [](std::string const& line) {
+        return compiled(lit("shadingModel : lit", line)).variants[0].fragmentEssl;
+    };
+    const std::string extension = "#extension GL_EXT_geometry_shader : require";
+    EXPECT_NE(essl("m.baseColor.r = float(gl_PrimitiveID & 1);").find(extension), std::string::npos);
+    EXPECT_EQ(essl("m.baseColor.r = float(ownBits(1));").find(extension), std::string::npos);
+}
+
 } // namespace
 } // namespace filament::shader
