@@ -42,9 +42,9 @@ void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& count
 
 std::string nameOf(uint16_t key) {
     static constexpr std::pair<uint16_t, const char*> kBits[] = {
-        { kVariantSun, "sun" },      { kVariantPunctual, "punctual" }, { kVariantSkinning, "skinning" },
-        { kVariantHalf, "half" },    { kVariantMerged, "merged" },     { kVariantDepth, "depth" },
-        { kVariantMotion, "motion" }
+        { kVariantSun, "sun" },       { kVariantPunctual, "punctual" }, { kVariantSkinning, "skinning" },
+        { kVariantHalf, "half" },     { kVariantMerged, "merged" },     { kVariantDepth, "depth" },
+        { kVariantMotion, "motion" }, { kVariantDebug, "debug" }
     };
     std::string name;
     for (auto const& [bit, word] : kBits) {

@@ -388,10 +388,22 @@ Result<std::string> motionFragment(MaterialNeeds const& needs, IncludeResolver c
     return std::move(out).take();
 }
 
+Result<std::string> debugFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
+                                  IncludeResolver const& includes) {
+    StageText out = stageOf(needs, includes);
+    Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
+    if (done) done = authorsBlock(out, definition.fragment, needs, true);
+    if (done)
+        done = includeAll(out, { "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });
+    if (!done) return done.error();
+    return std::move(out).take();
+}
+
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     uint16_t variantKey, IncludeResolver const& includes) {
     if ((variantKey & kVariantDepth) != 0) return depthFragment(definition, needs, variantKey, includes);
     if ((variantKey & kVariantMotion) != 0) return motionFragment(needs, includes);
+    if ((variantKey & kVariantDebug) != 0) return debugFragment(definition, needs, variantKey, includes);
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
     StageText out = stageOf(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);

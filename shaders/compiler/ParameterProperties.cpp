@@ -288,6 +288,7 @@ constexpr VariantFilter kVariantFilters[] = {
     { "ssr", kVariantSsr },
     { "stereo", kVariantStereo },
     { "halfPrecision", kVariantHalf },
+    { "debugViews", kVariantDebug },
 };
 
 Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {

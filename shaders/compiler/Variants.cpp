@@ -22,9 +22,12 @@ bool placesVertices(MaterialDefinition const& definition) {
     return isSolid && !definition.fullScreenTriangle && (definition.vertex || followsCamera);
 }
 
-/// Depth and motion alone are not lit, and what light does not reach has no shadows.
+/// What only tools draw.
+bool showsValues(MaterialDefinition const& definition) { return !definition.fullScreenTriangle; }
+
+/// Depth, motion and values alone are not lit, and what light does not reach has no shadows.
 constexpr bool isVariant(uint32_t key, bool isLit) {
-    for (const uint32_t alone : { kVariantDepth, kVariantMotion }) {
+    for (const uint32_t alone : { kVariantDepth, kVariantMotion, kVariantDebug }) {
         if ((key & alone) != 0) return (key & ~(alone | kVariantSkinning)) == 0;
     }
     return !isLit || (key & kVariantShadowReceiver) == 0 || (key & (kVariantSun | kVariantPunctual)) != 0;
@@ -41,7 +44,8 @@ uint16_t selectableBits(MaterialDefinition const& definition) {
     const bool isDeformable = package.vertexDomain == VertexDomain::Object && !definition.fullScreenTriangle;
     const int depth = leavesDepth(definition) ? kVariantDepth : 0;
     const int motion = placesVertices(definition) ? kVariantMotion : 0;
-    const int geometry = depth | motion | (isDeformable ? kVariantSkinning : 0);
+    const int debug = showsValues(definition) ? kVariantDebug : 0;
+    const int geometry = depth | motion | debug | (isDeformable ? kVariantSkinning : 0);
     if (package.shading == ShadingModel::Unlit)
         return static_cast<uint16_t>(geometry | (package.shadowMultiplier ? kVariantShadowReceiver : 0));
     const int lighting =

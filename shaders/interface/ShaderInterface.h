@@ -86,7 +86,7 @@ struct FrameUniforms {
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: mip levels that are added to those of materials' textures
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind, or the DebugView whose value surfaces leave; w: mip levels that are added to those of materials' textures
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they hit, metres; w: last level of the pyramid of distances
     float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none

@@ -80,8 +80,10 @@ enum VariantBit : uint16_t {
     /// Where the last frame showed what is seen now; combined with kVariantSkinning only. In materials that place their
     /// vertices themselves; all others are drawn with that of the engine's material `motion`.
     kVariantMotion = 2048,
+    kVariantDebug =
+            4096, ///< debugViews: one of the material's own values, not lit; combined with kVariantSkinning only
 };
-inline constexpr uint16_t kAllVariantBits = 4095;
+inline constexpr uint16_t kAllVariantBits = 8191;
 
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {

@@ -26,7 +26,8 @@ constexpr std::pair<uint16_t, const char*> kBits[] = { { shader::kVariantSun, "d
                                                        { shader::kVariantHalf, "halfPrecision" },
                                                        { shader::kVariantMerged, "merged" },
                                                        { shader::kVariantDepth, "depth" },
-                                                       { shader::kVariantMotion, "motion" } };
+                                                       { shader::kVariantMotion, "motion" },
+                                                       { shader::kVariantDebug, "debugViews" } };
 
 template <class E, size_t N>
 const char* wordOf(E value, std::array<const char*, N> const& words) {

@@ -26,8 +26,9 @@ Result<std::vector<uint8_t>> variantKeys(scene::Material const& material, Varian
                     passes::missingVariant(material.name, package, bitsOf(wanted)));
     std::vector<uint8_t> keys;
     for (shader::Variant const& variant : package.variants) {
-        const bool isOfScene =
-                (variant.key & (shader::kVariantHalf | shader::kVariantDepth | shader::kVariantMotion)) == 0;
+        constexpr uint16_t kOfPasses =
+                shader::kVariantHalf | shader::kVariantDepth | shader::kVariantMotion | shader::kVariantDebug;
+        const bool isOfScene = (variant.key & kOfPasses) == 0;
         if (isOfScene && (variant.key & ~bitsOf(wanted)) == 0) keys.push_back(static_cast<uint8_t>(variant.key));
     }
     return keys;

@@ -45,8 +45,8 @@ MaterialDescription describeMaterial(scene::Material const& material) {
                 { parameter.name, parameter.type, parameter.arraySize, parameter.precision, parameter.format });
     }
     for (shader::Constant const& constant : package.constants) out.constants.push_back(describe(constant, material));
-    constexpr uint16_t kOfPasses =
-            shader::kVariantHalf | shader::kVariantMerged | shader::kVariantDepth | shader::kVariantMotion;
+    constexpr uint16_t kOfPasses = shader::kVariantHalf | shader::kVariantMerged | shader::kVariantDepth |
+                                   shader::kVariantMotion | shader::kVariantDebug;
     for (shader::Variant const& variant : package.variants) {
         const bool isOfScene = (variant.key & kOfPasses) == 0;
         if (isOfScene) out.variants.push_back(variantSet(variant.key));

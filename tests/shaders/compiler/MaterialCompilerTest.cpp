@@ -246,24 +246,54 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
         return found;
     };
     EXPECT_EQ(keys("shadingModel : lit"),
-              (std::vector<int>{ 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 13, 14, 15, 1024, 1032 }));
+              (std::vector<int>{ 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 13, 14, 15, 1024, 1032, 4096, 4104 }));
     EXPECT_EQ(keys("shadingModel : unlit"),
-              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning }));
+              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning, kVariantDebug,
+                                 kVariantDebug | kVariantSkinning }));
     EXPECT_EQ(keys("shadingModel : unlit, shadowMultiplier : true, blending : transparent"),
-              (std::vector<int>{ 0, kVariantShadowReceiver, kVariantSkinning,
-                                 kVariantShadowReceiver | kVariantSkinning }));
+              (std::vector<int>{ 0, kVariantShadowReceiver, kVariantSkinning, kVariantShadowReceiver | kVariantSkinning,
+                                 kVariantDebug, kVariantDebug | kVariantSkinning }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ shadowReceiver, skinning ]"),
-              (std::vector<int>{ 0, 1, 2, 3, kVariantDepth }));
-    EXPECT_EQ(keys("shadingModel : unlit, blending : fade"), (std::vector<int>{ 0, kVariantSkinning }))
+              (std::vector<int>{ 0, 1, 2, 3, kVariantDepth, kVariantDebug }));
+    EXPECT_EQ(keys("shadingModel : unlit, blending : fade"),
+              (std::vector<int>{ 0, kVariantSkinning, kVariantDebug, kVariantDebug | kVariantSkinning }))
             << "what blends leaves no depth";
     EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"),
-              (std::vector<int>{ 0, kVariantDepth, kVariantMotion }))
+              (std::vector<int>{ 0, kVariantDepth, kVariantMotion, kVariantDebug }))
             << "only what is given in object space can be deformed, and what goes with the camera says so";
-    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : world"), (std::vector<int>{ 0, kVariantDepth }));
+    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : world"),
+              (std::vector<int>{ 0, kVariantDepth, kVariantDebug }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"),
-              (std::vector<int>{ 0, kVariantSun, kVariantSun | kVariantShadowReceiver, kVariantDepth }));
+              (std::vector<int>{ 0, kVariantSun, kVariantSun | kVariantShadowReceiver, kVariantDepth, kVariantDebug }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual),
-              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning }));
+              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning, kVariantDebug,
+                                 kVariantDebug | kVariantSkinning }));
+    EXPECT_EQ(keys("shadingModel : unlit, variantFilter : [ debugViews, skinning ]"),
+              (std::vector<int>{ 0, kVariantDepth }));
+}
+
+/// Only tools pay for debug views: everything else has the bytes that it has without them.
+TEST(MaterialCompiler, KeepsEveryOtherVariantAsItIsWithoutDebugViews) {
+    for (const char* properties :
+         { "shadingModel : lit, requires : [ uv0 ]", "shadingModel : unlit, blending : masked",
+           "shadingModel : cloth, blending : fade", "shadingModel : subsurface, variantFilter : [ skinning ]",
+           "shadingModel : specularGlossiness, vertexDomain : world" }) {
+        const Result<MaterialPackage> with = compile(withProperties(properties));
+        const Result<MaterialPackage> without =
+                compile(withProperties(properties), { .filteredVariants = kVariantDebug });
+        ASSERT_TRUE(with && without) << properties;
+        std::vector<Variant> others = with->variants;
+        const size_t debug = std::erase_if(others, [](Variant const& v) { return (v.key & kVariantDebug) != 0; });
+        EXPECT_GE(debug, 1u) << properties;
+        EXPECT_EQ(others, without->variants) << properties;
+        EXPECT_EQ(with->layout, without->layout) << properties;
+        EXPECT_EQ(with->requiredAttributes, without->requiredAttributes) << properties;
+        for (Variant const& variant : with->variants) {
+            if ((variant.key & kVariantDebug) == 0) continue;
+            EXPECT_EQ(variant.vertexSpirv, with->findVariant(variant.key & kVariantSkinning)->vertexSpirv);
+            EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "");
+        }
+    }
 }
 
 TEST(MaterialCompiler, DeformsInTheVertexStageAlone) {
@@ -301,7 +331,7 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
             compile(withProperties("shadingModel : lit, halfPrecision : true, variantFilter : [ skinning ]"));
     ASSERT_TRUE(plain);
     ASSERT_TRUE(both) << both.error().message;
-    ASSERT_EQ(both->variants.size(), 15u) << "depth alone has one precision";
+    ASSERT_EQ(both->variants.size(), 16u) << "depth and values alone have one precision";
     for (size_t i = 0; i < 7; ++i) {
         Variant const &full = both->variants[i], &half = both->variants[i + 7];
         EXPECT_EQ(full, plain->variants[i]);

@@ -39,7 +39,9 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         const bool stopsLight = package.blending == Blending::Opaque || package.blending == Blending::Masked;
         const size_t depth = isSurface && stopsLight && (package.depthWrite || isDeformable) ? 1 : 0;
         const size_t motion = name == "motion" || name == "built_in_wireframe" ? 1 : 0; // no other has a vertex block
-        EXPECT_EQ(package.variants.size(), (color + depth + motion) * (isDeformable ? 2 : 1)) << name;
+        const bool isOfGeometry = (package.requiredAttributes >> kAttributePosition & 1) != 0;
+        const size_t debug = isSurface && isOfGeometry ? 1 : 0;
+        EXPECT_EQ(package.variants.size(), (color + depth + motion + debug) * (isDeformable ? 2 : 1)) << name;
         for (Variant const& variant : package.variants) {
             EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << name << " " << int{ variant.key };
             EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << name << " " << int{ variant.key };

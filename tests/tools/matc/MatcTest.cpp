@@ -139,8 +139,8 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
     ASSERT_EQ(matc("-a vulkan -o " + path("vulkan") + " " + input).status, 0);
-    EXPECT_EQ(package("all").variants.size(), 16u);
-    EXPECT_EQ(package("one").variants.size(), 4u) << "skinned or not; colour or depth";
+    EXPECT_EQ(package("all").variants.size(), 18u);
+    EXPECT_EQ(package("one").variants.size(), 6u) << "skinned or not; colour, depth or values";
     EXPECT_THAT(package("all").variants[0].fragmentEssl, HasSubstr("#version 310 es"));
     EXPECT_EQ(package("vulkan").variants[0].fragmentEssl, "");
     EXPECT_EQ(package("vulkan").variants[0].fragmentSpirv, package("all").variants[0].fragmentSpirv);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of DebugView that surfaces and the pass which shows them both need.
+
+const int kViewBaseColor = 16;
+const int kViewRoughness = 17;
+const int kViewMetallic = 18;
+const int kViewNormals = 19;
+const int kViewTangents = 20;
+const int kViewTextureCoordinates = 21;
+const int kViewMaterialOcclusion = 22;
+const int kViewEmissive = 23;
+const int kViewMipLevel = 24;
+const int kViewOverdraw = 25;
+
+// Alpha of what is shown: a value; nothing, because the material has no such input. Where there is no surface: 0.
+const float kHasValue = 1.0;
+const float kHasNone = 0.5;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragment stage of variants with kVariantDebug: one of the values that the material's code gives to shading, for
+// DebugView. Nothing is lit. debug_material.mat makes colours of it.
+
+// Levels of a texture of 1024 texels a side that the first coordinates read: log2 of the texels between two pixels (OpenGL
+// ES 3.1, 8.14.1).
+float debugMipLevel() {
+    float level = 0.0;
+#if defined(HAS_UV0)
+    vec2 right = dFdx(vertex_uv01.xy), down = dFdy(vertex_uv01.xy);
+    level = 10.0 + 0.5 * log2(max(max(dot(right, right), dot(down, down)), 1e-30));
+#endif
+    return level;
+}
+
+vec4 debugDirection(vec3 direction) { return vec4(direction * 0.5 + 0.5, kHasValue); }
+
+// Red: u, green: v, of the repeated texture; blue outside of the first one.
+vec4 debugCoordinates() {
+#if defined(HAS_UV0)
+    vec2 uv = vertex_uv01.xy;
+    bool isInside = uv.x >= 0.0 && uv.y >= 0.0 && uv.x <= 1.0 && uv.y <= 1.0;
+    return vec4(isInside ? uv : fract(uv), isInside ? 0.0 : 0.5, kHasValue);
+#else
+    return vec4(vec3(0.0), kHasNone);
+#endif
+}
+
+vec4 debugShading(MaterialInputs inputs, int view) {
+    vec4 shown = vec4(vec3(0.0), kHasNone);
+#if !defined(SHADING_MODEL_UNLIT)
+#if defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+    if (view == kViewRoughness) shown = vec4(vec3(1.0 - inputs.glossiness), kHasValue);
+#else
+    if (view == kViewRoughness) shown = vec4(vec3(inputs.roughness), kHasValue);
+#endif
+#if defined(SHADING_MODEL_LIT) || defined(SHADING_MODEL_SUBSURFACE)
+    if (view == kViewMetallic) shown = vec4(vec3(inputs.metallic), kHasValue);
+#endif
+    if (view == kViewMaterialOcclusion) shown = vec4(vec3(inputs.ambientOcclusion), kHasValue);
+#endif
+#if defined(NEEDS_NORMAL)
+    if (view == kViewNormals) shown = debugDirection(shading_normal);
+#endif
+#if defined(NEEDS_TANGENT)
+    if (view == kViewTangents) shown = debugDirection(normalizeOrZero(shading_tangentToWorld[0]));
+#endif
+    return shown;
+}
+
+vec4 debugValue(MaterialInputs inputs, float level, int view) {
+    vec4 shown = debugShading(inputs, view);
+    if (view == kViewBaseColor) shown = vec4(inputs.baseColor.rgb, kHasValue);
+    if (view == kViewEmissive)
+        shown = vec4(inputs.emissive.rgb * mix(1.0, getExposure(), inputs.emissive.a), kHasValue);
+    if (view == kViewTextureCoordinates) shown = debugCoordinates();
+#if defined(HAS_UV0)
+    if (view == kViewMipLevel) shown = vec4(vec3(level), kHasValue);
+#endif
+    if (view == kViewOverdraw) shown = vec4(1.0);
+    return shown;
+}
+
+void main() {
+    MaterialInputs inputs;
+    initMaterial(inputs);
+    computeShadingGeometry();
+    float level = debugMipLevel(); // before a discard
+    material(inputs);
+#if defined(PREPARE_AFTER_MATERIAL)
+    prepareMaterial(inputs);
+#endif
+#if defined(BLEND_MODE_MASKED)
+    if (inputs.baseColor.a < getMaskThreshold()) discard;
+#endif
+    fragment_color = debugValue(inputs, level, int(ofFragment(passUniforms.raster.z)));
+}
