@@ -13,6 +13,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/image/HdrImage.h"
+#include "jobsystem/Cancellation.h"
 #include "jobsystem/JobSystem.h"
 #include "tools/reference/BsdfModel.h"
 #include "tools/reference/LightProfiles.h"
@@ -159,6 +160,32 @@ std::vector<std::string> const& warnings(TracedScene const& scene);
 
 Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                               jobs::JobSystem& jobs, Progress const& progress = {});
+/// The same pass by pass, for a viewer: after the last pass the bits are those of render() with these settings, before that
+/// those of render() that `progress` stopped there.
+///   Thread  one at a time.   Life: `scene` must outlive it.
+class ProgressiveRender {
+public:
+    /// Fails: as render().
+    static Result<ProgressiveRender> start(TracedScene const& scene, ReferenceView const& view,
+                                           ReferenceSettings const& settings);
+    ProgressiveRender(ProgressiveRender&&) noexcept;
+    ProgressiveRender& operator=(ProgressiveRender&&) noexcept;
+    ~ProgressiveRender();
+
+    /// False: `cancelled` was requested, which is asked before every pixel. What was done of the pass is then part of no
+    /// picture, and no pass may follow.
+    bool runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled = nullptr);
+    bool isFinished() const; ///< all samples are taken
+    RenderProgress progress() const;
+    /// After whole passes, at least one.
+    ReferenceImage image() const;
+
+private:
+    struct Impl;
+    explicit ProgressiveRender(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> mImpl;
+};
+
 /// prepare() and render().
 Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                               jobs::JobSystem& jobs, Progress const& progress = {});

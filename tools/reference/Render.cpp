@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/Assert.h"
 #include "tools/reference/Film.h"
 #include "tools/reference/PathTracer.h"
 #include "tools/reference/Reference.h"
@@ -104,27 +105,32 @@ class Rendering {
 public:
     Rendering(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings)
             : mSettings(settings), mPlan(planOf(settings)), mFilm(view.size.x, view.size.y),
-              mLens(view, scene.origin()), mTracer(scene, settings, double(view.camera.exposure.factor()),
+              mLens(view, scene.origin()), mTracer(scene, mSettings, double(view.camera.exposure.factor()),
                                                    double3(view.clearColor), fogOf(scene, view)) {}
 
     Plan const& plan() const { return mPlan; }
 
-    void runPass(jobs::JobSystem& jobs) {
+    bool runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled) {
+        const auto isCancelled = [cancelled] { return cancelled && cancelled->isRequested(); };
         const size_t pixels = size_t(mFilm.width()) * mFilm.height();
         jobs::parallelFor<"pixels">(jobs, pixels, kPixelsPerJob, [&](size_t begin, size_t end) {
             uint64_t rays = 0, lost = 0;
-            for (size_t pixel = begin; pixel < end; ++pixel) mFilm.add(pixel, meanOf(pixel, rays, lost));
+            for (size_t pixel = begin; pixel < end && !isCancelled(); ++pixel)
+                mFilm.add(pixel, meanOf(pixel, rays, lost));
             mRays += rays;
             mLost += lost;
         });
+        if (isCancelled()) return false;
         mFilm.finishPass();
         mFilm.measure(mStatistics);
+        return true;
     }
 
     RenderStatistics const& statistics() const { return mStatistics; }
+    uint32_t passesDone() const { return mFilm.passes(); }
     uint32_t samplesDone() const { return mFilm.passes() * mPlan.samplesPerPass; }
 
-    ReferenceImage finish(double seconds) {
+    ReferenceImage finish(double seconds) const {
         ReferenceImage image;
         mFilm.develop(image);
         image.statistics.samplesPerPixel = samplesDone();
@@ -162,24 +168,59 @@ private:
 
 } // namespace
 
+struct ProgressiveRender::Impl {
+    Impl(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings)
+            : rendering(scene, view, settings) {}
+
+    Rendering rendering;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    bool isCancelled = false;
+
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+};
+
+ProgressiveRender::ProgressiveRender(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
+ProgressiveRender::ProgressiveRender(ProgressiveRender&&) noexcept = default;
+ProgressiveRender& ProgressiveRender::operator=(ProgressiveRender&&) noexcept = default;
+ProgressiveRender::~ProgressiveRender() = default;
+
+Result<ProgressiveRender> ProgressiveRender::start(TracedScene const& scene, ReferenceView const& view,
+                                                   ReferenceSettings const& settings) {
+    if (const Result<void> checked = check(view, settings); !checked) return checked.error();
+    return ProgressiveRender(std::make_unique<Impl>(scene, view, settings));
+}
+
+bool ProgressiveRender::runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled) {
+    FILAMENT_ASSERT(!mImpl->isCancelled && !isFinished(), "no pass follows the last one or one that was cancelled");
+    mImpl->isCancelled = !mImpl->rendering.runPass(jobs, cancelled);
+    return !mImpl->isCancelled;
+}
+
+bool ProgressiveRender::isFinished() const { return mImpl->rendering.passesDone() >= mImpl->rendering.plan().passes; }
+
+RenderProgress ProgressiveRender::progress() const {
+    Rendering const& rendering = mImpl->rendering;
+    return { rendering.samplesDone(), rendering.plan().passes * rendering.plan().samplesPerPass,
+             rendering.statistics().relativeError, mImpl->seconds() };
+}
+
+ReferenceImage ProgressiveRender::image() const {
+    FILAMENT_ASSERT(!mImpl->isCancelled && mImpl->rendering.passesDone() > 0, "a picture has whole passes");
+    return mImpl->rendering.finish(mImpl->seconds());
+}
+
 Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                               jobs::JobSystem& jobs, Progress const& progress) {
-    if (const Result<void> checked = check(view, settings); !checked) return checked.error();
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [start] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
-    Rendering rendering(scene, view, settings);
-    const Plan plan = rendering.plan();
-    for (uint32_t pass = 1; pass <= plan.passes; ++pass) {
-        rendering.runPass(jobs);
-        const double error = rendering.statistics().relativeError;
-        const bool goesOn =
-                !progress || progress({ rendering.samplesDone(), plan.passes * plan.samplesPerPass, error, seconds() });
-        const bool isGood = pass >= kPassesBeforeStop && error <= double(settings.relativeError);
+    Result<ProgressiveRender> rendering = ProgressiveRender::start(scene, view, settings);
+    if (!rendering) return rendering.error();
+    for (uint32_t pass = 1; !rendering->isFinished(); ++pass) {
+        rendering->runPass(jobs);
+        const RenderProgress now = rendering->progress();
+        const bool goesOn = !progress || progress(now);
+        const bool isGood = pass >= kPassesBeforeStop && now.relativeError <= double(settings.relativeError);
         if (!goesOn || (settings.relativeError > 0 && isGood)) break;
     }
-    return rendering.finish(seconds());
+    return rendering->image();
 }
 
 Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,

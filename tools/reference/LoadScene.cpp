@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/LoadScene.h"
+
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/ModelVariants.h"
+#include "filament_core/assets/image/HdrReader.h"
+#include "tools/common/Console.h"
+#include "tools/common/SceneFiles.h"
+
+#include <glm/trigonometric.hpp>
+
+namespace filament::reference {
+namespace {
+
+using tools::showProgress;
+
+/// Null: none.
+Result<std::shared_ptr<const assets::HdrImage>> skyOf(Options const& options, showcase::Files const& files,
+                                                      assets::ModelData const& model, jobs::JobSystem& jobs) {
+    if (options.environment.empty() && model.imageBasedLight) return pictureOfLight(model, jobs);
+    if (files.environment.empty()) return std::shared_ptr<const assets::HdrImage>();
+    showProgress("loading the environment");
+    Result<assets::HdrImage> image = assets::readHdrImage(files.environment);
+    if (!image) return image.error();
+    return std::make_shared<const assets::HdrImage>(std::move(*image));
+}
+
+} // namespace
+
+Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings) {
+    const Result<showcase::Files> files = tools::chooseFiles(options);
+    if (!files) return files.error();
+    showProgress("loading the model");
+    const assets::FilesFrom from =
+            options.modelOptions.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder;
+    Result<assets::ModelData> model = assets::loadGltf(files->model, jobs, { .files = from });
+    if (!model) return model.error();
+    if (const Result<void> done = assets::selectVariant(*model, options.variant); !done) return done.error();
+    warnings = model->warnings;
+    ReferenceScene scene;
+    const double4x4 fit = options.fit ? fitToUnitCube(modelBounds(*model)) : double4x4(1.0);
+    scene.models.push_back({ std::make_shared<assets::ModelData>(std::move(*model)), fit });
+    const auto image = skyOf(options, *files, *scene.models.back().data, jobs);
+    if (!image) return image.error();
+    if (*image) {
+        scene.environment = { .image = *image,
+                              .illuminance = options.iblIntensity,
+                              .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)),
+                              .skybox = options.skybox };
+    }
+    if (options.sun) scene.suns.push_back(*options.sun);
+    return scene;
+}
+
+} // namespace filament::reference

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// loadScene: the files and lights of a command line as a scene for the path tracer.
+///   In      checked options. Without a model the showcase is written into `options.out` and read from there.
+///   Thread  any, one call at a time; parses on the job system.
+///   Fails   errors of the loaders, with path.
+#pragma once
+
+#include "tools/reference/Options.h"
+
+namespace filament::reference {
+
+/// `warnings`: of the model's file.
+Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings);
+
+} // namespace filament::reference
