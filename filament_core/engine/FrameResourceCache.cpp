@@ -50,12 +50,13 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
         resources.debugThrough = mEngine.debugDrawInstance(false);
         resources.debugLayout = mEngine.layouts.intern(passes::debugDrawLayout());
     }
+    if (prepare::showsEdges(view.debugView)) resources.edges = edges();
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     const bool isDebugView = packet.demand.needs(prepare::Effect::DebugView);
     if (isDebugView && !prepare::isOfPictureEffect(view.debugView))
         resources.debugView = debugView(view.debugView, isToneMapped);
-    else if (isToneMapped && !isDebugView)
+    else if (isToneMapped && (!isDebugView || view.debugView == DebugView::Numerics))
         resources.toneTable = toneTable(view, packet);
     resources.dirt = dirt(packet);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;
@@ -88,6 +89,12 @@ scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
 scene::Material const* FrameResourceCache::farDepth() {
     if (!mFarDepth) mFarDepth = &mEngine.materials.get(mEngine.engineMaterial("far_depth", {}));
     return mFarDepth;
+}
+
+scene::Material const* FrameResourceCache::edges() {
+    if (!mEngine.stream->info().features.primitiveIds) return nullptr;
+    if (!mEdges) mEdges = &mEngine.materials.get(mEngine.engineMaterial("debug_edges", {}));
+    return mEdges;
 }
 
 scene::Material const* FrameResourceCache::sunDisc() {

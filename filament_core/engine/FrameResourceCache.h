@@ -29,12 +29,14 @@ private:
     scene::Material const* skybox(bool isRgbm);
     scene::Material const* farDepth();
     scene::Material const* sunDisc();
+    scene::Material const* edges();
     scene::Material const* debugView(DebugView debugView, bool isEncoded);
 
     Engine::Impl& mEngine;
     std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
     scene::Material const* mFarDepth = nullptr;
     scene::Material const* mSunDisc = nullptr;
+    scene::Material const* mEdges = nullptr;
     std::array<scene::Material const*, 22> mDebugViews{}; // by DebugView and whether the target is encoded
     EffectMaterialCache mEffects;
 };

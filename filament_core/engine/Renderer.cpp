@@ -47,7 +47,7 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .samples = view.samples,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
-             .quality = view.quality,
+             .quality = prepare::drawnQuality(view.quality, view.debugView),
              .effects = effects,
              .debugView = view.debugView,
              .visibleLayers = view.visibleLayers,

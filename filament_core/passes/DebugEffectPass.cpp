@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/DebugEffectPass.h"
 
+#include "filament_core/passes/FinishPass.h"
 #include "filament_core/passes/FullScreenPass.h"
 
 #include <array>
@@ -26,6 +27,15 @@ constexpr FullScreenParameter kDebugHistogramValues[] = { { "shares", ParameterT
 constexpr FullScreenInterface kDebugHistogram{ .pass = "debug view",
                                                .inputs = kDebugHistogramInputs,
                                                .values = kDebugHistogramValues };
+
+constexpr std::string_view kDebugLuminanceInputs[] = { "color" };
+constexpr FullScreenInterface kDebugLuminance{ .pass = "debug view", .inputs = kDebugLuminanceInputs };
+constexpr std::string_view kDebugNumericsInputs[] = { "color", "shown" };
+constexpr FullScreenInterface kDebugNumerics{ .pass = "debug view", .inputs = kDebugNumericsInputs };
+constexpr std::string_view kDebugMaterialInputs[] = { "value" };
+constexpr FullScreenInterface kDebugMaterial{ .pass = "debug view", .inputs = kDebugMaterialInputs };
+constexpr std::string_view kDebugWireframeInputs[] = { "triangles", "color" };
+constexpr FullScreenInterface kDebugWireframe{ .pass = "debug view", .inputs = kDebugWireframeInputs };
 
 void addFocusView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
     prepare::Focus const& focus = context.packet.focus;
@@ -87,17 +97,78 @@ void addHistogramView(FrameGraph& graph, FrameContext const& context, FrameTarge
                         .target = targets.output });
 }
 
+void addLuminanceView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color } };
+    const std::array constants{ EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_luminance", constants, kDebugLuminance),
+                        .inputs = inputs,
+                        .target = targets.output });
+}
+
+/// Where nothing is shown on a display, nothing is clipped.
+void addNumericsView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    FrameTargets shown = targets;
+    shown.output = TextureId{};
+    if (isEncoded) {
+        shown.output = createLike(graph, targets.color, backend::Format::RGBA8, 1, "shown");
+        addFinishPasses(graph, context, shown, false);
+    }
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
+                             FullScreenInput{ .name = "shown", .texture = shown.output } };
+    const std::array constants{ EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_numerics", constants, kDebugNumerics),
+                        .inputs = inputs,
+                        .target = targets.output });
+}
+
+void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    const std::array inputs{ FullScreenInput{ .name = "value", .texture = targets.color } };
+    const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(context.view->debugView) },
+                                EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_material", constants, kDebugMaterial),
+                        .inputs = inputs,
+                        .target = targets.output });
+}
+
+void addWireframeView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
+    const bool hasPicture = context.view->debugView == DebugView::Wireframe;
+    const std::array inputs{ FullScreenInput{ .name = "triangles", .texture = targets.triangles },
+                             FullScreenInput{ .name = "color", .texture = hasPicture ? targets.color : TextureId{} } };
+    const std::array constants{ EffectConstant{ "hasPicture", hasPicture }, EffectConstant{ "isEncoded", isEncoded } };
+    addFullScreenPass(graph, context,
+                      { .name = "debug view",
+                        .material = context.resources.effects->get("debug_wireframe", constants, kDebugWireframe),
+                        .inputs = inputs,
+                        .target = targets.output });
+}
+
 } // namespace
 
 void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
                         bool isSceneLinear) {
+    const bool isEncoded = !isSceneLinear;
     switch (context.view->debugView) {
     case DebugView::CircleOfConfusion:
-        return addFocusView(graph, context, targets, !isSceneLinear);
+        return addFocusView(graph, context, targets, isEncoded);
     case DebugView::HistoryWeight:
-        return addHistoryView(graph, context, targets, !isSceneLinear);
+        return addHistoryView(graph, context, targets, isEncoded);
+    case DebugView::Histogram:
+        return addHistogramView(graph, context, targets, isEncoded);
+    case DebugView::Luminance:
+        return addLuminanceView(graph, context, targets, isEncoded);
+    case DebugView::Numerics:
+        return addNumericsView(graph, context, targets, isEncoded);
+    case DebugView::Wireframe:
+    case DebugView::WireframeAlone:
+        return addWireframeView(graph, context, targets, isEncoded);
     default:
-        return addHistogramView(graph, context, targets, !isSceneLinear);
+        return addMaterialView(graph, context, targets, isEncoded);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/DebugEffectPass.h"
+#include "filament_core/passes/DebugSurfacePass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
@@ -90,12 +91,29 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
     const uint2 size = context.settings.size;
     FrameTargets targets;
     beginPlace(graph, context, output, targets);
+    const bool isFull = context.view->debugView == DebugView::Numerics; // what half floats do not hold is to be seen
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !changesPicture(context);
-    targets.color =
-            isFinished ? targets.output
-                       : graph.createTexture(
-                                 { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color" });
+    targets.color = isFinished ? targets.output
+                               : graph.createTexture({ .width = size.x,
+                                                       .height = size.y,
+                                                       .format = isFull ? Format::RGBA32F : Format::RGBA16F,
+                                                       .name = "color" });
     return targets;
+}
+
+/// What is seen of the scene, lit or not.
+void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const DebugView shown = context.view->debugView;
+    addShadowPass(graph, context, targets);
+    addDepthPass(graph, context, targets);
+    if (prepare::showsMaterials(shown)) return addDebugSurfacePass(graph, context, targets);
+    if (prepare::showsLight(shown)) {
+        addMotionPass(graph, context, targets);
+        addAmbientOcclusionPass(graph, context, targets);
+        addReflectedPicture(graph, context, targets);
+        addColorPass(graph, context, targets);
+    }
+    if (prepare::showsEdges(shown)) addTrianglePass(graph, context, targets);
 }
 
 } // namespace
@@ -113,12 +131,7 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
-    addShadowPass(graph, context, targets);
-    addDepthPass(graph, context, targets);
-    addMotionPass(graph, context, targets);
-    addAmbientOcclusionPass(graph, context, targets);
-    addReflectedPicture(graph, context, targets);
-    addColorPass(graph, context, targets);
+    addSurfacePasses(graph, context, targets);
     const bool isEnlarged = gathersLarger(context); // depth of field and reflections have as many pixels as the depths
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;

@@ -41,6 +41,7 @@ struct FrameResources {
     scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
     scene::Material const* debugView = nullptr; ///< full-screen material; null: the picture is shown
+    scene::Material const* edges = nullptr;     ///< whose fragment stage numbers triangles; null: none is asked for
     scene::MaterialInstance const* debugTested = nullptr;  ///< draw rectangles of DebugDraw that surfaces hide
     scene::MaterialInstance const* debugThrough = nullptr; ///< and those that they do not
     uint32_t debugLayout = 0;                              ///< of these rectangles, into GeometryLayouts

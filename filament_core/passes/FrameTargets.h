@@ -27,6 +27,7 @@ struct FrameTargets {
     framegraph::TextureId historyShare; ///< what is kept of the gathered picture (taa.mat); none: no debug view asks
     framegraph::TextureId histogram;    ///< of luminance (histogram.mat); none: not needed
     framegraph::TextureId exposure;     ///< one texel: stops by which the picture becomes brighter; none: not needed
+    framegraph::TextureId triangles;    ///< numbers of those that are seen (debug_edges.mat); none: no debug view asks
     framegraph::TextureId picture;      ///< as kBindingPicture says; none: not needed
 };
 

@@ -55,6 +55,13 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
+PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
+                             DebugView debugView) {
+    shader::PassUniforms block = uniformsOf(context, texture, 0, 1);
+    block.raster.z = static_cast<float>(debugView);
+    return context.blocks->add(std::as_bytes(std::span(&block, 1)));
+}
+
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel) {
     shader::PassUniforms block = uniformsOf(context, float2(static_cast<float>(size)));
     block.raster.y = static_cast<float>(channel);

@@ -21,6 +21,10 @@ PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDes
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
                                      uint8_t samples, prepare::PictureCopy const& copy);
 
+/// For surfaces of which a debug view shows a value.
+PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
+                             DebugView debugView);
+
 /// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);
 

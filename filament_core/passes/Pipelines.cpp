@@ -75,7 +75,11 @@ ShadingKey fullscreenShading(PassSlot const& slot, shader::MaterialPackage const
     return isSurface ? withoutMipBias(ofUnlit(slot.shading)) : ShadingKey{ 0 };
 }
 
-uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
+uint64_t programKey(uint16_t variant, ShadingKey shading, bool isOfEdges = false) {
+    constexpr uint64_t kOfEdges = 1 << 15; // no VariantBit
+    static_assert((shader::kAllVariantBits & kOfEdges) == 0);
+    return uint64_t{ shading } << 16 | variant | (isOfEdges ? kOfEdges : 0);
+}
 
 CullMode cullMode(scene::InstanceRaster const& raster) {
     if (raster.cullingDisabled) return CullMode::None;
@@ -110,6 +114,16 @@ PipelineDesc leavingMotion(PipelineDesc desc, DepthRange range) {
 // enclose.
 PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raster) {
     desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+    return desc;
+}
+
+// The depths of what blends count as well: the nearest surface is seen.
+PipelineDesc leavingEdges(PipelineDesc desc, scene::InstanceRaster const& raster, DepthRange range) {
+    desc.raster.alphaToCoverage = false;
+    desc.depthStencil = { .depthCompare =
+                                  range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,
+                          .depthWrite = !drawsNothing(raster) };
+    if (drawsNothing(raster)) desc.blend[0].writeMask = 0;
     return desc;
 }
 
@@ -166,6 +180,15 @@ BlendState blendState(shader::MaterialPackage const& package) {
         return over;
     }
     return over;
+}
+
+BlendState debugBlendState(DebugSlot debug) {
+    if (debug != DebugSlot::Counts) return {};
+    return { .enabled = true,
+             .srcColor = BlendFactor::One,
+             .dstColor = BlendFactor::One,
+             .srcAlpha = BlendFactor::One,
+             .dstAlpha = BlendFactor::One };
 }
 
 // What one of the passes of TransparencyPass.h leaves.
@@ -261,6 +284,13 @@ VertexLayout withInstanceIndex(VertexLayout layout) {
 } // namespace
 
 std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant) {
+    if ((variant & shader::kVariantDebug) != 0) {
+        const bool isFiltered = (package.filteredVariants & shader::kVariantDebug) != 0;
+        return fmt::format("material '{}' has no variant 'debugViews': this debug view does not show it; compile it "
+                           "again {}",
+                           material,
+                           isFiltered ? "without that filter (variantFilter)" : "with the matc of this engine");
+    }
     const VariantSet filtered = variantSet(package.filteredVariants) & variantSet(variant);
     if (filtered == VariantSet::None) {
         return fmt::format("material '{}' has no variant '{}': it is not drawn; compile it again with the matc of this "
@@ -296,15 +326,16 @@ size_t PipelineCache::programCount(scene::Material const& material) const {
 }
 
 ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material const& material, uint16_t variant,
-                                        ShadingKey shading) {
-    const uint64_t key = programKey(variant, shading);
+                                        ShadingKey shading, scene::Material const* edges) {
+    const uint64_t key = programKey(variant, shading, edges != nullptr);
     if (Program const* program = findProgram(material, key)) return program->handle;
     shader::Variant const* code = material.package.findVariant(variant);
     if (!code) return refuse(material, variant, missingVariant(material.name, material.package, variant));
     std::vector<Program>& programs = mMaterials[material.id].programs;
     programs.push_back({ key, {} });
     try {
-        programs.back().handle = createProgram(setup, material, *code, shading);
+        shader::Variant const& fragment = edges ? *edges->package.findVariant(0) : *code;
+        programs.back().handle = createProgram(setup, material, *code, shading, fragment);
     } catch (...) {
         programs.pop_back(); // only recorded programs are known
         throw;
@@ -328,6 +359,10 @@ PipelineCache::ProgramChoice PipelineCache::chooseWithTextures(uint32_t slot, sc
     }
     if (at.motionOnly)
         return { static_cast<uint16_t>(shader::kVariantMotion | (variant & shader::kVariantSkinning)), 0 };
+    if (at.debug != DebugSlot::None) {
+        const int values = at.debug == DebugSlot::Edges ? 0 : shader::kVariantDebug;
+        return { static_cast<uint16_t>(values | (variant & shader::kVariantSkinning)), depthOfViewKey(at.shading) };
+    }
     if (material.isLit() && needsNoLight(at.transparency))
         return { static_cast<uint16_t>(variant & shader::kVariantSkinning), withTransparency(0, at.transparency) };
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
@@ -347,14 +382,14 @@ void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::M
 
 bool PipelineCache::hasProgram(uint32_t slot, scene::Material const& material, uint8_t variant) const {
     const ProgramChoice choice = choose(slot, material, variant);
-    return findProgram(material, programKey(choice.variant, choice.shading)) != nullptr;
+    return findProgram(material, programKey(choice.variant, choice.shading, mSlots[slot].edges)) != nullptr;
 }
 
 ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
                                             uint8_t variant) {
     const ProgramChoice choice = choose(slot, material, variant);
     if (material.package.domain == shader::MaterialDomain::Surface)
-        return programFor(setup, material, choice.variant, choice.shading);
+        return programFor(setup, material, choice.variant, choice.shading, mSlots[slot].edges);
     return refuse(material, choice.variant,
                   fmt::format("material '{}' is of domain postprocess: it draws pictures, not the surfaces of "
                               "renderables; leave out 'domain' in its definition",
@@ -372,7 +407,8 @@ ProgramHandle PipelineCache::refuse(scene::Material const& material, uint16_t va
 }
 
 ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material const& material,
-                                           shader::Variant const& code, ShadingKey shading) {
+                                           shader::Variant const& code, ShadingKey shading,
+                                           shader::Variant const& fragment) {
     std::vector<ConstantValue> constants = material.constants;
     if (shading != 0) { // 0: the program's own defaults
         for (ConstantValue const& constant : shadingConstants(shading)) constants.push_back(constant);
@@ -382,7 +418,8 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
                       .layout = shader::programLayout(material.package, code.key),
                       .debugName = material.name };
     desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
-    desc.fragment = spirv ? std::as_bytes(std::span(code.fragmentSpirv)) : std::as_bytes(std::span(code.fragmentEssl));
+    desc.fragment =
+            spirv ? std::as_bytes(std::span(fragment.fragmentSpirv)) : std::as_bytes(std::span(fragment.fragmentEssl));
     NewHandle program(mStream, mStream.allocateProgram());
     setup.record(CmdCreateProgram{ program, desc });
     return program.keep();
@@ -403,6 +440,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     if (slot.isShadowMap) return leavingShadow(desc, raster);
     if (slot.motionOnly) return leavingMotion(desc, slot.depthRange);
     if (slot.isPick) return leavingPick(desc, raster);
+    if (slot.debug == DebugSlot::Edges) return leavingEdges(desc, raster, slot.depthRange);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     if (slot.depthOnly) return desc;
@@ -411,7 +449,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.depthStencil.front = stencilFace(slot.stencil->front);
         desc.depthStencil.back = stencilFace(slot.stencil->back);
     }
-    BlendState blend = blendState(package);
+    BlendState blend = slot.debug == DebugSlot::None ? blendState(package) : debugBlendState(slot.debug);
     if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);

@@ -25,6 +25,15 @@
 
 namespace filament::passes {
 
+/// What surfaces leave instead of light, for debug views: with the tests, writes and faces of their materials, but not
+/// blended.
+enum class DebugSlot : uint8_t {
+    None,
+    Values, ///< what their variants with kVariantDebug give
+    Counts, ///< the same, added up
+    Edges, ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is behind
+};
+
 /// Where a pipeline draws, and how lit materials are shaded there.
 struct PassSlot {
     backend::PassLayout layout{};
@@ -37,8 +46,10 @@ struct PassSlot {
     bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
     bool isShadowMap = false;  ///< those of them that cast, with the faces that do
     shader::TransparencyTerm transparency = shader::kTransparencyInOrder; ///< all that is drawn blends in any order
-    bool isPick = false;                   ///< of depthOnly: whatever their material says, they test and leave depth
-    std::optional<StencilState> stencil{}; ///< of what is drawn there, without references; PipelineCache's own
+    DebugSlot debug = DebugSlot::None;
+    scene::Material const* edges = nullptr; ///< of DebugSlot::Edges
+    bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
+    std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 
@@ -108,10 +119,12 @@ private:
     };
     ProgramChoice choose(uint32_t slot, scene::Material const& material, uint8_t variant) const;
     ProgramChoice chooseWithTextures(uint32_t slot, scene::Material const& material, uint8_t variant) const;
+    /// `edges`: whose fragment stage follows instead of the variant's own; null: that.
     backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material const& material, uint16_t variant,
-                                      ShadingKey shading);
+                                      ShadingKey shading, scene::Material const* edges = nullptr);
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
-                                         shader::Variant const& code, ShadingKey shading);
+                                         shader::Variant const& code, ShadingKey shading,
+                                         shader::Variant const& fragment);
     backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material,
                                    scene::InstanceRaster const& raster, uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,

@@ -206,6 +206,8 @@ std::string describeLack(Effect effect, EffectDemand const& demand) {
         return fmt::format("no light passes through what casts ({} maps)", demand.count);
     case DemandReason::NothingOverlaps:
         return fmt::format("{} in view that may be composed in any order", demand.count);
+    case DemandReason::NothingIsLit:
+        return "a debug view shows no light";
     case DemandReason::IsInFocus:
         return "everything visible is in focus";
     case DemandReason::IsNeutral:

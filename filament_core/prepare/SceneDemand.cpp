@@ -266,8 +266,18 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
         return showsEffect(Effect::Taa);
     case DebugView::Histogram:
         return showsEffect(Effect::AutoExposure);
+    default: // the picture, materials or triangles, which are always there
+        return { true, DemandReason::ShowsEffect, 1, static_cast<uint32_t>(input.debugView) };
     }
-    return {};
+}
+
+/// Effects that light surfaces, or that need their light.
+void leaveOutLight(SceneDemand& demand) {
+    for (const Effect effect :
+         { Effect::Sun, Effect::LightList, Effect::AreaLights, Effect::LightProfiles, Effect::Shadows,
+           Effect::ColoredShadows, Effect::IndirectLight, Effect::Sky, Effect::SunDisc, Effect::AmbientOcclusion,
+           Effect::Refraction, Effect::Reflections, Effect::Motion, Effect::ContactShadows, Effect::Fog })
+        demand.effects[static_cast<size_t>(effect)] = { .reason = DemandReason::NothingIsLit };
 }
 
 } // namespace
@@ -275,6 +285,16 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
 bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView) {
     return debugView == DebugView::Motion || (effects.motionBlur.enabled && debugView == DebugView::None) ||
            (quality.ssr && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
+}
+
+Quality drawnQuality(Quality const& quality, DebugView debugView) {
+    Quality drawn = quality;
+    if (showsLight(debugView)) return drawn;
+    drawn.shadows = ShadowFilter::Off;
+    drawn.ao = AmbientOcclusionTerm::Off;
+    drawn.refraction = RefractionSource::Environment;
+    drawn.ssr = false;
+    return drawn;
 }
 
 float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView) {
@@ -338,6 +358,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::MsaaResolve, demandOfResolve(input));
     set(Effect::MipBias, demandOfMipBias(input));
     set(Effect::GuardBand, demandOfBand(input));
+    if (!showsLight(input.debugView)) leaveOutLight(demand);
     set(Effect::DepthPrepass, demandOfPrepass(input, readersOfDepth(input, demand)));
     set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;

@@ -113,6 +113,7 @@ enum class DemandReason : uint8_t {
     NothingHasEdges,   ///< no surface is in view
     IsInFocus,         ///< everything that is visible
     NothingOverlaps,   ///< `count` objects, 0 or 1, need no order
+    NothingIsLit,      ///< a debug view shows something else
 };
 
 struct EffectDemand {
@@ -159,11 +160,26 @@ inline bool gathersFrames(Quality const& quality, DebugView debugView) {
            (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
 }
 
-/// Whether a debug view shows what an effect of the picture computes. Passes::DebugEffectPass draws it.
-inline bool isOfPictureEffect(DebugView debugView) {
-    return debugView == DebugView::CircleOfConfusion || debugView == DebugView::HistoryWeight ||
-           debugView == DebugView::Histogram;
+/// Whether passes::DebugEffectPass draws a debug view; the others are the business of passes::DebugViewPass.
+inline bool isOfPictureEffect(DebugView debugView) { return debugView > DebugView::Motion; }
+
+/// Whether a debug view shows what the code of materials gives, or how often it runs, so that nothing is lit.
+inline bool showsMaterials(DebugView debugView) {
+    return debugView >= DebugView::BaseColor && debugView <= DebugView::Overdraw;
 }
+
+/// Whether a debug view shows the edges of triangles.
+inline bool showsEdges(DebugView debugView) {
+    return debugView == DebugView::Wireframe || debugView == DebugView::WireframeAlone;
+}
+
+/// Whether surfaces are lit.
+inline bool showsLight(DebugView debugView) {
+    return !showsMaterials(debugView) && debugView != DebugView::WireframeAlone;
+}
+
+/// Without the choices that only matter where surfaces are lit, if they are not.
+Quality drawnQuality(Quality const& quality, DebugView debugView);
 
 /// Whether gathering makes the picture as large as it is shown.
 inline bool gathersLarger(Quality const& quality, DebugView debugView) {

@@ -8,10 +8,34 @@ namespace filament {
 namespace {
 
 // In the order of the enumerators.
-constexpr std::array<std::string_view, 14> kDebugViews{
-    "none",       "cascades", "atlas",  "froxels",           "lights",        "occlusion", "bentNormals", "reflections",
-    "refraction", "fog",      "motion", "circleOfConfusion", "historyWeight", "histogram"
-};
+constexpr std::array<std::string_view, kDebugViewCount> kDebugViews{ "none",
+                                                                     "cascades",
+                                                                     "atlas",
+                                                                     "froxels",
+                                                                     "lights",
+                                                                     "occlusion",
+                                                                     "bentNormals",
+                                                                     "reflections",
+                                                                     "refraction",
+                                                                     "fog",
+                                                                     "motion",
+                                                                     "circleOfConfusion",
+                                                                     "historyWeight",
+                                                                     "histogram",
+                                                                     "luminance",
+                                                                     "numerics",
+                                                                     "baseColor",
+                                                                     "roughness",
+                                                                     "metallic",
+                                                                     "normals",
+                                                                     "tangents",
+                                                                     "textureCoordinates",
+                                                                     "materialOcclusion",
+                                                                     "emissive",
+                                                                     "mipLevel",
+                                                                     "overdraw",
+                                                                     "wireframe",
+                                                                     "wireframeAlone" };
 
 } // namespace
 

@@ -100,6 +100,9 @@ bool selects(passes::PassSlot const& slot, shader::MaterialPackage const& packag
     if (slot.transparency != shader::kTransparencyInOrder && !shader::blendsInAnyOrder(package)) return false;
     if (slot.depthOnly)
         return package.findVariant(shader::kVariantDepth) && (variant & ~bitsOf(VariantSet::Skinning)) == 0;
+    if (slot.debug != passes::DebugSlot::None)
+        return (variant & ~bitsOf(VariantSet::Skinning)) == 0 &&
+               (slot.debug == passes::DebugSlot::Edges || package.findVariant(shader::kVariantDebug));
     return passes::shadowFilterOf(slot.shading) != ShadowFilter::Off || (variant & shader::kVariantShadowReceiver) == 0;
 }
 

@@ -9,6 +9,7 @@
 #include <filament/Quality.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -16,8 +17,9 @@ namespace filament {
 
 class DebugDraw;
 
-/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md, docs/lights.md
-/// and the page of each effect say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
+/// What the engine decides for each pixel, what materials are made of, or which numbers the picture has, instead of the
+/// picture: for tools and tests. docs/debug-views.md says what the colours mean and which page explains the others;
+/// <filament/DebugViews.h> has them as values. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
     None,
     Cascades,          ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
@@ -33,15 +35,34 @@ enum class DebugView : uint8_t {
     CircleOfConfusion, ///< how blurred depth of field makes each pixel, before and behind the focus
     HistoryWeight,     ///< how much of the gathered picture temporal anti-aliasing keeps in each pixel
     Histogram,         ///< what auto exposure measures, and the exposure that it chooses
+    // The picture in numbers:
+    Luminance, ///< stops above or below middle grey
+    Numerics,  ///< NaN, infinities, what half floats cannot hold or hold coarsely, and what is shown as full
+    // What the code of materials gives, of the surface that is seen:
+    BaseColor,
+    Roughness, ///< perceptual
+    Metallic,
+    Normals,            ///< that shading uses, in the world
+    Tangents,           ///< in the world
+    TextureCoordinates, ///< the first ones
+    MaterialOcclusion,  ///< of the material; Occlusion is that of the screen
+    Emissive,           ///< pre-exposed
+    MipLevel,           ///< at which a texture of 1024 texels a side would be read by the first coordinates
+    // What drawing them costs:
+    Overdraw,       ///< how many fragments are shaded in each pixel
+    Wireframe,      ///< the edges of visible triangles, over the picture
+    WireframeAlone, ///< the same without the picture
 };
-/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction", "fog",
-/// "motion", "circleOfConfusion", "historyWeight" and "histogram", as in filament-render --set debugView=froxels.
+inline constexpr size_t kDebugViewCount = static_cast<size_t>(DebugView::WireframeAlone) + 1;
+/// "none", "cascades", ..., "wireframeAlone": the names of debugViewNames(), as in filament-render --set
+/// debugView=froxels.
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
 /// All of them with commas between them, for help texts and errors.
 constexpr const char* debugViewNames() {
     return "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog, motion, "
-           "circleOfConfusion, historyWeight or histogram";
+           "circleOfConfusion, historyWeight, histogram, luminance, numerics, baseColor, roughness, metallic, normals, "
+           "tangents, textureCoordinates, materialOcclusion, emissive, mipLevel, overdraw, wireframe or wireframeAlone";
 }
 
 /// What becomes of the pixels that a target has already.

@@ -10,6 +10,7 @@
 #include <filament/Color.h>
 #include <filament/ColorGrading.h>
 #include <filament/DebugDraw.h>
+#include <filament/DebugViews.h>
 #include <filament/Effects.h>
 #include <filament/Engine.h>
 #include <filament/Environment.h>

@@ -405,6 +405,47 @@ TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=histogram: its effect does not run (its line says why)");
 }
 
+TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
+    DemandInput input{ .counts = { .visible = 4,
+                                   .lights = 3,
+                                   .suns = 1,
+                                   .litDraws = 4,
+                                   .opaqueDraws = 4,
+                                   .opaqueLitDraws = 4,
+                                   .refractiveDraws = 1,
+                                   .reflectiveDraws = 1 },
+                       .shadows = { .isOn = true, .maps = 2 },
+                       .hasIndirectLight = true,
+                       .hasSky = true,
+                       .moved = 1,
+                       .discsInView = 1 };
+    input.quality.ao = AmbientOcclusionTerm::Gtao;
+    input.quality.refraction = RefractionSource::Screen;
+    input.quality.ssr = true;
+    input.effects.fog.enabled = true;
+    const std::array lit{ Effect::Sun,        Effect::LightList,   Effect::Shadows, Effect::IndirectLight,
+                          Effect::Sky,        Effect::SunDisc,     Effect::Fog,     Effect::AmbientOcclusion,
+                          Effect::Refraction, Effect::Reflections, Effect::Motion };
+    for (size_t i = 0; i < kDebugViewCount; ++i) {
+        input.debugView = static_cast<DebugView>(i);
+        const SceneDemand demand = findDemand(input);
+        const bool isLit = input.debugView < DebugView::BaseColor || input.debugView == DebugView::Wireframe;
+        for (const Effect effect : lit) {
+            EXPECT_EQ(demand.needs(effect), isLit) << toString(input.debugView) << ": " << nameOf(effect);
+            EXPECT_EQ(words(effect, input) == "a debug view shows no light", !isLit) << nameOf(effect);
+        }
+        EXPECT_EQ(demand.needs(Effect::DebugView), i > 0);
+        EXPECT_EQ(demand.needs(Effect::DepthPrepass), isLit) << "nothing else reads depths";
+        const Quality drawn = drawnQuality(input.quality, input.debugView);
+        EXPECT_EQ(drawn == input.quality, isLit) << toString(input.debugView);
+        EXPECT_TRUE(isLit || drawn.shadows == ShadowFilter::Off);
+    }
+    input.debugView = DebugView::Overdraw;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=overdraw");
+    input.quality.depthPrepass = DepthPrepass::On;
+    EXPECT_TRUE(findDemand(input).needs(Effect::DepthPrepass)) << "so that it can be seen what it saves";
+}
+
 TEST(SceneDemand, CountsTheDiscsOfSuns) {
     EXPECT_EQ(words(Effect::SunDisc, {}), "none in the scene");
     EXPECT_EQ(words(Effect::SunDisc, { .discsOutOfView = 2 }), "none of 2 is in view");

@@ -76,7 +76,7 @@ TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
 
 TEST(Options, DebugViewsAreSetByName) {
     EXPECT_EQ(parsed({}).debugView, DebugView::None);
-    for (int i = 0; i <= static_cast<int>(DebugView::Histogram); ++i) {
+    for (size_t i = 0; i < kDebugViewCount; ++i) {
         const auto view = static_cast<DebugView>(i);
         const std::string word = std::string("debugView=") + toString(view);
         EXPECT_EQ(parsed({ "--set", word.c_str() }).debugView, view);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/DebugSurfacePass.h"
+
+#include "filament_core/passes/ChosenDraws.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using framegraph::TextureId;
+
+struct ChosenSurfaces {
+    ChosenDraws opaque, blended;
+};
+
+ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSlot debug, PassBlock target) {
+    PassSlot slot = slotOf(context.settings, pass.passLayout(), pass.subpass());
+    slot.debug = debug;
+    if (debug == DebugSlot::Edges) slot.edges = context.resources.edges;
+    prepare::ViewPacket const& view = context.packet.mainView();
+    return { chooseDraws(pass, context, slot, target, view.opaque),
+             chooseDraws(pass, context, slot, target, view.blended) };
+}
+
+void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenSurfaces const& chosen) {
+    const FrameView view = viewOf(context, 0);
+    for (ChosenDraws const* list : { &chosen.opaque, &chosen.blended }) {
+        const DrawContext draws{ view.group, list->passGroups, context.resources.instanceIds, context.deformations,
+                                 context.settings.textureFilter };
+        recordDrawRanges(pass, draws, list->draws, list->pipelines);
+    }
+}
+
+/// What of the surfaces is drawn, and to which targets.
+struct DebugSurfaces {
+    std::string_view name;
+    DebugSlot debug = DebugSlot::Values;
+    TextureId color, depth;
+    bool keepsDepth = false; ///< what `depth` has already
+};
+
+void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces const& to) {
+    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, context.view->debugView);
+    graph.addPass(
+            to.name,
+            [&](PassBuilder& pass) {
+                pass.writeColor(0, to.color, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
+                framegraph::DepthTarget depth;
+                if (!to.keepsDepth) depth.clear = context.settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+                pass.writeDepth(to.depth, depth);
+            },
+            [of = &context, debug = to.debug, target](PassContext& pass) {
+                return chooseSurfaces(pass, *of, debug, target);
+            },
+            [of = &context](PassContext& pass, ChosenSurfaces const& chosen) { recordSurfaces(pass, *of, chosen); });
+}
+
+} // namespace
+
+void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
+    const bool hasDepth = targets.depth && !hasStencil;
+    if (!hasDepth)
+        targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
+    targets.solidDepth = targets.depth;
+    const bool counts = context.view->debugView == DebugView::Overdraw;
+    addSurfaces(graph, context,
+                { .name = "debug surfaces",
+                  .debug = counts ? DebugSlot::Counts : DebugSlot::Values,
+                  .color = targets.color,
+                  .depth = targets.depth,
+                  .keepsDepth = hasDepth });
+}
+
+void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.resources.edges) return;
+    targets.triangles = createLike(graph, targets.color, Format::RGBA16F, 1, "triangles");
+    const TextureId depth = createLike(graph, targets.color, Format::D32F, 1, "depth of triangles");
+    if (!targets.solidDepth) targets.solidDepth = depth;
+    addSurfaces(graph, context,
+                { .name = "triangles", .debug = DebugSlot::Edges, .color = targets.triangles, .depth = depth });
+}
+
+} // namespace filament::passes
