@@ -48,7 +48,16 @@ Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const&
     return shader::writePackage(*package);
 }
 
-Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
+std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
+    std::string key = fmt::format("{}\n{}", path.string(), filteredVariants);
+    for (auto const& [from, to] : edits) key += "\n" + from + "\n" + to;
+    return key;
+}
+
+} // namespace
+
+Result<MaterialFile> compileMaterialFile(fs::path const& path, std::vector<TextEdit> const& edits,
+                                         uint16_t filteredVariants) {
     MaterialFile file{ .name = path.stem().string(), .bytes = {}, .package = {}, .show = {} };
     Result<std::string> text = readText(path);
     if (!text) return text.error();
@@ -70,14 +79,6 @@ Result<MaterialFile> read(fs::path const& path, std::vector<TextEdit> const& edi
     file.package = std::move(*package);
     return file;
 }
-
-std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
-    std::string key = fmt::format("{}\n{}", path.string(), filteredVariants);
-    for (auto const& [from, to] : edits) key += "\n" + from + "\n" + to;
-    return key;
-}
-
-} // namespace
 
 bool isMaterialFile(fs::path const& path) { return path.extension() == ".mat" || path.extension() == ".fmat"; }
 
@@ -112,7 +113,7 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialFile(fs::path const& pat
     const std::lock_guard lock(mutex);
     std::shared_ptr<const MaterialFile>& entry = known[keyOf(path, edits, filteredVariants)];
     if (!entry) {
-        Result<MaterialFile> file = read(path, edits, filteredVariants);
+        Result<MaterialFile> file = compileMaterialFile(path, edits, filteredVariants);
         if (!file) return file.error();
         entry = std::make_shared<const MaterialFile>(std::move(*file));
     }

@@ -46,6 +46,10 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::pa
                                                              std::vector<TextEdit> const& edits = {},
                                                              uint16_t filteredVariants = 0);
 
+/// The same from the file as it is now, and not kept.
+Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std::vector<TextEdit> const& edits = {},
+                                         uint16_t filteredVariants = 0);
+
 /// Whether the path names a material, judged by its extension.
 bool isMaterialFile(std::filesystem::path const& path);
 

@@ -9,22 +9,31 @@
 
 namespace filament::tools {
 
-Result<Owned<Texture>> loadPictureTexture(Engine& engine, std::filesystem::path const& path) {
+Result<assets::Image> readPictureFile(std::filesystem::path const& path) {
     const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
     if (!bytes) return bytes.error();
-    const Result<assets::Image> image = assets::decodeImage(*bytes, path.string());
-    if (!image) return image.error();
+    return assets::decodeImage(*bytes, path.string());
+}
+
+Result<Owned<Texture>> makePictureTexture(Engine& engine, assets::Image const& picture,
+                                          std::filesystem::path const& path) {
     const uint32_t largest = engine.device().maxTextureSize;
-    if (std::max(image->width, image->height) > largest) {
+    if (std::max(picture.width, picture.height) > largest) {
         return fail(ErrorCode::Unsupported, "'{}' has {} x {} pixels, and the device takes {} a side; make it smaller",
-                    path.string(), image->width, image->height, largest);
+                    path.string(), picture.width, picture.height, largest);
     }
     return engine.own(engine.create(TextureDesc{ .format = Format::RGBA8Srgb,
-                                                 .width = image->width,
-                                                 .height = image->height,
+                                                 .width = picture.width,
+                                                 .height = picture.height,
                                                  .generateMips = true,
-                                                 .pixels = image->data,
+                                                 .pixels = picture.data,
                                                  .name = path.filename().string() }));
+}
+
+Result<Owned<Texture>> loadPictureTexture(Engine& engine, std::filesystem::path const& path) {
+    const Result<assets::Image> picture = readPictureFile(path);
+    if (!picture) return picture.error();
+    return makePictureTexture(engine, *picture, path);
 }
 
 } // namespace filament::tools

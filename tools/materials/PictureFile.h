@@ -5,11 +5,18 @@
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported: one line with the path and the reason.
 #pragma once
 
+#include "filament_core/assets/image/Image.h"
+
 #include <filament/Engine.h>
 
 #include <filesystem>
 
 namespace filament::tools {
+
+/// The two parts of it: the first on any thread.
+Result<assets::Image> readPictureFile(std::filesystem::path const& path);
+Result<Owned<Texture>> makePictureTexture(Engine& engine, assets::Image const& picture,
+                                          std::filesystem::path const& path);
 
 Result<Owned<Texture>> loadPictureTexture(Engine& engine, std::filesystem::path const& path);
 

@@ -123,6 +123,7 @@ bool operator==(ModelLightEdit const& a, ModelLightEdit const& b);
 bool operator==(MorphEdit const& a, MorphEdit const& b);
 bool operator==(Playback const& a, Playback const& b);
 bool operator==(Bookmark const& a, Bookmark const& b);
+bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b);
 bool isEqual(Camera const& a, Camera const& b);
 bool isEqual(View const& a, View const& b); ///< without what a Document leaves out
 bool isEqual(AnyLight const& a, AnyLight const& b);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Stage: draws a Document on one engine. Two stages given the same Document draw the same bits, whatever they drew before
-/// and whichever backend they use.
+/// and whichever backend they use; what gathers frames (temporal anti-aliasing, exposure, the places of shadow maps) does
+/// after forgetFrames().
 ///   Use     apply(document); poll(); render(target);  once a frame.
 ///   Loads   apply() starts them and poll() continues them: neither waits. What was there stays until what is new is
 ///           complete, and for good if that fails or is cancelled; takeMessages() then says why. Edits of a model that is
@@ -77,6 +78,9 @@ public:
     /// Waits for the pixels: display-referred RGBA8 of the document's size.
     Result<Image> renderToImage();
 
+    /// The next frame is drawn as a new stage would draw it: nothing is gathered, and shadow maps find new places.
+    void forgetFrames();
+
     /// What went wrong or needs to be known since the last call: failed loads with file and reason, edits that name what
     /// the file does not have, warnings of a loaded model, errors of the device.
     std::vector<std::string> takeMessages();
@@ -91,16 +95,19 @@ public:
 
     std::filesystem::path const& shownFile() const; ///< of the model that is drawn; empty: none
     Model const* model() const;                     ///< null: none, or a .mat file
-    /// Null without a model. Read with it; edits belong into the Document.
+    /// Null without a model. Read with it; edits belong into the Document. It lists no lights that are off.
     ModelCopy const* modelCopy() const;
     Node root() const;               ///< of the model or of the .mat file's meshes; none: nothing
     Box bounds() const;              ///< of what is drawn of it, in the world; may be larger than necessary
     std::vector<Node> nodes() const; ///< those that NodeEdit::node counts; Scene has their names and parents
+    /// Of the node, or the nearest above it, among nodes(): what a pick found.
     std::optional<uint32_t> indexOf(Node node) const;
     std::vector<CopyMaterial> materials() const; ///< of the model or of the .mat file
     /// The value that a parameter has now. NotFound names what is near; Unsupported for textures and arrays.
     Result<ParameterValue> parameter(MaterialInstance instance, std::string_view parameter) const;
-    /// As in the file, before any edit: a transform of nodes(), a light of modelCopy()->lights().
+    /// Those that ModelLightEdit::light counts. A light that is off has no handle.
+    std::vector<CopyLight> modelLights() const;
+    /// As in the file, before any edit: a transform of nodes(), a light of modelLights().
     double4x4 nodeOfFile(uint32_t node) const;
     AnyLight lightOfFile(uint32_t light) const;
     /// Handles of Document::lights; none for one that is off.

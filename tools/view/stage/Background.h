@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Background: a function on a thread of its own, whose result is asked for once a frame.
+///   Thread  all calls belong to one thread; the function runs on another one.
+///   Wait    take() before isFinished(), and the end of the last owner. Whoever must not wait keeps it in Abandoned.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
+#include <vector>
+
+namespace filament::view {
+
+template <class T>
+class Background {
+public:
+    explicit Background(std::function<T()> work)
+            : mFuture(std::make_shared<std::future<T>>(std::async(std::launch::async, std::move(work)))) {}
+
+    bool isFinished() const { return mFuture->wait_for(std::chrono::seconds(0)) == std::future_status::ready; }
+    T take() { return mFuture->get(); }
+    void wait() const { mFuture->wait(); }
+    /// True once it is finished; keeps it until then.
+    std::function<bool()> rest() const {
+        return [future = mFuture] { return future->wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    }
+
+private:
+    std::shared_ptr<std::future<T>> mFuture;
+};
+
+/// Functions that nobody waits for any more, until they are finished. Its own end waits for them.
+class Abandoned {
+public:
+    template <class T>
+    void add(Background<T> const& work) {
+        mRest.push_back(work.rest());
+    }
+    void removeFinished() {
+        std::erase_if(mRest, [](std::function<bool()> const& isFinished) { return isFinished(); });
+    }
+
+private:
+    std::vector<std::function<bool()>> mRest;
+};
+
+} // namespace filament::view

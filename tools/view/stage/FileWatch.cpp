@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/stage/FileWatch.h"
+
+#include "base/Result.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/files/PathInside.h"
+
+#include <nlohmann/json.hpp>
+
+#include <regex>
+#include <string>
+#include <string_view>
+
+namespace filament::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string textOfFile(fs::path const& file) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
+}
+
+/// RFC 3986, 2.1: %20 is a space.
+std::string decoded(std::string_view uri) {
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9' ? c - '0' : (c | 32) >= 'a' && (c | 32) <= 'f' ? (c | 32) - 'a' + 10 : -1;
+    };
+    std::string text;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        const int high = uri[i] == '%' && i + 2 < uri.size() ? digit(uri[i + 1]) : -1,
+                  low = high >= 0 ? digit(uri[i + 2]) : -1;
+        text += low >= 0 ? static_cast<char>(high * 16 + low) : uri[i];
+        if (low >= 0) i += 2;
+    }
+    return text;
+}
+
+void addUris(nlohmann::json const& tree, const char* list, fs::path const& folder, std::vector<fs::path>& files) {
+    const auto found = tree.find(list);
+    if (found == tree.end() || !found->is_array()) return;
+    for (nlohmann::json const& element : *found) {
+        const auto uri = element.is_object() ? element.find("uri") : element.end();
+        if (!element.is_object() || uri == element.end() || !uri->is_string()) continue;
+        const std::string text = uri->get<std::string>();
+        if (!text.starts_with("data:")) files.push_back(folder / decoded(text));
+    }
+}
+
+} // namespace
+
+std::vector<fs::path> filesOf(fs::path const& file) {
+    std::vector<fs::path> files{ file };
+    if (file.extension() == ".gltf") {
+        const nlohmann::json tree = nlohmann::json::parse(textOfFile(file), nullptr, false);
+        if (!tree.is_object()) return files;
+        addUris(tree, "buffers", file.parent_path(), files);
+        addUris(tree, "images", file.parent_path(), files);
+    } else if (file.extension() == ".mat") {
+        const std::string text = textOfFile(file);
+        static const std::regex kInclude(R"(#\s*include\s*["<]([^">\n]+)[">])");
+        for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
+            const Result<fs::path> inside = assets::fileInside(file.parent_path(), (*it)[1].str());
+            if (inside) files.push_back(*inside);
+        }
+    }
+    return files;
+}
+
+FileWatch::State FileWatch::stateOf(fs::path const& file) {
+    std::error_code error;
+    const auto time = fs::last_write_time(file, error);
+    if (error) return {};
+    const uintmax_t size = fs::file_size(file, error);
+    return { .exists = true, .time = time.time_since_epoch().count(), .size = error ? 0 : size };
+}
+
+void FileWatch::watch(std::vector<fs::path> const& files) {
+    std::map<fs::path, Watched> watched;
+    for (fs::path const& file : files) {
+        if (file.empty()) continue;
+        const auto known = mFiles.find(file);
+        const State now = stateOf(file);
+        watched[file] = known == mFiles.end() ? Watched{ now, now } : known->second;
+    }
+    mFiles = std::move(watched);
+}
+
+std::vector<fs::path> FileWatch::changed() {
+    std::vector<fs::path> changed;
+    for (auto& [file, watched] : mFiles) {
+        const State now = stateOf(file);
+        const bool isSettled = now == watched.seen;
+        watched.seen = now;
+        if (!isSettled || now == watched.known) continue;
+        watched.known = now;
+        changed.push_back(file);
+    }
+    return changed;
+}
+
+} // namespace filament::view
