@@ -7,6 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 namespace filament::record {
 namespace {
 
@@ -73,6 +75,45 @@ TEST(SavedFrame, TheAttachmentsOfAllPassesHaveTheSameHashesOnBothApis) {
         for (size_t k = 0; k < x.attachments.size(); ++k)
             EXPECT_EQ(x.attachments[k].hash, y.attachments[k].hash) << x.name << " " << x.attachments[k].name;
     }
+}
+
+// As a viewer draws: several calls of render(), several pictures, the second one twice.
+TEST(SavedFrame, HoldsEveryPictureAndEveryFrameThatLedToThem) {
+    const FrameFolder folder;
+    SaveRequest request = spheresRequest(folder);
+    request.recipe = [](Engine& engine) -> Result<std::vector<FramePicture>> {
+        std::vector<FramePicture> pictures;
+        for (const char* name : { "left", "right", "right-again" }) {
+            const bool isLeft = name == std::string_view("left");
+            Result<Image> image =
+                    test::drawSpheres(engine, isLeft ? 0.8f : 0.2f, isLeft ? Format::RGBA16F : Format::RGBA8);
+            if (!image) return image.error();
+            pictures.push_back({ .name = name, .image = std::move(*image) });
+        }
+        return pictures;
+    };
+    const Manifest manifest = saved(request);
+    EXPECT_THAT(problemsOf(manifest), IsEmpty());
+    ASSERT_THAT(manifest.pictures, SizeIs(3));
+    EXPECT_EQ(manifest.pictures[1].hash, manifest.pictures[2].hash);
+    EXPECT_NE(manifest.pictures[0].hash, manifest.pictures[1].hash);
+    for (const char* file : { "left.exr", "right.png", "right-again.png" })
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+    for (TraceRecord const& record : manifest.traces) {
+        EXPECT_THAT(record.frames, SizeIs(3));
+        EXPECT_EQ(
+                std::set<uint64_t>({ record.pictures[0].ticket, record.pictures[1].ticket, record.pictures[2].ticket })
+                        .size(),
+                3u);
+        const auto verdict = compareReplay(manifest, traceOf(folder, manifest, record.backend));
+        ASSERT_TRUE(verdict.ok()) << verdict.error().message;
+        EXPECT_EQ(verdict->difference, "");
+    }
+    const Trace vulkan = traceOf(folder, manifest, Backend::Vulkan), gles = traceOf(folder, manifest, Backend::Gles);
+    const auto broken =
+            firstDisagreement(vulkan, with(Backend::Vulkan, "depthCompare"), gles, { .backend = Backend::Gles });
+    ASSERT_TRUE(broken.ok()) << broken.error().message;
+    EXPECT_THAT(*broken, ::testing::StartsWith("frame 1, ")); // the first of the three
 }
 
 TEST(SavedFrame, SceneLinearPicturesKeepTheirBits) {
