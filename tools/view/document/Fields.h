@@ -86,10 +86,12 @@ template <> struct Fields<Camera> {
 };
 template <> struct Fields<View> {
     static constexpr auto list = std::tuple{ field("camera", &View::camera), field("size", &View::size, 1, 16384),
-                                             field("colorGrading", &View::colorGrading), field("quality", &View::quality),
+                                             field("colorGrading", &View::colorGrading),
+        field("quality", &View::quality),
                                              field("effects", &View::effects),
                                              field("clearColor", &View::clearColor, -kFinite, kFinite),
-                                             field("samples", &View::samples, 1, 4), field("debugView", &View::debugView),
+                                             field("samples", &View::samples, 1, 4),
+        field("debugView", &View::debugView),
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
                                              field("visibleLayers", &View::visibleLayers) };
@@ -117,7 +119,8 @@ template <> struct Fields<EnvironmentSettings> {
 };
 template <> struct Fields<SunLight> {
     static constexpr auto list = std::tuple{
-        field("directionWorld", &SunLight::directionWorld, -kFinite, kFinite), field("illuminance", &SunLight::illuminance, 0, 1e12),
+        field("directionWorld", &SunLight::directionWorld, -kFinite, kFinite),
+        field("illuminance", &SunLight::illuminance, 0, 1e12),
         field("color", &SunLight::color, 0, 1e9), field("angularRadiusDegrees", &SunLight::angularRadiusDegrees, 0, 20),
         field("showsDisc", &SunLight::showsDisc), field("haloSize", &SunLight::haloSize, 1, 1000),
         field("haloFalloff", &SunLight::haloFalloff, 0, 10'000), field("castsShadows", &SunLight::castsShadows),
@@ -130,15 +133,18 @@ template <> struct Fields<PointLight> {
         field("color", &PointLight::color, 0, 1e9), field("rangeMeters", &PointLight::rangeMeters, 0, kFinite),
         field("sourceRadiusMeters", &PointLight::sourceRadiusMeters, 0, kFinite),
         field("castsShadows", &PointLight::castsShadows), field("contactShadows", &PointLight::contactShadows),
-        field("lightChannels", &PointLight::lightChannels), field("directionWorld", &PointLight::directionWorld, -kFinite, kFinite),
+        field("lightChannels", &PointLight::lightChannels),
+        field("directionWorld", &PointLight::directionWorld, -kFinite, kFinite),
         field("upWorld", &PointLight::upWorld, -kFinite, kFinite) };
     static constexpr size_t others = 1; // profile
 };
 template <> struct Fields<SpotLight> {
     static constexpr auto list = std::tuple{
-        field("positionWorld", &SpotLight::positionWorld), field("directionWorld", &SpotLight::directionWorld, -kFinite, kFinite),
+        field("positionWorld", &SpotLight::positionWorld),
+        field("directionWorld", &SpotLight::directionWorld, -kFinite, kFinite),
         field("intensity", &SpotLight::intensity, 0, 1e12), field("color", &SpotLight::color, 0, 1e9),
-        field("rangeMeters", &SpotLight::rangeMeters, 0, kFinite), field("innerConeRadians", &SpotLight::innerConeRadians, 0, 1.5707963),
+        field("rangeMeters", &SpotLight::rangeMeters, 0, kFinite),
+        field("innerConeRadians", &SpotLight::innerConeRadians, 0, 1.5707963),
         field("outerConeRadians", &SpotLight::outerConeRadians, 0, 1.5707964),
         field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters, 0, kFinite),
         field("castsShadows", &SpotLight::castsShadows), field("contactShadows", &SpotLight::contactShadows),
@@ -147,7 +153,8 @@ template <> struct Fields<SpotLight> {
 };
 template <> struct Fields<RectLight> {
     static constexpr auto list = std::tuple{
-        field("positionWorld", &RectLight::positionWorld), field("directionWorld", &RectLight::directionWorld, -kFinite, kFinite),
+        field("positionWorld", &RectLight::positionWorld),
+        field("directionWorld", &RectLight::directionWorld, -kFinite, kFinite),
         field("upWorld", &RectLight::upWorld, -kFinite, kFinite), field("widthMeters", &RectLight::widthMeters, 0, 1e9),
         field("heightMeters", &RectLight::heightMeters, 0, 1e9), field("luminance", &RectLight::luminance, 0, 1e12),
         field("color", &RectLight::color, 0, 1e9), field("rangeMeters", &RectLight::rangeMeters, 0, kFinite),
@@ -157,7 +164,8 @@ template <> struct Fields<RectLight> {
 };
 template <> struct Fields<DiscLight> {
     static constexpr auto list = std::tuple{
-        field("positionWorld", &DiscLight::positionWorld), field("directionWorld", &DiscLight::directionWorld, -kFinite, kFinite),
+        field("positionWorld", &DiscLight::positionWorld),
+        field("directionWorld", &DiscLight::directionWorld, -kFinite, kFinite),
         field("radiusMeters", &DiscLight::radiusMeters, 0, 1e9), field("luminance", &DiscLight::luminance, 0, 1e12),
         field("color", &DiscLight::color, 0, 1e9), field("rangeMeters", &DiscLight::rangeMeters, 0, kFinite),
         field("isTwoSided", &DiscLight::isTwoSided), field("castsShadows", &DiscLight::castsShadows),
@@ -167,15 +175,18 @@ template <> struct Fields<DiscLight> {
 template <> struct Fields<TubeLight> {
     static constexpr auto list = std::tuple{
         field("positionWorld", &TubeLight::positionWorld), field("axisWorld", &TubeLight::axisWorld, -kFinite, kFinite),
-        field("lengthMeters", &TubeLight::lengthMeters, 0, 1e9), field("radiusMeters", &TubeLight::radiusMeters, 0, 1e9),
+        field("lengthMeters", &TubeLight::lengthMeters, 0, 1e9),
+        field("radiusMeters", &TubeLight::radiusMeters, 0, 1e9),
         field("luminance", &TubeLight::luminance, 0, 1e12), field("color", &TubeLight::color, 0, 1e9),
         field("rangeMeters", &TubeLight::rangeMeters, 0, kFinite), field("castsShadows", &TubeLight::castsShadows),
         field("lightChannels", &TubeLight::lightChannels) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<DocumentModel> {
-    static constexpr auto list = std::tuple{ field("file", &DocumentModel::file), field("options", &DocumentModel::options),
-                                             field("fit", &DocumentModel::fit), field("variant", &DocumentModel::variant) };
+    static constexpr auto list = std::tuple{ field("file", &DocumentModel::file),
+        field("options", &DocumentModel::options),
+                                             field("fit", &DocumentModel::fit),
+        field("variant", &DocumentModel::variant) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<DocumentEnvironment> {
@@ -203,7 +214,8 @@ template <> struct Fields<DocumentLight> {
     static constexpr size_t others = 0;
 };
 template <> struct Fields<ModelLightEdit> {
-    static constexpr auto list = std::tuple{ field("light", &ModelLightEdit::light), field("isOn", &ModelLightEdit::isOn),
+    static constexpr auto list = std::tuple{ field("light", &ModelLightEdit::light),
+        field("isOn", &ModelLightEdit::isOn),
                                              field("replacement", &ModelLightEdit::replacement) };
     static constexpr size_t others = 0;
 };
@@ -213,9 +225,11 @@ template <> struct Fields<MorphEdit> {
     static constexpr size_t others = 0;
 };
 template <> struct Fields<Playback> {
-    static constexpr auto list = std::tuple{ field("animation", &Playback::animation), field("seconds", &Playback::seconds),
+    static constexpr auto list = std::tuple{ field("animation", &Playback::animation),
+        field("seconds", &Playback::seconds),
                                              field("isPlaying", &Playback::isPlaying),
-                                             field("speed", &Playback::speed, -100, 100), field("loops", &Playback::loops) };
+                                             field("speed", &Playback::speed, -100, 100),
+        field("loops", &Playback::loops) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<Bookmark> {
@@ -235,7 +249,8 @@ template <> struct Fields<CameraPath> {
 };
 template <> struct Fields<Document> {
     static constexpr auto list = std::tuple{
-        field("model", &Document::model), field("environment", &Document::environment), field("nodes", &Document::nodes),
+        field("model", &Document::model), field("environment", &Document::environment),
+        field("nodes", &Document::nodes),
         field("materials", &Document::materials), field("lights", &Document::lights),
         field("modelLights", &Document::modelLights), field("playback", &Document::playback),
         field("morphs", &Document::morphs), field("view", &Document::view), field("look", &Document::look),
