@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/stage/Stage.h"
 #include "tests/tools/view/stage/StageFiles.h"
+#include "tools/paths/Paths.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ctime>
 #include <functional>
+#include <map>
+#include <random>
 #include <thread>
 
 namespace filament::view {
@@ -61,6 +67,125 @@ size_t differentBytes(Image const& a, Image const& b) {
     size_t count = a.pixels.size() == b.pixels.size() ? 0 : a.pixels.size();
     for (size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) count += a.pixels[i] != b.pixels[i];
     return count;
+}
+
+/// Documents that differ from each other in everything that a stage applies.
+class RandomDocuments {
+public:
+    explicit RandomDocuments(unsigned seed) : mRandom(seed) {}
+
+    Document next() {
+        Document document = carDocument();
+        const uint32_t model = pick(7);
+        document.model.file = model == 0 ? ""
+                                         : folder() / (model == 1  ? "ball.mat"
+                                                       : model < 5 ? "car.gltf"
+                                                                   : "cab.gltf");
+        document.model.fit = pick(4) > 0;
+        const uint32_t sky = pick(4);
+        document.environment.file = sky == 0 ? "" : folder() / (sky == 1 ? "dusk.hdr" : "day.hdr");
+        document.environment.settings = { .illuminance = Lux{ real(5000, 40'000) },
+                                          .rotationRadians = real(-3, 3),
+                                          .skybox = pick(2) > 0 };
+        document.view.camera = Camera::lookAt({ real(-0.5f, 0.5f), real(-0.5f, 0.5f), real(1, 2) }, { 0, 0, 0 });
+        document.look = pick(3) == 0 ? folder() / "warm.cube" : "";
+        if (model > 1)
+            editCar(document);
+        else if (model == 1 && pick(2) > 0)
+            setParameter(document, "ball", "tint", float3(real(0, 1), real(0, 1), real(0, 1)));
+        for (uint32_t lights = pick(4); lights > 0; --lights) addLight(document);
+        return document;
+    }
+
+private:
+    uint32_t pick(uint32_t count) { return static_cast<uint32_t>(mRandom() % count); }
+    float real(float low, float high) { return std::uniform_real_distribution<float>(low, high)(mRandom); }
+
+    void editCar(Document& document) {
+        if (pick(3) == 0) document.model.variant = "race";
+        if (pick(2) > 0) nodeEdit(document, 1).isVisible = false;
+        if (pick(2) > 0)
+            nodeEdit(document, pick(2)).parentFromNode =
+                    glm::rotate(double4x4(1.0), static_cast<double>(real(-1, 1)), double3(0.3, 1, 0.2));
+        for (const char* material : { "paint", "skin", "race paint" }) {
+            if (pick(3) == 0)
+                setParameter(document, material, "baseColorFactor", float4(real(0, 1), real(0, 1), real(0, 1), 1));
+            if (pick(3) == 0) setParameter(document, material, "roughnessFactor", real(0.2f, 1));
+        }
+        for (uint32_t light = 0; light < 3; ++light) {
+            if (pick(3) == 0) modelLightEdit(document, light).isOn = false;
+            if (pick(3) == 0)
+                modelLightEdit(document, light).replacement =
+                        PointLight{ .positionWorld = { real(-1, 1), 0, 1 }, .intensity = Candela{ real(10, 900) } };
+        }
+        if (pick(2) > 0) document.playback = { .animation = 0, .seconds = real(0, 1) };
+        if (pick(2) > 0) setMorph(document, pick(2) > 0 ? "smile" : "blink", real(0, 1));
+    }
+    void addLight(Document& document) {
+        const double3 at(real(-1, 1), real(-1, 1), real(0.5f, 2));
+        const float3 towards = -float3(at);
+        AnyLight light;
+        switch (pick(6)) {
+        case 0:
+            light = SunLight{ .directionWorld = towards, .illuminance = Lux{ real(1000, 20'000) } };
+            break;
+        case 1:
+            light = PointLight{ .positionWorld = at, .intensity = Candela{ real(100, 3000) } };
+            break;
+        case 2:
+            light = SpotLight{ .positionWorld = at,
+                               .directionWorld = towards,
+                               .intensity = Candela{ real(100, 5000) } };
+            break;
+        case 3:
+            light = RectLight{ .positionWorld = at, .directionWorld = towards, .luminance = Nits{ real(100, 5000) } };
+            break;
+        case 4:
+            light = DiscLight{ .positionWorld = at, .directionWorld = towards, .luminance = Nits{ real(100, 5000) } };
+            break;
+        default:
+            light = TubeLight{ .positionWorld = at, .luminance = Nits{ real(1000, 90'000) } };
+        }
+        document.lights.push_back({ .isOn = pick(4) > 0, .light = light });
+    }
+
+    std::mt19937 mRandom;
+};
+
+TEST(StagePictures, DependOnTheLastDocumentAloneAndNotOnTheBackend) {
+    constexpr int kRounds = 5, kChanges = 7;
+    std::map<Backend, std::vector<Image>> pictures;
+    std::vector<Document> lasts;
+    for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+        RandomDocuments documents(7);
+        const std::unique_ptr<Stage> stage = makeStage(backend);
+        ASSERT_TRUE(stage);
+        for (int round = 0; round < kRounds; ++round) {
+            Document last;
+            for (int i = 0; i < kChanges; ++i) {
+                last = documents.next();
+                stage->apply(last);
+                if (i % 3 == 0) stage->finishLoading(); // the others are overtaken while they load
+                if (i % 3 == 1) stage->poll();
+                ASSERT_TRUE(stage->renderToImage().ok());
+            }
+            stage->apply(last);
+            stage->finishLoading();
+            pictures[backend].push_back(shoot(*stage));
+            EXPECT_THAT(stage->takeMessages(), IsEmpty());
+            if (backend == Backend::Vulkan) lasts.push_back(last);
+        }
+    }
+    for (int round = 0; round < kRounds; ++round) {
+        const auto at = static_cast<size_t>(round);
+        EXPECT_EQ(differentBytes(pictures[Backend::Vulkan][at], pictures[Backend::Gles][at]), 0u) << round;
+        for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+            const std::unique_ptr<Stage> fresh = makeStage(backend);
+            EXPECT_EQ(differentBytes(shoot(*fresh, lasts[at]), pictures[backend][at]), 0u)
+                    << toString(backend) << ' ' << round;
+        }
+    }
+    EXPECT_FALSE(isSame(pictures[Backend::Vulkan][0], pictures[Backend::Vulkan][1])) << "they show something";
 }
 
 class StageTest : public testing::TestWithParam<Backend> {
@@ -271,6 +396,26 @@ TEST_P(StageTest, ShowsAMaterialFileAndItsParameters) {
     EXPECT_EQ(differentBytes(shoot(*stage, document), before), 0u);
 }
 
+TEST_P(StageTest, DoesNotGrowOverSixtyChanges) {
+    std::vector<Document> documents;
+    RandomDocuments random(3);
+    for (int i = 0; i < 10; ++i) documents.push_back(random.next());
+    uint64_t bytes = 0;
+    for (int round = 0; round < 6; ++round) {
+        for (Document const& document : documents) {
+            stage->apply(document);
+            stage->finishLoading();
+            ASSERT_TRUE(stage->renderToImage().ok());
+        }
+        stage->engine().waitIdle();
+        if (round == 2)
+            bytes = // pools are as large as they get
+                    stage->engine().statistics().deviceBytes;
+    }
+    EXPECT_EQ(stage->engine().statistics().deviceBytes, bytes);
+    EXPECT_THAT(stage->takeMessages(), IsEmpty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, StageTest, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& each) { return std::string(toString(each.param)); });
 
@@ -318,6 +463,41 @@ TEST(StageFilesTest, AreLoadedAgainWhenTheyChange) {
     folder().write("changing.mat", materialText("vec3(0.2)"));
     EXPECT_GT(differentBytes(nextPicture(*stage, plain), plain), 20u);
     EXPECT_THAT(stage->takeMessages(), IsEmpty());
+}
+
+/// Of this thread, in milliseconds of its own time: that of others on the machine does not count.
+double threadMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+/// The engine unpacks the code of a material that it does not know yet in one piece, 20 to 40 ms; the helmet has so many.
+constexpr size_t kNewMaterials = 2;
+
+TEST(StageLoads, LeaveTheAppThreadItsTime) {
+    const std::filesystem::path model = tools::assetDir() / "models/FlightHelmet/FlightHelmet.gltf";
+    if (!std::filesystem::exists(model)) GTEST_SKIP() << "needs " << model;
+    const std::unique_ptr<Stage> stage = makeStage(Backend::Vulkan);
+    ASSERT_TRUE(stage);
+    Document document = carDocument();
+    document.model.file = model;
+    std::vector<double> slices;
+    const auto timed = [&](auto const& work) {
+        const double begin = threadMilliseconds();
+        work();
+        slices.push_back(threadMilliseconds() - begin);
+    };
+    timed([&] { stage->apply(document); });
+    while (stage->progress().isLoading) {
+        timed([&] { stage->poll(); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_EQ(stage->shownFile(), model);
+    std::ranges::sort(slices, std::greater<>());
+    std::printf("%zu slices; the longest took %.2f, %.2f, %.2f ms\n", slices.size(), slices[0], slices[1], slices[2]);
+    ASSERT_GT(slices.size(), kNewMaterials);
+    EXPECT_LT(slices[kNewMaterials], 16);
 }
 
 } // namespace
