@@ -80,6 +80,14 @@ void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow 
     ImGui::PopID();
 }
 
+/// Of a .mat file: folded, because it is a table of many lines.
+void drawMaterialCost(MaterialCost const& cost) {
+    if (cost.text().empty() || !ImGui::CollapsingHeader("cost, as matc --cost")) return;
+    if (ImGui::BeginChild("cost", { 0, ImGui::GetFontSize() * 12 }, true, ImGuiWindowFlags_HorizontalScrollbar))
+        ImGui::TextUnformatted(cost.text().c_str());
+    ImGui::EndChild();
+}
+
 } // namespace
 
 void drawMaterialPanel(PanelFrame& frame) {
@@ -94,6 +102,7 @@ void drawMaterialPanel(PanelFrame& frame) {
     ImGui::PushStyleColor(ImGuiCol_Text, kQuietColor);
     ImGui::TextWrapped("%s", describeMaterial(frame.stage.engine().describe(selected->material)).c_str());
     ImGui::PopStyleColor();
+    drawMaterialCost(frame.materialCost);
     if (ImGui::BeginTable("parameters", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1);
         ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.3f);

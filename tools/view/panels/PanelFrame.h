@@ -21,6 +21,7 @@ struct PanelFrame {
     std::vector<Option> const& options;
     FrameHistory const& history;
     ChangeMeter& changes;
+    MaterialCost const& materialCost;
 };
 
 void drawScenePanel(PanelFrame& frame);

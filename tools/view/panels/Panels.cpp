@@ -68,10 +68,11 @@ void Panels::readScene(Stage& stage) {
 
 void Panels::draw(Document& document, Stage& stage) {
     readScene(stage);
+    mMaterialCost.follow(stage.shownFile());
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);
-    PanelFrame frame{ document, stage, state, requests, mNodes, mOptions, mHistory, mChanges };
+    PanelFrame frame{ document, stage, state, requests, mNodes, mOptions, mHistory, mChanges, mMaterialCost };
     drawTabs("left", mLayout.left, kLeftTabs, frame);
     drawTabs("right", mLayout.right, kRightTabs, frame);
     drawLoadProgress(frame, mLayout.picture);

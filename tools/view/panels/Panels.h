@@ -4,6 +4,8 @@
 /// statistics. Every panel is a thin function over a model of plain functions; the models have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
 ///            render, and panels.collect(stage).
+///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured by the
+///            driver thread alone.
 ///   Edits    go into the Document, and nowhere else. What a click asks of the program is in `requests`.
 ///   Thread   the app thread of the stage; ImGui's context is current.
 ///   Cost     what the visible panels show: the tree is read again only when Stage::generation() changes.
@@ -12,6 +14,7 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/panels/FrameHistory.h"
 #include "tools/view/panels/GraphModel.h"
+#include "tools/view/panels/MaterialCost.h"
 #include "tools/view/panels/OptionCosts.h"
 #include "tools/view/panels/OptionTable.h"
 #include "tools/view/panels/PanelLayout.h"
@@ -81,6 +84,7 @@ private:
     PanelLayout mLayout{};
     FrameHistory mHistory{};
     ChangeMeter mChanges{};
+    MaterialCost mMaterialCost{};
     std::vector<Option> mOptions;
     std::vector<SceneNode> mNodes{};
     std::optional<uint64_t> mGeneration{};
