@@ -402,7 +402,7 @@ TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {
     EXPECT_EQ(shown.status, 0);
     for (const char* text :
          { "standard", "3 parameters", "sampler2d", "baseColor", "attributes            position tangents uv0",
-           "16 variants", "directionalLighting dynamicLighting shadowReceiver skinning", "no lights" }) {
+           "18 variants", "directionalLighting dynamicLighting shadowReceiver skinning", "no lights" }) {
         EXPECT_THAT(shown.output, HasSubstr(text));
     }
     const std::string size = std::to_string(package("standard.fmat").variants[0].fragmentSpirv.size() * 4);
