@@ -4,6 +4,7 @@
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cstring>
 #include <functional>
@@ -382,6 +383,12 @@ TEST_P(ChangesTest, BoundsAreThoseOfVerticesUnlessTheyAreNamed) {
             { .vertices = stage.square.vertices(), .indices = stage.square.indices(), .material = stage.white });
     EXPECT_EQ(scene.bounds().min, double3(-1, -1, 0));
     EXPECT_EQ(scene.bounds().max, double3(1, 1, 0));
+    const Renderable moved = scene.add(
+            { .vertices = stage.square.vertices(), .indices = stage.square.indices(), .material = stage.white });
+    scene.setTransform(moved, glm::translate(double4x4(1), double3(10, 0, 0)));
+    EXPECT_EQ(scene.bounds(shape).max, double3(1, 1, 0)) << "of one alone";
+    EXPECT_EQ(scene.bounds(moved).min, double3(9, -1, 0));
+    scene.remove(moved);
     scene.setBounds(shape, { 100, 0, 0 }, { 101, 1, 1 });
     EXPECT_EQ(scene.bounds().min, double3(100, 0, 0));
     const View view = test::SquareMesh::view();

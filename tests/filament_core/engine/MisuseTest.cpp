@@ -23,7 +23,7 @@ namespace filament {
 namespace {
 
 constexpr const char* kProfile = "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n100 50\n";
-constexpr const char* kPaint = R"(material { name : paint, shadingModel : unlit,
+constexpr const char* kShopPaint = R"(material { name : paint, shadingModel : unlit,
     parameters : [ { type : float4, name : tint }, { type : sampler2d, name : picture } ] }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
     material.baseColor = materialParams.tint + texture(materialParams_picture, vec2(0.5)); } })";
@@ -103,7 +103,7 @@ private:
                 IndexBufferDesc{ .indexCount = 3, .data = std::as_bytes(std::span(order)), .name = "order" }));
         all.targets = made(engine.create(
                 MorphTargetsDesc{ .vertexCount = 3, .targets = { { .positions = points } }, .name = "smile" }));
-        all.material = made(*engine.create(MaterialDesc{ .package = test::compiledPackage(kPaint), .name = "paint" }));
+        all.material = made(*engine.create(MaterialDesc{ .package = test::compiledPackage(kShopPaint), .name = "paint" }));
         all.instance = made(engine.createInstance(all.material, "red"));
         all.light = made(engine.create(IndirectLightDesc{ .specular = all.texture, .name = "day" }));
         all.skybox = made(engine.create(SkyboxDesc{ .cube = all.texture, .name = "blue" }));
@@ -316,6 +316,12 @@ std::vector<Use> usesOfTargets() {
           [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.target); } },
         { "Renderer::readPixels(SwapChain)", "swap chain", "shop",
           [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.chain); } },
+        { "Engine::resize(SwapChain, uint2)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { world.engine.resize(bad.chain, uint2(2)); } },
+        { "Renderer::present(SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { Renderer(world.engine).present(bad.chain); } },
+        { "Renderer::mayPresent(SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { (void)Renderer(world.engine).mayPresent(bad.chain); } },
     };
 }
 
@@ -334,6 +340,7 @@ std::vector<Use> usesOfRenderables() {
           } },
         use("Scene::setBounds(Renderable, float3, float3)",
             [](Scene& s, Renderable bad) { s.setBounds(bad, float3(0), float3(1)); }),
+        use("Scene::bounds(Renderable)", [](Scene& s, Renderable bad) { (void)s.bounds(bad); }),
         use("Scene::setVisible(Renderable, bool)", [](Scene& s, Renderable bad) { s.setVisible(bad, true); }),
         use("Scene::isVisible(Renderable)", [](Scene& s, Renderable bad) { (void)s.isVisible(bad); }),
         use("Scene::setLightChannels(Renderable, LightChannels)",
