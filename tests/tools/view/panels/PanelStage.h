@@ -53,7 +53,8 @@ inline std::filesystem::path writePanelModel() {
 class PanelStage {
 public:
     explicit PanelStage(Backend backend, uint2 pixels = { 1280, 720 }) : size(pixels) {
-        auto made = view::Stage::create({ .engine = { .backend = backend, .workers = 1, .validation = true } });
+        auto made = view::Stage::create({ .engine = { .backend = backend, .workers = 1, .validation = true },
+                                          .watchesFiles = false }); // two stages of a test write the same file
         if (!made) throw std::runtime_error(made.error().message);
         stage = std::move(*made);
         document.model.file = writePanelModel();

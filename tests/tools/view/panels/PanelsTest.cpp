@@ -63,6 +63,7 @@ TEST(Panels, EachIsDrawnAndTheSameOnBothApis) {
             images.push_back(pictureOf(*stage, panel));
         }
         keep(images[0], std::string(panel));
+        keep(images[1], std::string(panel) + " gles");
         const view::PanelLayout layout = vulkan.panels.layout();
         EXPECT_GT(coloursOf(images[0], { 0, 0 }, uint2(layout.left.size)), 15u) << panel;
         EXPECT_GT(coloursOf(images[0], uint2(layout.right.position), uint2(layout.right.end())), 15u) << panel;
