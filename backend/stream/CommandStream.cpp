@@ -92,7 +92,11 @@ void CommandStream::takeTimings(std::vector<FrameTiming>& into) { mState->mailbo
 
 std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket) {
     std::optional<std::vector<std::byte>> bytes = mState->mailbox.takeReadback(ticket);
-    if (!bytes) mState->driver.watch().check(); // an app that only polls reaches no other check
+    if (bytes) return bytes;
+    DriverThread& driver = mState->driver;
+    driver.watch().check(); // an app that only polls reaches no other check
+    // Drivers look for answers when they replay: without another stream nobody would.
+    if (driver.replayedSubmissions() == driver.submissions()) driver.requestIdle();
     return bytes;
 }
 
