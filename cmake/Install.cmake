@@ -2,7 +2,7 @@
 #   runtime      the shared library: what programs need to run
 #   development  headers, archives, CMake and pkg-config files
 #   jobsystem    the job system alone, usable without the others
-#   tools        matc, matinfo, cmgen, imgdiff, filament-render, filament-replay, filament-reference
+#   tools        matc, matinfo, cmgen, imgdiff, filament-render, filament-view, filament-replay, filament-reference
 #   docs         licence, documentation, samples
 # The target `uninstall` removes what this build folder installed last.
 include(CMakePackageConfigHelpers)
@@ -10,7 +10,7 @@ set(FILAMENT_COMPONENTS development jobsystem tools docs)
 if(BUILD_SHARED_LIBS)
     list(PREPEND FILAMENT_COMPONENTS runtime)
 endif()
-set(FILAMENT_TOOLS matc matinfo cmgen imgdiff filament-render filament-replay filament-reference)
+set(FILAMENT_TOOLS matc matinfo cmgen imgdiff filament-render filament-view filament-replay filament-reference)
 set(FILAMENT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/filament_core)
 set(templates ${CMAKE_SOURCE_DIR}/cmake)
 set(generated ${CMAKE_BINARY_DIR}/package)

@@ -103,7 +103,8 @@ private:
                 IndexBufferDesc{ .indexCount = 3, .data = std::as_bytes(std::span(order)), .name = "order" }));
         all.targets = made(engine.create(
                 MorphTargetsDesc{ .vertexCount = 3, .targets = { { .positions = points } }, .name = "smile" }));
-        all.material = made(*engine.create(MaterialDesc{ .package = test::compiledPackage(kShopPaint), .name = "paint" }));
+        all.material =
+                made(*engine.create(MaterialDesc{ .package = test::compiledPackage(kShopPaint), .name = "paint" }));
         all.instance = made(engine.createInstance(all.material, "red"));
         all.light = made(engine.create(IndirectLightDesc{ .specular = all.texture, .name = "day" }));
         all.skybox = made(engine.create(SkyboxDesc{ .cube = all.texture, .name = "blue" }));

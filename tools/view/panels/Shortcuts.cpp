@@ -32,7 +32,9 @@ constexpr std::array kShortcuts{
     Shortcut{ Action::ToggleParallel, Key::P, None, "camera", "perspective or parallel" },
     Shortcut{ Action::AddBookmark, Key::B, Control, "camera", "keep this view" },
     Shortcut{ Action::NextDebugView, Key::V, None, "picture", "next debug view" },
-    Shortcut{ Action::Compare, Key::C, None, "picture", "compare the APIs" },
+    Shortcut{ Action::Compare, Key::C, None, "picture", "compare with the other API: wipe, difference, FLIP" },
+    Shortcut{ Action::CompareWith, Key::C, Shift, "picture", "compare with the path tracer, or with the other API" },
+    Shortcut{ Action::ChangeBackend, Key::B, None, "picture", "draw with the other API" },
     Shortcut{ Action::SavePicture, Key::F12, None, "picture", "save the picture" },
     Shortcut{ Action::SaveFrame, Key::F12, Shift, "picture", "save a frame that can be replayed" },
 };

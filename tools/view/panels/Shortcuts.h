@@ -86,6 +86,8 @@ enum class Action : uint8_t {
     ToggleFullScreen,
     NextDebugView,
     Compare,
+    CompareWith,
+    ChangeBackend,
     SavePicture,
     SaveFrame,
     Count,

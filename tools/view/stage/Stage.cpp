@@ -53,8 +53,10 @@ void copyModelPart(Document const& from, Document& to) {
 } // namespace
 
 struct Stage::Impl {
-    Impl(Engine created, StageOptions const& given)
-            : options(given), engine(std::move(created)), renderer(std::in_place, engine, given.renderer) {
+    /// `created`: none, if the engine is somebody else's.
+    Impl(std::optional<Engine> created, Engine* others, StageOptions const& given)
+            : options(given), own(std::move(created)), engine(own ? *own : *others),
+              renderer(std::in_place, engine, given.renderer) {
         rebuild();
     }
 
@@ -85,7 +87,8 @@ struct Stage::Impl {
     StageOptions options;
     Messages messages;
     Abandoned abandoned;
-    Engine engine;
+    std::optional<Engine> own;
+    Engine& engine;
     Document document; ///< that was applied
     Document shown;    ///< that the scene has
     std::string lastRefusal;
@@ -280,7 +283,11 @@ Stage::~Stage() = default;
 Result<std::unique_ptr<Stage>> Stage::create(StageOptions const& options) {
     Result<Engine> engine = Engine::create(options.engine);
     if (!engine) return engine.error();
-    return std::unique_ptr<Stage>(new Stage(std::make_unique<Impl>(std::move(*engine), options)));
+    return std::unique_ptr<Stage>(new Stage(std::make_unique<Impl>(std::move(*engine), nullptr, options)));
+}
+
+std::unique_ptr<Stage> Stage::on(Engine& engine, StageOptions const& options) {
+    return std::unique_ptr<Stage>(new Stage(std::make_unique<Impl>(std::nullopt, &engine, options)));
 }
 
 void Stage::apply(Document const& document) {

@@ -56,6 +56,8 @@ struct FrameExtras {
 class Stage {
 public:
     static Result<std::unique_ptr<Stage>> create(StageOptions const& options);
+    /// On an engine that lives longer; StageOptions::engine means nothing.
+    static std::unique_ptr<Stage> on(Engine& engine, StageOptions const& options = {});
     ~Stage();
     Stage(Stage const&) = delete;
     Stage& operator=(Stage const&) = delete;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of filament-view: what it takes, and one line for what it does not.
+#include "tools/view/app/ViewerOptions.h"
+
+#include <gmock/gmock.h>
+
+namespace filament::view {
+namespace {
+
+Result<std::optional<ViewerOptions>> parse(std::vector<const char*> words) {
+    words.insert(words.begin(), "filament-view");
+    return parseViewerOptions(static_cast<int>(words.size()), words.data());
+}
+
+TEST(ViewerOptions, TakesTheWordsOfScripts) {
+    const auto options = parse({ "model.glb", "--backend", "gles", "--size", "640x360", "--frames", "3", "--screenshot",
+                                 "shot.png", "--present", "mailbox", "--panels", "off", "--workers", "0" });
+    ASSERT_TRUE(options.ok()) << options.error().message;
+    ViewerOptions const& found = **options;
+    EXPECT_EQ(found.model, "model.glb");
+    EXPECT_EQ(found.backend, Backend::Gles);
+    EXPECT_EQ(found.size, uint2(640, 360));
+    EXPECT_EQ(found.frames, 3u);
+    EXPECT_EQ(found.screenshot, "shot.png");
+    EXPECT_EQ(found.presentMode, PresentMode::Mailbox);
+    EXPECT_FALSE(found.panels);
+    EXPECT_EQ(found.workers, 0);
+}
+
+TEST(ViewerOptions, NamesWhatIsWrong) {
+    const std::pair<std::vector<const char*>, const char*> cases[] = {
+        { { "--backend", "metal" }, "--backend" },
+        { { "--present", "soon" }, "--present" },
+        { { "--frames", "-1" }, "--frames" },
+        { { "--panels", "maybe" }, "--panels" },
+        { { "--workers", "many" }, "--workers" },
+        { { "--screenshot", "a.png" }, "--frames" },
+        { { "--frames", "1", "--screenshot", "a.gif" }, ".png" },
+        { { "--size", "0x0" }, "--size" },
+    };
+    for (auto const& [words, part] : cases) {
+        const auto options = parse(words);
+        ASSERT_FALSE(options.ok()) << words[0];
+        EXPECT_THAT(options.error().message, testing::HasSubstr(part));
+        EXPECT_EQ(options.error().message.find('\n'), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace filament::view

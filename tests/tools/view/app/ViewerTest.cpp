@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer without a window: events in, documents and pictures out, on both APIs.
+#include "tools/view/app/Viewer.h"
+#include "tests/tools/view/app/TestScene.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+
+namespace filament::view {
+namespace {
+
+constexpr uint2 kPictureSize{ 640, 360 };
+
+struct Headless {
+    std::unique_ptr<Viewer> viewer;
+
+    explicit Headless(Backend backend) {
+        auto made = Viewer::create(testOptions(backend), showcaseDocument(kPictureSize), { .pixels = kPictureSize });
+        if (!made) ADD_FAILURE() << made.error().message;
+        if (made) viewer = std::move(*made);
+    }
+    void settle(std::string const& when = "settle") {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        viewer->step(0.01);
+        while ((viewer->isLoading() || viewer->idleSeconds() < 0.1) && std::chrono::steady_clock::now() < end)
+            viewer->step(0.01);
+        if (std::chrono::steady_clock::now() < end) return;
+        ADD_FAILURE() << when << ": still busy after a minute; loading: " << viewer->stage().progress().what;
+    }
+    Image picture(std::string const& when = "picture") {
+        settle(when);
+        auto image = viewer->screenshot();
+        EXPECT_TRUE(image.ok());
+        return image ? std::move(*image) : Image{};
+    }
+    void press(int key, Modifiers modifiers = {}) {
+        viewer->handle(KeyEvent{ key, true, modifiers });
+        viewer->handle(KeyEvent{ key, false, {} });
+    }
+    void click(float2 pixel) {
+        viewer->handle(MouseMoveEvent{ pixel });
+        viewer->step(0.01);
+        viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
+        viewer->step(0.01);
+        viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
+        viewer->step(0.01);
+    }
+};
+
+class ViewerTest : public testing::TestWithParam<Backend> {};
+INSTANTIATE_TEST_SUITE_P(Apis, ViewerTest, testing::Values(Backend::Vulkan, Backend::Gles),
+                         [](auto const& info) { return std::string(toString(info.param)); });
+
+TEST_P(ViewerTest, DrawsNothingWhileNothingChanges) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.settle();
+    for (int i = 0; i < 20; ++i) EXPECT_FALSE(headless.viewer->step(0.1));
+    headless.viewer->handle(MouseMoveEvent{ { 300, 200 } });
+    EXPECT_TRUE(headless.viewer->step(0.01));
+    headless.settle();
+    EXPECT_FALSE(headless.viewer->step(0.1));
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, DragsTurnTheCameraAndKeysMoveIt) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.viewer->panels().state.showsPanels = false;
+    const Image before = headless.picture();
+    headless.viewer->handle(MouseMoveEvent{ { 300, 200 } });
+    headless.viewer->step(0.01);
+    headless.viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
+    headless.viewer->handle(MouseMoveEvent{ { 360, 220 } });
+    headless.viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
+    const Image turned = headless.picture();
+    EXPECT_NE(turned.pixels, before.pixels);
+    headless.press(268); // Home
+    EXPECT_EQ(headless.picture().pixels, before.pixels) << "back to the beginning";
+    headless.viewer->handle(KeyEvent{ 'W', true, {} });
+    EXPECT_TRUE(headless.viewer->step(0.1));
+    headless.viewer->handle(KeyEvent{ 'W', false, {} });
+    EXPECT_NE(headless.picture().pixels, before.pixels);
+}
+
+TEST_P(ViewerTest, ClicksSelectWhatIsUnderThem) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.viewer->panels().state.showsPanels = false;
+    headless.settle();
+    headless.click({ 320, 200 });
+    headless.settle();
+    ASSERT_TRUE(headless.viewer->panels().state.selectedNode.has_value());
+    const Image selected = headless.picture();
+    headless.press('H'); // hides it
+    EXPECT_NE(headless.picture().pixels, selected.pixels);
+    headless.press('Z', { .control = true });
+    EXPECT_EQ(headless.picture().pixels, selected.pixels) << "undone";
+    headless.press(256); // Esc
+    EXPECT_FALSE(headless.viewer->panels().state.selectedNode.has_value());
+}
+
+TEST_P(ViewerTest, EveryActionLeavesAViewerThatDraws) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    for (Shortcut const& shortcut : shortcuts()) {
+        const bool hasOwnTest = shortcut.action == Action::SaveFrame || shortcut.action == Action::CompareWith;
+        if (shortcut.action == Action::Quit || hasOwnTest) continue;
+        headless.viewer->perform(shortcut.action);
+        const Image image = headless.picture(labelOf(shortcut));
+        EXPECT_EQ(uint2(image.width, image.height), kPictureSize) << labelOf(shortcut);
+        EXPECT_FALSE(headless.viewer->isClosed());
+    }
+    headless.viewer->perform(Action::Quit);
+    EXPECT_TRUE(headless.viewer->isClosed());
+}
+
+TEST_P(ViewerTest, PicturesFollowTheSizeOfTheWindow) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.settle();
+    for (uint2 size : { uint2(1, 1), uint2(200, 700), uint2(1031, 77), kPictureSize }) {
+        headless.viewer->handle(ResizeEvent{ size, 1 });
+        const Image image = headless.picture();
+        EXPECT_EQ(uint2(image.width, image.height), size);
+    }
+    headless.viewer->handle(ResizeEvent{ uint2(0), 1 }); // minimised
+    EXPECT_FALSE(headless.viewer->step(0.1));
+    headless.viewer->handle(ResizeEvent{ kPictureSize, 2 }); // a dense display
+    EXPECT_EQ(headless.picture().width, kPictureSize.x);
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, DroppedFilesAreShownOrNamed) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    const Image before = headless.picture();
+    headless.viewer->handle(DropEvent{ { "/nowhere/at.all", "/nowhere/model.glb" } });
+    headless.settle();
+    const std::vector<std::string> messages = headless.viewer->takeMessages();
+    EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("/nowhere/at.all")));
+    EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("/nowhere/model.glb")));
+    EXPECT_EQ(uint2(before.width, before.height), kPictureSize);
+    headless.viewer->handle(DropEvent{ { showcaseFiles().model } });
+    headless.settle();
+    EXPECT_EQ(headless.viewer->stage().shownFile(), showcaseFiles().model);
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, TheOtherApiShowsTheSamePixelsLive) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.settle();
+    for (CompareMode mode : { CompareMode::Wipe, CompareMode::Difference }) {
+        headless.viewer->perform(Action::Compare);
+        headless.settle();
+        ASSERT_TRUE(headless.viewer->compared().result().has_value()) << toString(mode);
+        EXPECT_EQ(headless.viewer->compared().result()->percentage(), "100.0000 %");
+    }
+    headless.viewer->document().view.camera.worldFromView[3] += double4(0.1, 0.05, 0, 0);
+    headless.viewer->handle(MouseMoveEvent{ { 300, 200 } });
+    headless.settle();
+    EXPECT_EQ(headless.viewer->compared().result()->percentage(), "100.0000 %");
+}
+
+TEST_P(ViewerTest, ThePathTracerDrawsBesideTheViewer) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.viewer->handle(ResizeEvent{ { 96, 54 }, 1 });
+    headless.settle();
+    headless.viewer->perform(Action::CompareWith);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!headless.viewer->compared().result() && std::chrono::steady_clock::now() < end) headless.viewer->step(0.01);
+    ASSERT_TRUE(headless.viewer->compared().result().has_value()) << "after its first pass";
+    EXPECT_EQ(headless.viewer->compared().result()->pixels, 96u * 54);
+    EXPECT_LT(headless.viewer->compared().result()->identical, 96u * 54) << "it sees what the engine approximates";
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, ChangingTheApiKeepsThePicture) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.viewer->panels().state.showsPanels = false; // they name the device
+    const Image before = headless.picture();
+    headless.press('B');
+    EXPECT_NE(headless.viewer->stage().engine().device().backend, GetParam());
+    EXPECT_EQ(headless.picture().pixels, before.pixels);
+    headless.press('B');
+    EXPECT_EQ(headless.viewer->stage().engine().device().backend, GetParam());
+    EXPECT_EQ(headless.picture().pixels, before.pixels);
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, SavedFramesDrawThemselvesAgain) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.settle();
+    headless.viewer->perform(Action::SaveFrame);
+    headless.settle(); // busy until it is saved
+    const std::vector<std::string> messages = headless.viewer->takeMessages();
+    ASSERT_THAT(messages, testing::Contains(testing::HasSubstr("filament-replay draws it again")));
+    EXPECT_EQ(messages.size(), 2u) << messages.back(); // and that it began
+}
+
+} // namespace
+} // namespace filament::view

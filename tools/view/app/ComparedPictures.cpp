@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/app/ComparedPictures.h"
+
+#include "tools/view/app/ApiPicture.h"
+#include "tools/view/app/TracedPicture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::view {
+namespace {
+
+constexpr float kGrabPixels = 8; ///< beside the line of a wipe
+constexpr ImU32 kLineColor = IM_COL32(255, 158, 26, 255);
+
+Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
+
+} // namespace
+
+const char* toString(CompareMode mode) {
+    switch (mode) {
+    case CompareMode::Off:
+        return "off";
+    case CompareMode::Wipe:
+        return "wipe";
+    case CompareMode::Difference:
+        return "difference x16";
+    case CompareMode::Flip:
+        return "FLIP";
+    }
+    return "";
+}
+
+CompareMode nextMode(CompareMode mode) {
+    return mode == CompareMode::Flip ? CompareMode::Off : static_cast<CompareMode>(static_cast<int>(mode) + 1);
+}
+
+bool ComparedPictures::openSource(EngineOptions const& options) {
+    if (mOther && mOpenedWith == with) return true;
+    mOther.reset();
+    mResult.reset();
+    mOpenedWith = with;
+    if (with == CompareWith::PathTracer) {
+        mOther = std::make_unique<TracedPicture>();
+        return true;
+    }
+    auto other = ApiPicture::create(otherThan(options.backend), options);
+    if (other)
+        mOther = std::move(*other);
+    else
+        mMessages.push_back(other.error().message);
+    return other.ok();
+}
+
+bool ComparedPictures::follow(Document const& document, Stage& stage, SwapChain chain, EngineOptions const& options) {
+    if (mode == CompareMode::Off) return false;
+    if (!openSource(options)) {
+        mode = CompareMode::Off;
+        return true;
+    }
+    if (mNumber == 0 || !(document == mDocument)) {
+        mDocument = document;
+        ++mNumber;
+    }
+    mOther->follow(document, mNumber);
+    for (std::string& message : mOther->takeMessages()) mMessages.push_back(std::move(message));
+    readOwn(stage, chain);
+    return compareNewest();
+}
+
+/// The scene alone: the interface is drawn over it later.
+void ComparedPictures::readOwn(Stage& stage, SwapChain chain) {
+    if (mPending) {
+        std::optional<Image> image = stage.renderer().takePixels(mPending);
+        if (!image) return;
+        mPending = {};
+        if (!image->pixels.empty()) mOwn = NumberedPicture{ std::move(*image), mPendingNumber };
+    }
+    if (stage.progress().isLoading) return mOwn.reset(); // it shows what was there before
+    if (mOwn && mOwn->number == mNumber) return;
+    mPending = stage.renderer().readPixels(chain);
+    mPendingNumber = mNumber;
+}
+
+bool ComparedPictures::compareNewest() {
+    std::optional<NumberedPicture> const& other = mOther->picture();
+    if (!mOwn || !other || mOwn->number != other->number) return false;
+    if (mResult && mResultNumber == mOwn->number && mResultVersion == other->version && mResultMode == mode)
+        return false;
+    Result<PictureComparison> compared = compare(mOwn->image, other->image);
+    if (!compared) return false; // the window has changed its size meanwhile
+    mResult = std::move(*compared);
+    mResultNumber = mOwn->number;
+    mResultVersion = other->version;
+    mIsFinal = other->isFinal;
+    mResultMode = mode;
+    makeOverlay(mOwn->image, other->image);
+    return true;
+}
+
+void ComparedPictures::makeOverlay(Image const& own, Image const& other) {
+    if (mode == CompareMode::Wipe) mOverlay = other;
+    if (mode == CompareMode::Difference)
+        if (Result<Image> map = differenceMap(own, other); map) mOverlay = std::move(*map);
+    if (mode == CompareMode::Flip)
+        if (Result<FlipMap> map = flipMap(own, other); map) mOverlay = std::move(map->image);
+}
+
+void ComparedPictures::upload(UiRenderer& ui, Engine& engine) {
+    if (!mOverlay) return;
+    const uint2 size(mOverlay->width, mOverlay->height);
+    if (!mTexture.get() || size != mTextureSize) {
+        if (mTexture.get()) ui.remove(mTextureId);
+        mTexture = engine.own(engine.create(
+                TextureDesc{ .width = size.x, .height = size.y, .pixels = mOverlay->pixels, .name = "compared" }));
+        mTextureId = ui.add(mTexture);
+        mTextureSize = size;
+    } else {
+        engine.update(mTexture, TextureUpdate{ .pixels = mOverlay->pixels });
+    }
+    mOverlay.reset();
+}
+
+void ComparedPictures::draw(UiRenderer& ui, Engine& engine, uint2 size) {
+    if (mode == CompareMode::Off) return;
+    upload(ui, engine);
+    if (mTexture.get() && mTextureSize == size) {
+        const float left = mode == CompareMode::Wipe ? std::round(wipePosition * static_cast<float>(size.x)) : 0;
+        const ImVec2 end(static_cast<float>(size.x), static_cast<float>(size.y));
+        ImGui::GetBackgroundDrawList()->AddImage(mTextureId, { left, 0 }, end, { left / static_cast<float>(size.x), 0 },
+                                                 { 1, 1 });
+    }
+    if (mode == CompareMode::Wipe) drawWipe(size);
+    drawNumber(size);
+}
+
+void ComparedPictures::drawWipe(uint2 size) {
+    const float width = static_cast<float>(size.x), x = std::round(wipePosition * width);
+    ImGui::GetBackgroundDrawList()->AddRectFilled({ x - 1, 0 }, { x + 1, static_cast<float>(size.y) }, kLineColor);
+    ImGuiIO const& io = ImGui::GetIO();
+    const bool isNear = !io.WantCaptureMouse && std::abs(io.MousePos.x - x) < kGrabPixels;
+    if (isNear && io.MouseClicked[0]) mIsDragging = true;
+    if (!io.MouseDown[0]) mIsDragging = false;
+    if (mIsDragging) wipePosition = std::clamp(io.MousePos.x / width, 0.0f, 1.0f);
+}
+
+void ComparedPictures::drawNumber(uint2 size) const {
+    ImGui::SetNextWindowPos({ static_cast<float>(size.x) / 2, 10 }, ImGuiCond_Always, { 0.5f, 0 });
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
+    if (ImGui::Begin("compared", nullptr, kFlags)) {
+        ImGui::Text("%s | %s", toString(mode), mOther ? mOther->name().c_str() : "starting");
+        if (mResult && mResultNumber == mNumber)
+            ImGui::Text("%s of the pixels are identical", mResult->percentage().c_str());
+        else
+            ImGui::TextUnformatted("drawing ...");
+        if (mResult && mResultNumber == mNumber && mResult->first) {
+            ImGui::Text("first difference at %u, %u; at most %u / 255", mResult->first->at.x, mResult->first->at.y,
+                        mResult->largestDifference);
+        }
+    }
+    ImGui::End();
+}
+
+void ComparedPictures::close(UiRenderer* ui) {
+    if (ui && mTexture.get()) ui->remove(mTextureId);
+    mTexture.reset();
+    mTextureSize = uint2(0);
+    mOther.reset();
+    mPending = {};
+    mOwn.reset();
+    mResult.reset();
+    mNumber = 0;
+}
+
+} // namespace filament::view

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ComparedPictures: the viewer's picture and that of the other API, or of the path tracer, as a live number and as what lies over the picture:
+/// a wipe, or a map of differences.
+///   Use      once a frame, after the scene and before the interface: follow(); between ImGui's NewFrame() and Render():
+///            draw().
+///   Memory   two pictures on the host, and a texture of the map.
+///   Thread   the main thread.
+#pragma once
+
+#include "tools/view/app/PictureSource.h"
+#include "tools/view/compare/Comparison.h"
+#include "tools/view/stage/Stage.h"
+#include "tools/view/ui/UiRenderer.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace filament::view {
+
+/// What lies over the viewer's picture.
+enum class CompareMode : uint8_t { Off, Wipe, Difference, Flip };
+const char* toString(CompareMode mode);
+CompareMode nextMode(CompareMode mode);
+
+enum class CompareWith : uint8_t { OtherApi, PathTracer };
+
+class ComparedPictures {
+public:
+    CompareMode mode = CompareMode::Off;
+    CompareWith with = CompareWith::OtherApi;
+    float wipePosition = 0.5f; ///< of the width: the other API's picture is to the right
+
+    /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine. Whether there is news.
+    bool follow(Document const& document, Stage& stage, SwapChain chain, EngineOptions const& options);
+    /// The map, the line of the wipe and the number. A mouse drags the line.
+    void draw(UiRenderer& ui, Engine& engine, uint2 size);
+    /// Before the engine of the viewer ends.
+    void close(UiRenderer* ui);
+
+    /// Of the newest pair of pictures that show the same document.
+    std::optional<PictureComparison> const& result() const { return mResult; }
+    bool holdsPointer() const { return mIsDragging; } ///< the line of the wipe is being dragged
+    /// Another picture, or a better one, is on its way.
+    bool isWaiting() const { return mode != CompareMode::Off && (!mResult || mResultNumber != mNumber || !mIsFinal); }
+    std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
+
+private:
+    bool openSource(EngineOptions const& options);
+    void readOwn(Stage& stage, SwapChain chain);
+    bool compareNewest();
+    void makeOverlay(Image const& own, Image const& other);
+    void upload(UiRenderer& ui, Engine& engine);
+    void drawNumber(uint2 size) const;
+    void drawWipe(uint2 size);
+
+    std::unique_ptr<PictureSource> mOther;
+    CompareWith mOpenedWith = CompareWith::OtherApi;
+    Document mDocument{};
+    uint64_t mNumber = 0; ///< of the document
+    PixelTicket mPending{};
+    uint64_t mPendingNumber = 0;
+    std::optional<NumberedPicture> mOwn;
+    std::optional<PictureComparison> mResult;
+    uint64_t mResultNumber = 0;
+    uint32_t mResultVersion = 0;
+    bool mIsFinal = false;
+    CompareMode mResultMode = CompareMode::Off;
+    std::optional<Image> mOverlay; ///< not uploaded yet
+    Owned<Texture> mTexture;
+    uint2 mTextureSize{ 0 };
+    ImTextureID mTextureId{};
+    bool mIsDragging = false;
+    std::vector<std::string> mMessages;
+};
+
+} // namespace filament::view

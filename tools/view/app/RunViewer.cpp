@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/app/RunViewer.h"
+
+#include "tools/common/Console.h"
+#include "tools/common/Program.h"
+#include "tools/common/SceneFiles.h"
+#include "tools/view/app/Viewer.h"
+#include "tools/view/app/Window.h"
+
+#include <filament/Image.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace filament::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+Result<Document> documentFor(ViewerOptions const& options) {
+    if (!options.document.empty()) return loadDocument(options.document);
+    if (Result<void> made = tools::makeOutFolder(options); !made) return made.error();
+    const Result<showcase::Files> files = tools::chooseFiles(options);
+    if (!files) return files.error();
+    return makeDocument(options, files->model, files->environment);
+}
+
+/// Tells of frames, and prints what happened.
+class Loop {
+public:
+    Loop(ViewerOptions const& options, Window& window, Viewer& viewer, Clock::time_point begin)
+            : mOptions(options), mWindow(window), mViewer(viewer), mBegin(begin) {}
+
+    void run() {
+        Clock::time_point last = Clock::now();
+        while (!mViewer.isClosed() && !isDone() && !tools::isInterrupted()) {
+            for (InputEvent const& event : mWindow.takeEvents(mViewer.idleSeconds())) mViewer.handle(event);
+            const Clock::time_point now = Clock::now();
+            if (mOptions.frames > 0) mViewer.redraw();
+            mViewer.step(std::chrono::duration<double>(now - last).count());
+            last = now;
+            followFullScreen();
+            printMessages();
+            noteFirstFrame();
+        }
+    }
+
+private:
+    bool isDone() const { return mOptions.frames > 0 && mViewer.completeFrames() >= mOptions.frames; }
+
+    void followFullScreen() {
+        if (mIsFullScreen == mViewer.wantsFullScreen()) return;
+        mIsFullScreen = mViewer.wantsFullScreen();
+        mWindow.setFullScreen(mIsFullScreen);
+    }
+
+    void printMessages() {
+        for (std::string const& message : mViewer.takeMessages()) tools::printWarning(message);
+    }
+
+    void noteFirstFrame() {
+        if (mHasFirstFrame || mViewer.completeFrames() == 0) return;
+        if (mViewer.stage().engine().statistics().presents == 0) return;
+        mHasFirstFrame = true;
+        std::printf("first complete frame in the window after %.3f s\n", secondsSince(mBegin));
+        std::fflush(stdout);
+    }
+
+    ViewerOptions const& mOptions;
+    Window& mWindow;
+    Viewer& mViewer;
+    const Clock::time_point mBegin;
+    bool mIsFullScreen = false, mHasFirstFrame = false;
+};
+
+Result<void> show(ViewerOptions const& options) {
+    const Clock::time_point begin = Clock::now();
+    Result<Document> document = documentFor(options);
+    if (!document) return document.error();
+    Result<std::unique_ptr<Window>> window = Window::open("filament-view", options.size);
+    if (!window) return window.error();
+    const ViewerTarget target{ (*window)->display(), (*window)->native(), (*window)->pixels(), (*window)->scale() };
+    Result<std::unique_ptr<Viewer>> viewer = Viewer::create(options, std::move(*document), target);
+    if (!viewer) return viewer.error();
+    const tools::StopOnInterrupt tidily;
+    Loop(options, **window, **viewer, begin).run();
+    if (options.screenshot.empty()) return {};
+    const Result<Image> image = (*viewer)->screenshot();
+    if (!image) return image.error();
+    return savePng(options.screenshot, *image, OutputSpace::Srgb);
+}
+
+} // namespace
+
+int runViewer(ViewerOptions const& options) {
+    const Result<void> shown = show(options);
+    return shown ? 0 : tools::failed(shown.error());
+}
+
+} // namespace filament::view

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/app/ViewerOptions.h"
+
+#include "tools/common/CommandLine.h"
+
+#include <CLI/CLI.hpp>
+
+namespace filament::view {
+namespace {
+
+using tools::invalidOption;
+
+struct Words {
+    std::string backend = "vulkan", presentMode = "fifo", frames = "0", workers, screenshot, document, panels = "on";
+};
+
+void declare(CLI::App& app, Words& words, ViewerOptions& options) {
+    app.add_option("--backend", words.backend, "vulkan (default) or gles; B changes it while it runs")
+            ->default_str("vulkan");
+    app.add_option("--present", words.presentMode, "fifo (default: vsync), mailbox or immediate")->default_str("fifo");
+    app.add_option("--frames", words.frames, "end after so many frames of the loaded scene (0: when it is closed)");
+    app.add_option("--screenshot", words.screenshot, "FILE.png: save the last frame, with the panels");
+    app.add_option("--document", words.document, "FILE.json: what a viewer saved, in the place of the other options");
+    app.add_option("--panels", words.panels, "on (default) or off; Tab changes it while it runs")->default_str("on");
+    app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
+    app.add_flag("--validation", options.validation, "check every command, and enable the validation layers");
+}
+
+Result<void> convertChoices(Words const& words, ViewerOptions& options) {
+    if (words.backend == "gles")
+        options.backend = Backend::Gles;
+    else if (words.backend != "vulkan")
+        return invalidOption("--backend", words.backend, "vulkan or gles");
+    if (words.presentMode == "mailbox")
+        options.presentMode = PresentMode::Mailbox;
+    else if (words.presentMode == "immediate")
+        options.presentMode = PresentMode::Immediate;
+    else if (words.presentMode != "fifo")
+        return invalidOption("--present", words.presentMode, "fifo, mailbox or immediate");
+    return tools::convertSwitch("--panels", words.panels, options.panels);
+}
+
+Result<void> convertCounts(Words const& words, ViewerOptions& options) {
+    const auto frames = tools::wholeNumber(words.frames, 0, 1'000'000);
+    if (!frames) return invalidOption("--frames", words.frames, "a whole number from 0 to 1000000");
+    options.frames = *frames;
+    if (words.workers.empty()) return {};
+    const auto workers = tools::wholeNumber(words.workers, 0, 256);
+    if (!workers) return invalidOption("--workers", words.workers, "a whole number from 0 to 256");
+    options.workers = static_cast<int>(*workers);
+    return {};
+}
+
+Result<void> convertFiles(Words const& words, ViewerOptions& options) {
+    options.screenshot = words.screenshot;
+    options.document = words.document;
+    if (!words.screenshot.empty() && options.screenshot.extension() != ".png")
+        return invalidOption("--screenshot", words.screenshot, "a file that ends with .png");
+    if (!words.screenshot.empty() && options.frames == 0)
+        return invalidOption("--screenshot", words.screenshot, "it together with --frames, which says when");
+    return {};
+}
+
+} // namespace
+
+Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* const* argv) {
+    ViewerOptions options;
+    tools::SceneWords sceneWords;
+    Words words;
+    CLI::App app{ "Shows a glTF model or a material in a window, on Vulkan or OpenGL ES. F1 lists the keys.",
+                  "filament-view" };
+    tools::declareSceneOptions(app, sceneWords, options);
+    declare(app, words, options);
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return parsed.error();
+    if (!*parsed) return std::optional<ViewerOptions>{};
+    if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
+    for (auto convert : { convertChoices, convertCounts, convertFiles }) {
+        if (const Result<void> done = convert(words, options); !done) return done.error();
+    }
+    return std::optional(std::move(options));
+}
+
+} // namespace filament::view

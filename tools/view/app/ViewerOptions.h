@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ViewerOptions: the checked command line of filament-view.
+///   Fails   parseViewerOptions: InvalidArgument in one line that names the option, the value and what is valid.
+#pragma once
+
+#include "base/Result.h"
+#include "tools/common/SceneOptions.h"
+
+#include <filament/Backend.h>
+#include <filament/NativeWindow.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace filament::view {
+
+struct ViewerOptions : tools::SceneOptions {
+    Backend backend = Backend::Vulkan;
+    PresentMode presentMode = PresentMode::Fifo;
+    uint32_t frames = 0;              ///< ends after so many of the complete scene; 0: when the window is closed
+    std::filesystem::path screenshot; ///< of the last frame, with the panels; .png; empty: none
+    std::filesystem::path document;   ///< .json that a viewer wrote, in the place of the model and the other options
+    bool panels = true;
+    bool validation = false;
+    int workers = -1; ///< as EngineOptions::workers
+};
+
+/// No value: the help text was requested and has been printed.
+Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* const* argv);
+
+} // namespace filament::view

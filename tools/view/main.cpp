@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-view [MODEL] [options]: shows a model or a material in a window.
+// Exit status 0: the window was closed, or the frames of --frames were drawn, without an error.
+#include "tools/common/Program.h"
+#include "tools/common/SceneFiles.h"
+#include "tools/view/app/RunViewer.h"
+
+int main(int argc, char** argv) {
+    using namespace filament;
+    return tools::runProgram("filament-view", argc, argv, view::parseViewerOptions, view::runViewer,
+                             "try a smaller model or size");
+}
