@@ -83,11 +83,13 @@ void VirtualDisplay::resize(unsigned long window, uint2 size) {
 }
 
 void VirtualDisplay::hide(unsigned long window) {
+    XSelectInput(mDisplay, window, StructureNotifyMask); // of a window that another connection opened, too
     XUnmapWindow(mDisplay, window);
     waitUntilShown(mDisplay, window);
 }
 
 void VirtualDisplay::show(unsigned long window) {
+    XSelectInput(mDisplay, window, StructureNotifyMask);
     XMapWindow(mDisplay, window);
     waitUntilShown(mDisplay, window);
 }
