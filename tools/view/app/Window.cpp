@@ -101,6 +101,10 @@ void Window::listen() {
         Window& owner = ownerOf(window);
         owner.push(ResizeEvent{ owner.pixels(), owner.scale() });
     });
+    glfwSetWindowRefreshCallback(mWindow, [](GLFWwindow* window) { // what was hidden has lost its image
+        Window& owner = ownerOf(window);
+        owner.push(ResizeEvent{ owner.pixels(), owner.scale() });
+    });
     glfwSetWindowIconifyCallback(mWindow, [](GLFWwindow* window, int) {
         Window& owner = ownerOf(window);
         owner.push(ResizeEvent{ owner.pixels(), owner.scale() });

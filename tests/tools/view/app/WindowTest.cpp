@@ -10,7 +10,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <random>
 
 namespace filament::view {
 namespace {
@@ -98,60 +97,6 @@ TEST_P(WindowTest, HandsOfXdotoolReachTheViewer) {
     expectShown("with the list of keys");
     expectNoMessages("hands");
     EXPECT_GT(mViewer->latency().frames, 0u);
-}
-
-TEST_P(WindowTest, StepsLeaveNoMessageAndNoMemory) {
-    if (!isReady()) return;
-    std::mt19937 random(17);
-    std::uniform_int_distribution<uint32_t> side(150, 800), place(50, 350);
-    uint64_t bytesBefore = 0;
-    for (uint32_t i = 0; i < 18; ++i) {
-        const std::string when = fmt::format("step {}", i);
-        switch (i % 6) {
-        case 0:
-        case 3: {
-            const uint2 size(side(random), side(random));
-            mWindow->setSize(size);
-            settle();
-            EXPECT_EQ(mWindow->pixels(), size) << when;
-            break;
-        }
-        case 1:
-            hands(fmt::format("mousemove {} {} mousedown 1 mousemove {} {} mouseup 1", place(random), place(random),
-                              place(random), place(random)));
-            break;
-        case 2: // hidden and shown
-            mServer->hide(static_cast<unsigned long>(mWindow->native().handle));
-            settle();
-            mServer->show(static_cast<unsigned long>(mWindow->native().handle));
-            mViewer->handle(MouseMoveEvent{ { 1, 1 } });
-            settle();
-            break;
-        case 4:
-            mViewer->document().view.quality.shadows =
-                    i % 12 < 6 ? ShadowFilter::Off : showcaseDocument(kWindowSize).view.quality.shadows;
-            mViewer->document().environment.settings.rotationRadians += 0.5f;
-            if (i % 18 == 4) mViewer->perform(Action::Reload);
-            settle();
-            break;
-        case 5:
-            mViewer->perform(i % 12 == 5 ? Action::NextDebugView : Action::TogglePanels);
-            settle();
-            break;
-        }
-        expectShown(when);
-        expectNoMessages(when);
-    }
-    mViewer->document() = showcaseDocument(kWindowSize);
-    mWindow->setSize(kWindowSize);
-    for (int round = 0; round < 3; ++round) {
-        settle();
-        const uint64_t bytes = mViewer->stage().engine().statistics().deviceBytes;
-        if (round > 0) EXPECT_EQ(bytes, bytesBefore) << "round " << round;
-        bytesBefore = bytes;
-        mViewer->perform(Action::Reload);
-    }
-    settle();
 }
 
 TEST_P(WindowTest, BackendsChangeInOneWindow) {
