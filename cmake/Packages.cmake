@@ -61,8 +61,8 @@ filament_package(tools filament-core-tools graphics SHLIBDEPS RECOMMENDS "${driv
 .
 Compiles materials (matc, matinfo), bakes environments (cmgen), draws models
 (filament-render), shows them in a window (filament-view), draws saved frames
-again (filament-replay), traces the true
-picture of models (filament-reference), and compares pictures (imgdiff).")
+again (filament-replay), traces the true picture of models
+(filament-reference), and compares pictures (imgdiff).")
 filament_package(docs libfilament-core-doc doc
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - documents"
     TEXT "${about}

@@ -25,7 +25,8 @@ namespace filament::backend::gles {
 #define FILAMENT_EGL_FUNCTIONS(X)                                                                              \
     X(BindAPI) X(ChooseConfig) X(CreateContext) X(CreateWindowSurface) X(DestroyContext) X(DestroySurface)       \
     X(GetConfigAttrib) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError)                \
-    X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(QuerySurface) X(ReleaseThread) X(SwapBuffers) X(SwapInterval)
+    X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(QuerySurface) X(ReleaseThread)  \
+    X(SwapBuffers) X(SwapInterval)
 // clang-format on
 
 /// One place to look for devices.

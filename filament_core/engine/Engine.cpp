@@ -293,7 +293,9 @@ EngineStatistics Engine::statistics() const {
              driver.deviceBytes,
              mImpl->stream->backPressureNanoseconds(),
              driver.presents,
-             driver.presents == 0 ? 0 : mImpl->secondsSinceStart(driver.lastPresent.time_since_epoch().count()),
+             driver.lastPresent == decltype(driver.lastPresent){}
+                     ? 0
+                     : mImpl->secondsSinceStart(driver.lastPresent.time_since_epoch().count()),
              latencyOf(mImpl->stream->latency()) };
 }
 

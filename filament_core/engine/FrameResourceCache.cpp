@@ -54,7 +54,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     const bool isDebugView = packet.demand.needs(prepare::Effect::DebugView);
-    if (isDebugView && !prepare::isOfPictureEffect(view.debugView))
+    if (isDebugView && !prepare::isOfEffectPass(view.debugView))
         resources.debugView = debugView(view.debugView, isToneMapped);
     else if (isToneMapped && (!isDebugView || view.debugView == DebugView::Numerics))
         resources.toneTable = toneTable(view, packet);

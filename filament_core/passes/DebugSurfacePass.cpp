@@ -19,7 +19,7 @@ struct ChosenSurfaces {
 ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSlot debug, PassBlock target) {
     PassSlot slot = slotOf(context.settings, pass.passLayout(), pass.subpass());
     slot.debug = debug;
-    if (debug == DebugSlot::Edges) slot.edges = context.resources.edges;
+    slot.edges = context.resources.edges;
     prepare::ViewPacket const& view = context.packet.mainView();
     return { chooseDraws(pass, context, slot, target, view.opaque),
              chooseDraws(pass, context, slot, target, view.blended) };
@@ -76,7 +76,10 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
 }
 
 void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    if (!context.resources.edges) return;
+    if (!context.resources.edges) { // the depths alone, for who reads them
+        if (!targets.solidDepth && context.settings.keepsDepth) addDebugSurfacePass(graph, context, targets);
+        return;
+    }
     targets.triangles = createLike(graph, targets.color, Format::RGBA16F, 1, "triangles");
     const TextureId depth = createLike(graph, targets.color, Format::D32F, 1, "depth of triangles");
     if (!targets.solidDepth) targets.solidDepth = depth;

@@ -145,7 +145,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addExposurePasses(graph, context, targets);
     if (context.packet.band == 0) addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);
-    if (showsDecisions(context) && prepare::isOfPictureEffect(context.view->debugView))
+    if (showsDecisions(context) && prepare::isOfEffectPass(context.view->debugView))
         addDebugEffectPass(graph, context, targets, output.isSceneLinear());
     else if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);

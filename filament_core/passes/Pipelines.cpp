@@ -284,7 +284,7 @@ VertexLayout withInstanceIndex(VertexLayout layout) {
 } // namespace
 
 std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant) {
-    if ((variant & shader::kVariantDebug) != 0) {
+    if ((variant & shader::kVariantDebug) != 0 && !package.findVariant(shader::kVariantDebug)) {
         const bool isFiltered = (package.filteredVariants & shader::kVariantDebug) != 0;
         return fmt::format("material '{}' has no variant 'debugViews': this debug view does not show it; compile it "
                            "again {}",

@@ -161,7 +161,7 @@ inline bool gathersFrames(Quality const& quality, DebugView debugView) {
 }
 
 /// Whether passes::DebugEffectPass draws a debug view; the others are the business of passes::DebugViewPass.
-inline bool isOfPictureEffect(DebugView debugView) { return debugView > DebugView::Motion; }
+inline bool isOfEffectPass(DebugView debugView) { return debugView > DebugView::Motion; }
 
 /// Whether a debug view shows what the code of materials gives, or how often it runs, so that nothing is lit.
 inline bool showsMaterials(DebugView debugView) {

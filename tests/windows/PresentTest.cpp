@@ -181,6 +181,20 @@ TEST_P(PresentTest, AWindowMayBeShownAgainByAnotherSwapChain) {
     mEngine->waitIdle();
 }
 
+TEST_P(PresentTest, AWindowThatIsClosedTooEarlyIsAtMostALineEach) {
+    if (!isReady()) return;
+    const uint2 size(80, 60);
+    const unsigned long window = mServer->openWindow(size);
+    const Owned<SwapChain> chain = chainOf(window, size);
+    WindowPicture picture(*mEngine);
+    picture.draw(chain, size, 1);
+    mEngine->waitIdle();
+    mServer->closeWindow(window);
+    for (uint32_t frame = 0; frame < 8; ++frame) picture.draw(chain, size, frame);
+    EXPECT_EQ(picture.pixels(chain).size(), size_t{ 3 } * size.x * size.y) << "drawing goes on";
+    EXPECT_LE(mEngine->takeErrors().size(), 1u);
+}
+
 TEST_P(PresentTest, PixelsOfAResizedSwapChainStillArrive) {
     if (!isReady()) return;
     const uint2 size(64, 48);

@@ -99,7 +99,7 @@ bool openWindow(wl_display* display, Window& window) {
 
 bool VirtualCompositor::startServer(uint2 size) {
     std::string pattern = (std::filesystem::temp_directory_path() / "filament-wayland-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) return false;
+    if (!mkdtemp(pattern.data())) return false; // puts other letters into the place of each X
     mFolder = pattern;
     std::ofstream(mFolder / "weston.ini") << "[shell]\nstartup-animation=none\nlocking=false\npanel-position=none\n";
     mServer = fork();

@@ -169,7 +169,6 @@ Result<void> checkAll(Work& work) {
     for (Track const& track : work.tracks) {
         ReplayRequest request = track.request;
         request.backend = Backend::Null;
-        request.requireDevice.clear();
         const Result<record::Replayed> replayed = record::replayTrace(track.trace, request);
         if (!replayed) return replayed.error();
         work.say("null    {}.trace: {} streams, {} frames, {}; nothing is drawn without a device", track.name(),

@@ -21,7 +21,7 @@ enum class NumericsMark : uint8_t {
     None,       ///< the pixel is grey
     Denormal,   ///< a channel is below 2^-14 and not 0: half floats have less than 11 bits for it
     Clipped,    ///< the display shows a channel as full (255)
-    OutOfRange, ///< a channel is above 65504, the largest half float
+    OutOfRange, ///< a channel is above 65504 or below -65504, the largest half floats
     Infinite,
     NotANumber,
 };

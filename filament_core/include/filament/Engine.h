@@ -109,7 +109,7 @@ struct EngineStatistics {
     uint64_t deviceBytes = 0;
     uint64_t backPressureNanoseconds = 0; ///< time that the app waited for the driver thread
     uint64_t presents = 0;                ///< images that windows have taken
-    double lastPresentSeconds = 0;        ///< when they took the last one, since the engine started
+    double lastPresentSeconds = 0;        ///< when they took the last one, since the engine started; 0: none
     FrameLatency latency{};
 };
 

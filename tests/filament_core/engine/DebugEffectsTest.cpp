@@ -65,18 +65,6 @@ private:
     std::vector<Owned<MaterialInstance>> mInstances;
 };
 
-/// Calls `draw` with a stage of each API, and returns its pictures, which have the same bits.
-std::vector<Image> picturesOf(std::function<std::vector<Image>(SquaresStage&)> const& draw) {
-    std::vector<std::vector<Image>> all;
-    for (const Backend backend : test::kBothApis) {
-        SquaresStage stage(backend);
-        all.push_back(draw(stage));
-    }
-    EXPECT_EQ(all[0].size(), all[1].size());
-    for (size_t i = 0; i < all[0].size(); ++i) EXPECT_EQ(all[0][i].pixels, all[1][i].pixels) << i;
-    return std::move(all[0]);
-}
-
 // ---- circle of confusion
 
 /// In pixels, < 0 before the focus, by Potmesil and Chakravarty's formula for a sensor 24 mm high.
@@ -92,7 +80,7 @@ TEST(DebugCircleOfConfusion, ShowsTheThinLensBeforeAndBehindItsFocus) {
     const std::array distances{ 0.7, 1.0, 1.6, 2.0, 2.3, 4.0, 40.0 };
     for (const float scale : { 4.0f, 12.0f }) {
         View seen;
-        const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+        const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
             stage.view.size = { 140, 100 };
             stage.view.camera.exposure.aperture = 1.4f;
             stage.view.effects.depthOfField = {
@@ -121,7 +109,7 @@ TEST(DebugCircleOfConfusion, ShowsTheThinLensBeforeAndBehindItsFocus) {
 
 TEST(DebugCircleOfConfusion, IsBlackWithoutDepthOfField) {
     for (const bool isOn : { false, true }) {
-        const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+        const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
             stage.view.size = { 32, 32 };
             stage.view.effects.depthOfField.enabled = isOn; // all of it is in focus
             stage.view.debugView = DebugView::CircleOfConfusion;
@@ -137,7 +125,7 @@ TEST(DebugCircleOfConfusion, IsBlackWithoutDepthOfField) {
 // ---- weight of the history
 
 TEST(DebugHistoryWeight, OfAStillPictureIsAllButOneOfItsFrames) {
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 32, 24 });
         stage.add(1, { 0.1, 0.2, -2 }, 1);
         std::vector<Image> frames;
@@ -169,7 +157,7 @@ TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
         [](Engine& engine, MaterialInstance material) { engine.setDepthCulling(material, true); },
         [](Engine& engine, MaterialInstance material) { engine.setStencil(material, std::nullopt); },
     };
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 32, 24 });
         stage.add(1, { 0, 0, -2 }, 40);
         std::vector<Image> frames;
@@ -186,7 +174,7 @@ TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
 
 /// The camera moves to the right by a quarter of the picture's width: what comes into it there is new.
 TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 64, 32 });
         stage.add(1, { 0, 0, -2 }, 40);
         for (int i = 0; i < 8; ++i) stage.draw();
@@ -202,7 +190,7 @@ TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
 
 /// What an object leaves behind was not gathered there: its colour is limited to what is around.
 TEST(DebugHistoryWeight, IsOrangeWhereColoursAreLimited) {
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 64, 32 });
         stage.add(0.1f, { 0, 0, -4 }, 40);
         const Renderable square = stage.add(4, { -1, 0, -2 }, 0.5);
@@ -217,7 +205,7 @@ TEST(DebugHistoryWeight, IsOrangeWhereColoursAreLimited) {
 }
 
 TEST(DebugHistoryWeight, IsBlackWithoutGathering) {
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.view.size = { 32, 24 };
         stage.view.debugView = DebugView::HistoryWeight;
         stage.add(1, { 0, 0, -2 }, 1);
@@ -249,7 +237,7 @@ int heightOf(Image const& image, int bin, int3 color) {
 TEST(DebugHistogram, HasBarsAsHighAsTheirCounts) {
     for (const auto& [dark, bright] : { std::pair(0.125f, 2.0f), std::pair(0.01f, 0.9f), std::pair(0.3f, 30.0f) }) {
         for (const auto& [low, high] : { std::pair(0.4f, 0.95f), std::pair(0.0f, 1.0f), std::pair(0.1f, 0.2f) }) {
-            const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+            const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
                 stage.view.size = kHistogramSize;
                 stage.view.effects.autoExposure = {
                     .enabled = true, .lowPercentile = low, .highPercentile = high, .minStops = -16, .maxStops = 16
@@ -292,7 +280,7 @@ TEST(DebugHistogram, HasBarsAsHighAsTheirCounts) {
 }
 
 TEST(DebugHistogram, IsThePictureAloneWithoutAutoExposure) {
-    const std::vector<Image> images = picturesOf([&](SquaresStage& stage) {
+    const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.view.size = kHistogramSize;
         stage.view.debugView = DebugView::Histogram;
         stage.add(1, { 0, 0, -2 }, 9);
@@ -310,7 +298,7 @@ TEST(DebugEffects, AreDrawnInAllSizesAndTargets) {
     for (const DebugView debugView : { DebugView::CircleOfConfusion, DebugView::HistoryWeight, DebugView::Histogram }) {
         for (const uint2 size : { uint2(1, 1), uint2(3, 70), uint2(131, 17) }) {
             for (const bool isEmpty : { false, true }) {
-                picturesOf([&](SquaresStage& stage) {
+                test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
                     stage.view.size = size;
                     stage.view.samples = 4;
                     stage.view.debugView = debugView;

@@ -60,19 +60,6 @@ private:
     std::vector<Owned<MaterialInstance>> mInstances;
 };
 
-/// Calls `draw` with a stage of each API, and returns its pictures, which have the same bits.
-std::vector<Image> surfacesOf(std::function<std::vector<Image>(SurfaceStage&)> const& draw) {
-    std::vector<std::vector<Image>> all;
-    for (const Backend backend : test::kBothApis) {
-        SurfaceStage stage(backend);
-        all.push_back(draw(stage));
-    }
-    EXPECT_EQ(all[0].size(), all[1].size());
-    for (size_t i = 0; i < std::min(all[0].size(), all[1].size()); ++i)
-        EXPECT_EQ(all[0][i].pixels, all[1][i].pixels) << i;
-    return std::move(all[0]);
-}
-
 DebugColor debugColorAt(Image const& image, uint32_t x, uint32_t y) {
     const float4 pixel = test::bytePixel(image, x, y) * 255.0f;
     return { static_cast<uint8_t>(std::lround(pixel.x)), static_cast<uint8_t>(std::lround(pixel.y)),
@@ -116,7 +103,7 @@ TEST(DebugMaterials, ShowTheValuesThatTheCodeGives) {
                                              "material.ambientOcclusion = 0.75; "
                                              "material.emissive = vec4(0.4, 0.003, 3.0, 0.0);",
                                              model.roughness, model.hasMetallic ? "material.metallic = 0.6;" : "");
-        const auto images = surfacesOf([&](SurfaceStage& stage) {
+        const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
             stage.add(stage.material(test::text(fmt::format("shadingModel : {}", model.name), code)));
             std::vector<Image> all;
             for (const DebugView view : { DebugView::BaseColor, DebugView::Roughness, DebugView::MaterialOcclusion,
@@ -140,7 +127,7 @@ TEST(DebugMaterials, ShowTheValuesThatTheCodeGives) {
 
 TEST(DebugMaterials, ShowEmissionByItsExposure) {
     constexpr Exposure kDaylight{ .aperture = 16, .shutterSeconds = 1.0f / 125, .iso = 100 };
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.add(stage.material(test::text("shadingModel : unlit", "material.emissive = vec4(vec3(3000.0), 1.0);")));
         stage.view.camera.exposure = kDaylight;
         return std::vector{ stage.draw(DebugView::Emissive) };
@@ -150,7 +137,7 @@ TEST(DebugMaterials, ShowEmissionByItsExposure) {
 }
 
 TEST(DebugMaterials, HaveStripesWhereTheyHaveNoSuchValue) {
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.add(stage.material(test::text("shadingModel : unlit", "material.baseColor = vec4(1.0);")));
         std::vector<Image> all;
         for (const DebugView view : kMaterialViews) all.push_back(stage.draw(view));
@@ -171,7 +158,7 @@ TEST(DebugMaterials, ShowNormalsAndTangentsInTheWorld) {
     const std::string text = "material { name : stage, shadingModel : lit }\nfragment { void material(inout "
                              "MaterialInputs material) {\n" +
                              code + " prepareMaterial(material); } }";
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.add(stage.material(text), turned);
         return std::vector{ stage.draw(DebugView::Normals), stage.draw(DebugView::Tangents) };
     });
@@ -186,7 +173,7 @@ std::string withCoordinates(std::string_view code = "material.baseColor.rg = get
 }
 
 TEST(DebugMaterials, ShowTextureCoordinates) {
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.view.size = { 48, 24 };
         stage.add(stage.material(withCoordinates())); // uv (0, 0) at the upper left, and flipUv turns v over
         return std::vector{ stage.draw(DebugView::TextureCoordinates) };
@@ -201,7 +188,7 @@ TEST(DebugMaterials, ShowAtWhichLevelALargeTextureIsRead) {
     std::vector<std::pair<uint32_t, double>> shots; // pixels, half of the square's side
     for (const uint32_t pixels : { 8u, 16u, 32u, 64u, 128u, 100u })
         for (const double side : { 1.0, 0.5, 16.0, 64.0 }) shots.emplace_back(pixels, side);
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance instance = stage.material(withCoordinates());
         std::vector<Image> all;
         for (auto const& [pixels, side] : shots) {
@@ -223,7 +210,7 @@ TEST(DebugMaterials, ShowAtWhichLevelALargeTextureIsRead) {
 }
 
 TEST(DebugMaterials, ShowWhatIsBehindHolesAndTheNearestOfWhatBlends) {
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const char* const wall = "material.baseColor = vec4(0.0, 0.0, 1.0, 1.0);";
         const char* const mask = "material.baseColor = vec4(1.0, 0.0, 0.0, gl_FragCoord.x < 8.0 ? 0.0 : 1.0);";
         const char* const pane = "material.baseColor = vec4(0.0, 0.2, 0.0, 0.2);";
@@ -309,7 +296,7 @@ constexpr const char* kGlass = "material.baseColor = vec4(0.1, 0.1, 0.1, 0.1);";
 
 TEST(DebugOverdraw, CountsWhatLiesBehindEachOther) {
     const std::array counts{ 1u, 2u, 3u, 5u, 8u, 9u, 20u, 70u, 256u };
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance pane =
                 stage.material(test::text("shadingModel : unlit, blending : transparent", kGlass));
         std::vector<Image> all;
@@ -328,7 +315,7 @@ TEST(DebugOverdraw, CountsWhatLiesBehindEachOther) {
 
 TEST(DebugOverdraw, ShowsWhatTheOrderAndADepthPrepassSave) {
     constexpr uint32_t kWalls = 5;
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         std::vector<Image> all;
         for (uint32_t i = 0; i < kWalls; ++i) { // in one slice of the order (SortKey.h), so that materials decide it
             const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
@@ -356,7 +343,7 @@ int triangleAt(double2 at) {
 TEST(DebugWireframe, HasLinesBetweenTrianglesAndAroundThem) {
     const uint2 size(61, 47);
     const double side = 0.71;
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.view.size = size;
         stage.add(stage.material(test::text("shadingModel : lit, culling : none", "")),
                   glm::scale(glm::translate(double4x4(1), double3(0.03, 0.01, -1)), double3(side, 0.8 * side, 1)));
@@ -385,7 +372,7 @@ TEST(DebugWireframe, HasLinesBetweenTrianglesAndAroundThem) {
 }
 
 TEST(DebugWireframe, HidesWhatIsBehindAlsoWhatBlends) {
-    const auto images = surfacesOf([&](SurfaceStage& stage) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
         const MaterialInstance pane =
                 stage.material(test::text("shadingModel : unlit, blending : transparent", kGlass));
@@ -402,7 +389,7 @@ TEST(DebugWireframe, HidesWhatIsBehindAlsoWhatBlends) {
 // ---- beside other frames
 
 TEST(DebugSurfaces, CostTheNextFrameNothing) {
-    surfacesOf([&](SurfaceStage& stage) {
+    test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : lit", ""), 0);
         stage.add(wall, { 0, 0, -3 }, 4);
         stage.add(wall, { 0, 0.2, -2 }, 0.5);
@@ -422,7 +409,7 @@ TEST(DebugSurfaces, CostTheNextFrameNothing) {
 }
 
 TEST(DebugSurfaces, DrawNothingBesideThem) {
-    surfacesOf([&](SurfaceStage& stage) {
+    test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         stage.add(stage.material(test::text("shadingModel : lit", ""), 0), { 0, 0, -3 }, 4);
         stage.scene.add(SunLight{ .directionWorld = { 0.2f, -0.6f, -1 }, .illuminance = Lux{ 100'000 } });
         stage.view.quality.shadows = ShadowFilter::Pcf3;
@@ -464,7 +451,7 @@ TEST(DebugSurfaces, SayOfMaterialsThatCannotShowThem) {
 
 /// Pictures of one pixel and of odd sizes, also as light, with four samples, and without anything in view.
 TEST(DebugSurfaces, AreDrawnInAllSizesAndTargets) {
-    surfacesOf([&](SurfaceStage& stage) {
+    test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : lit, requires : [ uv0 ]", ""));
         stage.view.samples = 4;
         stage.view.quality.antiAliasing = AntiAliasing::Taa;

@@ -14,9 +14,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace filament::test {
 
@@ -30,6 +32,20 @@ inline std::optional<Engine> makeEngine(Backend backend, int workers = 1) {
         return std::nullopt;
     }
     return std::optional<Engine>(std::move(*engine));
+}
+
+/// Calls `draw` with a stage of each API, and returns its pictures, which have the same bits.
+template <class Stage>
+std::vector<Image> sameOnBothApis(std::function<std::vector<Image>(Stage&)> const& draw) {
+    std::vector<std::vector<Image>> all;
+    for (const Backend backend : kBothApis) {
+        Stage stage(backend);
+        all.push_back(draw(stage));
+    }
+    EXPECT_EQ(all[0].size(), all[1].size());
+    for (size_t i = 0; i < std::min(all[0].size(), all[1].size()); ++i)
+        EXPECT_EQ(all[0][i].pixels, all[1][i].pixels) << i;
+    return std::move(all[0]);
 }
 
 /// Errors that the device or a validation layer reported; a test expects none.

@@ -14,7 +14,6 @@ namespace filament::replay {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 
 Result<std::optional<Options>> parsed(std::vector<const char*> words) {

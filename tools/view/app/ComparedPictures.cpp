@@ -136,14 +136,22 @@ void ComparedPictures::draw(UiRenderer& ui, Engine& engine, uint2 size) {
     drawNumber(size);
 }
 
-void ComparedPictures::drawWipe(uint2 size) {
-    const float width = static_cast<float>(size.x), x = std::round(wipePosition * width);
+bool ComparedPictures::handle(InputEvent const& event, uint2 size) {
+    if (mode != CompareMode::Wipe) return mIsDragging = false;
+    const float width = static_cast<float>(size.x);
+    if (auto const* button = std::get_if<MouseButtonEvent>(&event); button && button->button == MouseButton::Left) {
+        const bool isNear = std::abs(mPointer - wipePosition * width) < kGrabPixels;
+        return std::exchange(mIsDragging, button->isDown && isNear) || mIsDragging;
+    }
+    auto const* move = std::get_if<MouseMoveEvent>(&event);
+    if (move) mPointer = move->pixel.x;
+    if (move && mIsDragging) wipePosition = std::clamp(mPointer / width, 0.0f, 1.0f);
+    return move && mIsDragging;
+}
+
+void ComparedPictures::drawWipe(uint2 size) const {
+    const float x = std::round(wipePosition * static_cast<float>(size.x));
     ImGui::GetBackgroundDrawList()->AddRectFilled({ x - 1, 0 }, { x + 1, static_cast<float>(size.y) }, kLineColor);
-    ImGuiIO const& io = ImGui::GetIO();
-    const bool isNear = !io.WantCaptureMouse && std::abs(io.MousePos.x - x) < kGrabPixels;
-    if (isNear && io.MouseClicked[0]) mIsDragging = true;
-    if (!io.MouseDown[0]) mIsDragging = false;
-    if (mIsDragging) wipePosition = std::clamp(io.MousePos.x / width, 0.0f, 1.0f);
 }
 
 void ComparedPictures::drawNumber(uint2 size) const {

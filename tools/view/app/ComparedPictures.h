@@ -7,6 +7,7 @@
 ///   Thread   the main thread.
 #pragma once
 
+#include "tools/view/app/InputEvent.h"
 #include "tools/view/app/PictureSource.h"
 #include "tools/view/compare/Comparison.h"
 #include "tools/view/stage/Stage.h"
@@ -33,14 +34,15 @@ public:
 
     /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine. Whether there is news.
     bool follow(Document const& document, Stage& stage, SwapChain chain, EngineOptions const& options);
-    /// The map, the line of the wipe and the number. A mouse drags the line.
+    /// Whether the event moves the line of the wipe, which the pointer may drag.
+    bool handle(InputEvent const& event, uint2 size);
+    /// The map, the line of the wipe and the number.
     void draw(UiRenderer& ui, Engine& engine, uint2 size);
     /// Before the engine of the viewer ends.
     void close(UiRenderer* ui);
 
     /// Of the newest pair of pictures that show the same document.
     std::optional<PictureComparison> const& result() const { return mResult; }
-    bool holdsPointer() const { return mIsDragging; } ///< the line of the wipe is being dragged
     /// Another picture, or a better one, is on its way.
     bool isWaiting() const { return mode != CompareMode::Off && (!mResult || mResultNumber != mNumber || !mIsFinal); }
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
@@ -52,7 +54,7 @@ private:
     void makeOverlay(Image const& own, Image const& other);
     void upload(UiRenderer& ui, Engine& engine);
     void drawNumber(uint2 size) const;
-    void drawWipe(uint2 size);
+    void drawWipe(uint2 size) const;
 
     std::unique_ptr<PictureSource> mOther;
     CompareWith mOpenedWith = CompareWith::OtherApi;
@@ -70,6 +72,7 @@ private:
     Owned<Texture> mTexture;
     uint2 mTextureSize{ 0 };
     ImTextureID mTextureId{};
+    float mPointer = 0; ///< pixels from the left
     bool mIsDragging = false;
     std::vector<std::string> mMessages;
 };

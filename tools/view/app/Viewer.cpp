@@ -3,6 +3,8 @@
 #include "tools/view/app/Viewer.h"
 
 #include "tools/view/app/UiInput.h"
+#include "tools/view/panels/AnimationModel.h"
+#include "tools/view/panels/CameraModel.h"
 
 #include <fmt/format.h>
 
@@ -86,7 +88,7 @@ EngineOptions Viewer::engineOptions(Backend backend) const {
 }
 
 Result<void> Viewer::openStage(Backend backend) {
-    auto stage = Stage::create({ .engine = engineOptions(backend) });
+    auto stage = Stage::create({ .engine = engineOptions(backend), .renderer = { .passTimers = true } });
     if (!stage) return stage.error();
     Result<UiRenderer> ui = UiRenderer::create((*stage)->engine());
     if (!ui) return ui.error();
@@ -149,7 +151,7 @@ void Viewer::handle(InputEvent const& event) {
     const bool isRelease = (key && !key->isDown) || (button && !button->isDown); // of what was pressed over the scene
     if (isTaken && !isRelease && !mHands.isDragging()) return;
     if (const auto action = key ? actionOf(*key) : std::nullopt) return perform(*action);
-    if (mCompared.holdsPointer() && !isRelease) return;
+    if (mCompared.handle(event, mDocument.view.size) && !mHands.isDragging()) return;
     mHands.handle(event, mDocument.view.size, mDocument.view.camera);
     if (const std::optional<uint2> click = mHands.takeClick(); click && all(lessThan(*click, mDocument.view.size)))
         mPick = mStage->renderer().pick(mStage->scene(), mStage->view(), *click);
@@ -234,10 +236,8 @@ void Viewer::savePicture() {
 }
 
 void Viewer::playOrPause() {
-    Playback& playback = mDocument.playback;
     if (!mStage->model() || mStage->model()->animationCount() == 0) return note("this model has no animations");
-    playback.isPlaying = !playback.isPlaying;
-    if (!playback.animation) playback.animation = 0;
+    togglePlaying(mDocument);
 }
 
 void Viewer::saveFrame() {
@@ -297,8 +297,7 @@ void Viewer::perform(Action action) {
         toggleParallel();
         break;
     case Action::AddBookmark:
-        mDocument.bookmarks.push_back(
-                { fmt::format("view {}", mDocument.bookmarks.size() + 1), mDocument.view.camera });
+        addBookmark(mDocument);
         break;
     case Action::HideSelection:
         hideSelection();
@@ -361,8 +360,7 @@ void Viewer::pollLoads() {
     if (auto lines = mSaver.poll())
         for (std::string& line : *lines) note(std::move(line));
     const bool isLoadingNow = isLoading();
-    if (isLoadingNow || std::exchange(mWasLoading, isLoadingNow)) touch();
-    mWasLoading = isLoadingNow;
+    if (std::exchange(mWasLoading, isLoadingNow) || isLoadingNow) touch();
     if (std::exchange(mGeneration, mStage->generation()) != mStage->generation()) touch();
 }
 
@@ -395,7 +393,6 @@ InputLatency Viewer::latency() const {
 void Viewer::followRequests() {
     PanelRequests& requests = mPanels.requests;
     if (std::exchange(requests.cancelsLoading, false)) mStage->cancel();
-    if (std::exchange(requests.reloads, false)) mStage->reload();
     if (std::exchange(requests.framesSelection, false)) frame(boundsOfSelection());
 }
 

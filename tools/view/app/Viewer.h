@@ -3,7 +3,8 @@
 ///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain, and
 ///            tests act by events.
 ///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads.
-///   Waits    never longer than it takes to record a frame: for a window that lags behind, step() comes back without drawing.
+///   Waits    not for the window: if it lags behind, step() comes back without drawing. Saving a picture waits for its
+///            pixels, and a FLIP map is computed in step().
 ///   Thread   the main thread.
 ///   Fails    create(): as Stage::create(). Everything later becomes a message.
 #pragma once

@@ -123,13 +123,6 @@ std::vector<InputEvent> Window::takeEvents(double waitSeconds) {
     return std::exchange(mEvents, {});
 }
 
-void Window::wake() { glfwPostEmptyEvent(); }
-
-void Window::setTitle(std::string const& title) { glfwSetWindowTitle(mWindow, title.c_str()); }
-void Window::setSize(uint2 pixels) {
-    glfwSetWindowSize(mWindow, static_cast<int>(pixels.x), static_cast<int>(pixels.y));
-}
-
 void Window::setFullScreen(bool isFullScreen) {
     auto& [x, y, width, height] = mBefore;
     if (!isFullScreen) return glfwSetWindowMonitor(mWindow, nullptr, x, y, std::max(width, 1), std::max(height, 1), 0);
@@ -140,11 +133,5 @@ void Window::setFullScreen(bool isFullScreen) {
     glfwGetWindowSize(mWindow, &width, &height);
     glfwSetWindowMonitor(mWindow, monitor, 0, 0, mode->width, mode->height, GLFW_DONT_CARE);
 }
-
-std::string Window::clipboard() const {
-    const char* text = glfwGetClipboardString(mWindow);
-    return text ? text : "";
-}
-void Window::setClipboard(std::string const& text) { glfwSetClipboardString(mWindow, text.c_str()); }
 
 } // namespace filament::view

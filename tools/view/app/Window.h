@@ -33,14 +33,8 @@ public:
 
     /// What happened since the last call, in order; waits for something to happen, but no longer than this.
     std::vector<InputEvent> takeEvents(double waitSeconds);
-    /// Ends a wait of takeEvents(); any thread.
-    static void wake();
 
-    void setTitle(std::string const& title);
-    void setSize(uint2 pixels);
     void setFullScreen(bool isFullScreen);
-    std::string clipboard() const;
-    void setClipboard(std::string const& text);
 
 private:
     Window() = default;

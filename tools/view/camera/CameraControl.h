@@ -4,7 +4,7 @@
 ///   Picture   places are clip coordinates as in Camera::viewFromPicture(): (-1, -1) is the upper left corner, and
 ///             `aspect` is width / height of the view. pictureFromPixel() converts.
 ///   Distance  along the view, in metres, > 0: of what the hand holds. Ask Renderer::pick(), or take distanceTo().
-///   Up        of the world, +Y. Nothing but orbited() and flown() changes the direction of the view.
+///   Up        of the world, +Y. Only orbited(), flown(), turned(), framedAlong() and withPlaceOf() change the direction of the view.
 ///   Lens      perspective and parallel, shifted or not. Exposure stays.
 ///   Thread    any.   Fails: never, for finite arguments.
 #pragma once

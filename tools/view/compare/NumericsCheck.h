@@ -21,7 +21,7 @@ namespace filament::view {
 
 /// Ascending by harm.
 enum class NumericKind : uint8_t {
-    Good,      ///< finite, normal or zero, in [0, 1]
+    Good,      ///< finite, normal or zero, in [0, `white`]
     Clipped,   ///< above `white`: a display clips it unless a tone mapper bends it
     Denormal,  ///< below 2^-14 and not zero: hardware may flush it
     Negative,  ///< light below zero: a colour outside of the gamut, or an error

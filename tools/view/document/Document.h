@@ -125,7 +125,6 @@ bool operator==(Playback const& a, Playback const& b);
 bool operator==(Bookmark const& a, Bookmark const& b);
 bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b);
 bool isEqual(Camera const& a, Camera const& b);
-bool isEqual(View const& a, View const& b); ///< without what a Document leaves out
 bool isEqual(AnyLight const& a, AnyLight const& b);
 
 /// What filament-render would draw with these options. `model` and `environment` are the files that chooseFiles()
@@ -139,7 +138,7 @@ Result<void> check(Document const& document);
 // ---- JSON: a version, then every field by the name of its member; units are those of the members.
 
 std::string toJson(Document const& document);
-/// A field that is absent has its default. Corrupt: `name`, the place ("view.camera.lens.nearMeters") and what is expected
+/// A field that is absent has its default. Unsupported: another version, or over 64 MiB. Corrupt: `name`, the place ("view.camera.lens.nearMeters") and what is expected
 /// there; unknown fields, too, with the nearest name. What is returned passes check().
 Result<Document> documentFromJson(std::string_view text, std::string_view name);
 Result<void> saveDocument(std::filesystem::path const& file, Document const& document);

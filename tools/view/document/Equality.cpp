@@ -63,7 +63,6 @@ bool operator==(CameraPath const& a, CameraPath const& b) { return Same()(a, b);
 bool operator==(Document const& a, Document const& b) { return Same()(a, b); }
 bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b) { return Same()(a, b); }
 bool isEqual(Camera const& a, Camera const& b) { return Same()(a, b); }
-bool isEqual(View const& a, View const& b) { return Same()(a, b); }
 bool isEqual(AnyLight const& a, AnyLight const& b) { return Same()(a, b); }
 
 } // namespace filament::view

@@ -295,7 +295,7 @@ concept IsUnit = std::is_class_v<T> && requires(T unit) {
     { unit.value } -> std::same_as<float&>;
 };
 
-/// Has names: nameOf() and setByName().
+/// Has names: nameOf(), fromName() and validNames().
 template <class T>
 concept IsNamed = std::is_enum_v<T>;
 

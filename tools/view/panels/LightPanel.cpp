@@ -81,13 +81,13 @@ void drawLightList(PanelFrame& frame) {
             DocumentLight& light = frame.document.lights[i];
             drawLightRow(frame, { false, i }, light.name, light.light.index(), light.isOn);
         }
-        const size_t ofFile = frame.stage.modelCopy() ? frame.stage.modelCopy()->lights().size() : 0;
-        for (uint32_t i = 0; i < ofFile; ++i) {
+        const std::vector<CopyLight> ofFile = frame.stage.modelLights();
+        for (uint32_t i = 0; i < ofFile.size(); ++i) {
             const auto edit = std::ranges::find(frame.document.modelLights, i, &ModelLightEdit::light);
             const bool wasOn = edit == frame.document.modelLights.end() || edit->isOn;
             bool isOn = wasOn;
-            const CopyLight light = frame.stage.modelCopy()->lights()[i];
-            drawLightRow(frame, { true, i }, light.name + ", of the file", frame.stage.lightOfFile(i).index(), isOn);
+            drawLightRow(frame, { true, i }, ofFile[i].name + ", of the file", frame.stage.lightOfFile(i).index(),
+                         isOn);
             if (isOn != wasOn) modelLightEdit(frame.document, i).isOn = isOn;
         }
     }
@@ -147,7 +147,7 @@ void drawLightPanel(PanelFrame& frame) {
     const LightSelection selected = *frame.state.selectedLight;
     if (!selected.isModels && selected.light < frame.document.lights.size())
         drawDocumentLight(frame, selected.light);
-    else if (selected.isModels && frame.stage.modelCopy() && selected.light < frame.stage.modelCopy()->lights().size())
+    else if (selected.isModels && selected.light < frame.stage.modelLights().size())
         drawModelLight(frame, selected.light);
     else
         frame.state.selectedLight.reset();

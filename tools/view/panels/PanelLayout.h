@@ -11,8 +11,7 @@
 namespace filament::view {
 
 inline constexpr float kLeftColumn = 320, kRightColumn = 400, kLeastColumn = 180;
-inline constexpr float kLeftShare =
-        0.55f; ///< of the left column's height: the tree and lists; the rest: what is selected
+inline constexpr float kLeftShare = 0.55f; ///< of the left column's height: the tree; the rest: what is selected
 
 struct PanelRect {
     float2 position{ 0 }, size{ 0 }; ///< pixels; a size of 0: not there

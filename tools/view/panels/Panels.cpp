@@ -86,7 +86,6 @@ void Panels::collect(Stage& stage) {
         mChanges.frame(mHistory.latestMilliseconds());
     }
     mHistory.addStatistics(stage.renderer().statistics(), stage.engine().statistics().deviceBytes);
-    for (std::string& message : stage.takeMessages()) state.addMessage(std::move(message));
 }
 
 } // namespace filament::view

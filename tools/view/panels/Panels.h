@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
 /// looked into. Left: scene, materials, lights, environment, animation. Right: camera, options, demand, graph, timeline,
-/// statistics. Every panel is a thin function over a model of plain functions; the models have tests of their own.
+/// statistics, log. Every panel is a thin function over a model of plain functions; the models have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
 ///            render, and panels.collect(stage).
 ///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured by the
@@ -49,7 +49,7 @@ struct PanelState {
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
     bool showsPanels = true, showsShortcuts = false;
     std::string opensPanel{};            ///< one of panelNames(): comes to the front of its column; then empty again
-    std::vector<std::string> messages{}; ///< the newest last; Stage::takeMessages() and edits that were refused
+    std::vector<std::string> messages{}; ///< the newest last; what the program adds, and edits that were refused
 
     void addMessage(std::string message); ///< keeps the last 50
 };
@@ -60,7 +60,6 @@ std::vector<std::string_view> panelNames();
 /// What the program is asked to do; it sets them back.
 struct PanelRequests {
     bool cancelsLoading = false;
-    bool reloads = false;
     bool framesSelection = false;
 };
 

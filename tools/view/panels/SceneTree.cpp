@@ -97,7 +97,7 @@ std::vector<SceneNode> sceneNodes(Stage& stage) {
             add(result[*index]);
     };
     for (CopyRenderable const& part : copy->renderables()) count(part.node, [](SceneNode& n) { ++n.renderables; });
-    for (CopyLight const& light : copy->lights()) count(light.node, [](SceneNode& n) { ++n.lights; });
+    for (CopyLight const& light : stage.modelLights()) count(light.node, [](SceneNode& n) { ++n.lights; });
     for (CopyCamera const& camera : copy->cameras()) count(camera.node, [](SceneNode& n) { n.hasCamera = true; });
     return result;
 }

@@ -16,10 +16,10 @@ constexpr std::array kShortcuts{
     Shortcut{ Action::TogglePanels, Key::Tab, None, "window", "panels on and off" },
     Shortcut{ Action::ToggleFullScreen, Key::F11, None, "window", "full screen" },
     Shortcut{ Action::Quit, Key::Q, Control, "window", "end" },
-    Shortcut{ Action::Open, Key::O, Control, "files", "open a model, an environment or a material" },
+    Shortcut{ Action::Open, Key::O, Control, "files", "how to open a model, an environment or a material" },
     Shortcut{ Action::SaveDocument, Key::S, Control, "files", "save everything that is set" },
     Shortcut{ Action::Reload, Key::F5, None, "files", "load all files again" },
-    Shortcut{ Action::CancelLoading, Key::Escape, None, "files", "stop loading" },
+    Shortcut{ Action::CancelLoading, Key::Escape, None, "files", "stop loading, select nothing" },
     Shortcut{ Action::Undo, Key::Z, Control, "edit", "undo" },
     Shortcut{ Action::Redo, Key::Z, ControlShift, "edit", "redo" },
     Shortcut{ Action::HideSelection, Key::H, None, "edit", "hide or show what is selected" },
@@ -41,11 +41,12 @@ constexpr std::array kShortcuts{
 static_assert(kShortcuts.size() == static_cast<size_t>(Action::Count), "every action has a key");
 
 constexpr std::array kMouseHelp{
-    MouseHelp{ "left button", "turn around the point under the cursor" },
-    MouseHelp{ "right or middle button", "move the point under the cursor" },
+    MouseHelp{ "left button", "turn around what was selected last" },
+    MouseHelp{ "right or middle button, Shift left", "move the point under the cursor" },
+    MouseHelp{ "Ctrl left or Alt right button", "look around" },
     MouseHelp{ "wheel", "nearer to the point under the cursor, or farther" },
     MouseHelp{ "click", "select what is under the cursor" },
-    MouseHelp{ "W A S D, E, Q with the right button", "fly" },
+    MouseHelp{ "W A S D, E, Q", "fly; with Shift ten times as fast" },
 };
 
 std::string keyLabel(Key key) {

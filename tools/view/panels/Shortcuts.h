@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Shortcuts: what keys do, for the program and for the list on F1.
-///   Keys     by their place on a US keyboard, as GLFW's tokens and scancodes count them: on other layouts the same place
-///            does the same. Labels are those of a US keyboard; a program that knows the layout may give others.
+///   Keys     by their place on a US keyboard, as GLFW's tokens count them: on other layouts the same place
+///            does the same. Labels are those of a US keyboard.
 ///   Thread   any; constant.
 #pragma once
 

@@ -4,7 +4,7 @@
 ///   Limits  16 MiB; the counts and lengths below. File names are not in it: they follow from the names of APIs and
 ///           pictures, so that no folder names a file outside of itself.
 ///   Thread  any; plain values.
-///   Fails   Corrupt or Unreadable in one line: the file, the field, what was expected.
+///   Fails   NotFound, Corrupt or Unreadable in one line: the file, the field, what was expected.
 #pragma once
 
 #include "base/Result.h"

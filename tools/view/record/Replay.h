@@ -5,7 +5,7 @@
 ///   Safe    every stream passes the validator first: what could crash a driver is dropped and reported. Shaders are those
 ///           of the trace; they run as any program's do.
 ///   Thread  one; the driver lives on it during the call.
-///   Fails   DeviceUnavailable; Unsupported for the shaders of another API; Corrupt if a frame cannot be looked into.
+///   Fails   DeviceUnavailable; Unsupported for the shaders of another API; NotFound for a frame that is not there; Corrupt if a frame cannot be looked into.
 ///           Errors of the device are in Replayed::errors.
 ///   Cost    a whole run of the trace: start of a driver, uploads, frames.
 #pragma once

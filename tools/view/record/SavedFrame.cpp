@@ -64,7 +64,7 @@ Result<void> checkRequest(SaveRequest const& request) {
     return request.shown.empty() ? Result<void>{} : checkPictures(request.shown);
 }
 
-/// Makes the folder, and removes what an earlier frame left there: without frame.json it is none.
+/// Makes the folder, and removes frame.json and the traces of an earlier frame: without frame.json it is none.
 Result<void> clearFolder(std::filesystem::path const& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);

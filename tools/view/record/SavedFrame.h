@@ -58,7 +58,7 @@ struct Verdict {
 /// Replays a trace on its own API and compares the pictures with those that were shown.
 Result<Verdict> compareReplay(Manifest const& manifest, Trace const& trace, ReplayRequest const& request = {});
 
-/// Where the replay first differs from the attachments that were recorded: "frame 1, pass 'color', attachment 'hdr'";
+/// Where the replay first differs from the attachments that were recorded: "frame 1, pass 3 'color', attachment 'hdr'";
 /// empty if nowhere.
 Result<std::string> firstChangedPass(Manifest const& manifest, Trace const& trace, ReplayRequest const& request = {});
 

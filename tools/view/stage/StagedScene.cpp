@@ -83,7 +83,7 @@ StagedScene::StagedScene(Engine& engine, LoadedModel* model, Profiles const& pro
     setModelLights(document, messages);
     setVisibility(document, messages);
     setPose(document, messages);
-    addLights(document, profiles, messages);
+    addLights(document, profiles);
 }
 
 void StagedScene::placeModel(Document const& document) {
@@ -145,7 +145,7 @@ AnyLight StagedScene::withProfile(DocumentLight const& light, Profiles const& pr
     return withProfileHandle(light.light, profile == profiles.end() ? LightProfile{} : profile->second.get());
 }
 
-void StagedScene::addLights(Document const& document, Profiles const& profiles, Messages&) {
+void StagedScene::addLights(Document const& document, Profiles const& profiles) {
     for (DocumentLight const& light : document.lights) {
         mDocumentLights.push_back(withProfile(light, profiles));
         mLights.push_back(light.isOn ? addTo(mScene, mDocumentLights.back()) : Light{});

@@ -58,7 +58,7 @@ private:
 
     void placeModel(Document const& document);
     void recordFile();
-    void addLights(Document const& document, Profiles const& profiles, Messages& messages);
+    void addLights(Document const& document, Profiles const& profiles);
     void setMaterials(Document const& document, Messages& messages);
     void setModelLights(Document const& document, Messages& messages);
     void setVisibility(Document const& document, Messages& messages);

@@ -164,6 +164,29 @@ TEST_P(ViewerTest, TheOtherApiShowsTheSamePixelsLive) {
     EXPECT_EQ(headless.viewer->compared().result()->percentage(), "100.0000 %");
 }
 
+TEST_P(ViewerTest, TheLineOfAWipeIsDraggedAndTheCameraStays) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.viewer->panels().state.showsPanels = false;
+    headless.viewer->perform(Action::Compare);
+    headless.settle();
+    const double4x4 before = headless.viewer->document().view.camera.worldFromView;
+    const auto drag = [&](float from, float to) {
+        headless.viewer->handle(MouseMoveEvent{ { from, 100 } });
+        headless.viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
+        headless.viewer->handle(MouseMoveEvent{ { to, 120 } });
+        headless.viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
+        headless.settle();
+    };
+    drag(320, 160);
+    EXPECT_EQ(headless.viewer->compared().wipePosition, 0.25f);
+    EXPECT_EQ(headless.viewer->document().view.camera.worldFromView, before);
+    EXPECT_FALSE(headless.viewer->panels().state.selectedNode.has_value());
+    drag(400, 420); // beside the line
+    EXPECT_EQ(headless.viewer->compared().wipePosition, 0.25f);
+    EXPECT_NE(headless.viewer->document().view.camera.worldFromView, before);
+}
+
 TEST_P(ViewerTest, ThePathTracerDrawsBesideTheViewer) {
     Headless headless(GetParam());
     if (!headless.viewer) return;

@@ -171,7 +171,6 @@ TEST(CameraControl, FlightGoesWhereTheKeysSay) {
     EXPECT_LT(glm::length(flown(front, { .right = 1 }, speed, 1).position() - double3(3, 0, 2)), 1e-12);
     EXPECT_LT(glm::length(flown(front, { .up = -1 }, speed, 1).position() - double3(0, -3, 2)), 1e-12);
     EXPECT_LT(apart(flown(front, {}, speed, 9), front), 1e-15);
-    EXPECT_GT(turned(front, 0.1, 0).worldFromView[2].x, -1);
     const double3 forward = -double3(turned(front, 0.1, 0.2).worldFromView[2]);
     EXPECT_GT(forward.x, 0);
     EXPECT_NEAR(forward.y, std::sin(0.2), 1e-12);

@@ -33,7 +33,7 @@ TEST(PanelText, AFilterAsksForAllOfItsWords) {
     EXPECT_FALSE(matchesFilter("", "a"));
 }
 
-TEST(PanelText, WritesFourDigitsAtMost) {
+TEST(PanelText, WritesFewDigits) {
     EXPECT_EQ(millisecondsText(0.01234), "0.012 ms");
     EXPECT_EQ(millisecondsText(1.234), "1.23 ms");
     EXPECT_EQ(millisecondsText(12.34), "12.3 ms");

@@ -82,10 +82,10 @@ inline record::FrameRecipe spheresRecipe(float red = 0.8f, Format format = Forma
     };
 }
 
-inline record::SaveRequest spheresRequest(FrameFolder const& folder, float red = 0.8f) {
+inline record::SaveRequest spheresRequest(FrameFolder const& folder) {
     record::SaveRequest request;
     request.folder = folder.path();
-    request.recipe = spheresRecipe(red);
+    request.recipe = spheresRecipe();
     request.engine.workers = 0;
     request.program = "test";
     request.settings = R"({"scene":"spheres"})";

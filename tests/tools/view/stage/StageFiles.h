@@ -73,7 +73,7 @@ inline std::string skyText(int red) {
     return text;
 }
 
-/// A folder of this process, removed with it: car.gltf, cab.gltf, ball.mat, day.hdr, dusk.hdr.
+/// A folder of this process, removed with it: car.gltf, cab.gltf, ball.mat, day.hdr, dusk.hdr, warm.cube.
 class StageFolder {
 public:
     StageFolder() : mPath(std::filesystem::temp_directory_path() / ("stage-files-" + std::to_string(getpid()))) {

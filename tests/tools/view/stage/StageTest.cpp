@@ -17,7 +17,6 @@
 namespace filament::view {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -476,8 +475,9 @@ double threadMilliseconds() {
 constexpr size_t kNewMaterials = 2;
 
 TEST(StageLoads, LeaveTheAppThreadItsTime) {
+    if (tools::assetDir().empty())
+        GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     const std::filesystem::path model = tools::assetDir() / "models/FlightHelmet/FlightHelmet.gltf";
-    if (!std::filesystem::exists(model)) GTEST_SKIP() << "needs " << model;
     const std::unique_ptr<Stage> stage = makeStage(Backend::Vulkan);
     ASSERT_TRUE(stage);
     Document document = carDocument();
