@@ -68,12 +68,18 @@ struct Target {
     engine::TextureState* depth = nullptr;
     bool generatesMips = false;
     bool isSampled = false; ///< perhaps by materials
+
+    bool isSrgb() const { return backend::formatInfo(color.desc.format).isSrgb; }
 };
 
 FrameOutput outputOf(Target const& target) {
     engine::TextureState const& color = target.color;
-    FrameOutput output{ color.handle, color.desc.width, color.desc.height, attachmentFormat(color.desc.format),
-                        color.hasContents };
+    FrameOutput output{ .texture = color.handle,
+                        .width = color.desc.width,
+                        .height = color.desc.height,
+                        .format = attachmentFormat(color.desc.format),
+                        .hasContents = color.hasContents };
+    if (target.generatesMips && target.isSrgb()) output.srgbLevels = static_cast<uint8_t>(color.desc.levels);
     if (target.depth) output.depth = target.depth->handle, output.hasDepths = target.depth->hasContents;
     return output;
 }
@@ -222,7 +228,7 @@ struct Renderer::Impl final : engine::Dependent {
         context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
-        if (target.generatesMips) commands->record(CmdGenerateMips{ target.color.handle });
+        if (target.generatesMips && !target.isSrgb()) commands->record(CmdGenerateMips{ target.color.handle });
         shadows.keep(context.packet.shadows);
     }
 

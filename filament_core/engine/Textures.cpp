@@ -229,8 +229,6 @@ void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const&
     const bool isShown = attachmentFormat(color.format) == Format::RGBA8 || color.format == Format::RGB10A2;
     FILAMENT_ASSERT(isPicture(color) && (isShown || color.format == Format::RGBA16F),
                     "the colour of a render target is a renderable 2D texture of RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
-    FILAMENT_ASSERT(!desc.generateMips || isWritable(color.format),
-                    "the colour of a render target that generates mips is not RGBA8Srgb: the device would encode them");
     FILAMENT_ASSERT(!desc.generateMips || color.levels > 1,
                     "the colour of a render target that generates mips has several levels");
     if (!desc.depth) return;

@@ -18,6 +18,7 @@
 #include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/PlacePass.h"
 #include "filament_core/passes/ShadowPass.h"
+#include "filament_core/passes/TargetMips.h"
 #include "filament_core/passes/TemporalPass.h"
 
 #include <algorithm>
@@ -153,6 +154,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
         addFinishPasses(graph, context, targets, output.isSceneLinear());
     addDebugDrawPass(graph, context, targets);
     addPlacePass(graph, context, output, targets);
+    addTargetMips(graph, context, output, targets);
     addTargetDepth(graph, context, output, targets);
     keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;

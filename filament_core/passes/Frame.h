@@ -18,6 +18,7 @@ struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
+    uint8_t srgbLevels = 1;         ///< of sRGB codes, whose levels 1.. the frame draws, too
     bool hasContents = false;       ///< somebody drew to it before
     backend::TextureHandle depth{}; ///< RenderTargetDesc::depth, of the same size; none: nobody asks
     bool hasDepths = false;         ///< somebody drew to that

@@ -65,10 +65,13 @@ void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput cons
     View const& view = *context.view;
     const bool fills = fillsTarget(view, output);
     const bool isKept = !fills && !isCleared(*view.viewport, output);
-    targets.target = graph.importTexture(
-            output.texture,
-            { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
-            isKept ? InitialContents::Keep : InitialContents::Undefined);
+    targets.target = graph.importTexture(output.texture,
+                                         { .width = output.width,
+                                           .height = output.height,
+                                           .format = output.format,
+                                           .levels = output.srgbLevels,
+                                           .name = "output" },
+                                         isKept ? InitialContents::Keep : InitialContents::Undefined);
     targets.output = fills ? targets.target
                            : graph.createTexture({ .width = view.size.x,
                                                    .height = view.size.y,

@@ -245,7 +245,7 @@ struct RenderTargetDesc {
     /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where nothing
     /// is. What blends leaves none. None: nobody asks.
     Texture depth{};
-    bool generateMips = false; ///< after every view: levels 1.. of `color`, which has several; not of RGBA8Srgb
+    bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb
     std::string name{};
 };
 
