@@ -23,9 +23,9 @@ EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, b
 } // namespace
 
 Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug) {
-    Result<EGLDisplay> opened = egl.openDisplay(source);
+    Result<HeldDisplay> opened = HeldDisplay::open(egl, source);
     if (!opened) return opened.error();
-    const EGLDisplay display = *opened;
+    const EGLDisplay display = opened->get();
     const char* extensions = egl.QueryString(display, EGL_EXTENSIONS);
     if (!hasExtension(extensions, "EGL_KHR_surfaceless_context") || !egl.BindAPI(EGL_OPENGL_ES_API)) {
         return fail(ErrorCode::Unsupported, "this EGL display has no OpenGL ES without a surface");
@@ -41,7 +41,7 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
         return fail(ErrorCode::Unsupported, "this EGL display offers no OpenGL ES 3.1 context (EGL error {:#x})",
                     egl.GetError());
     }
-    Context made(egl, display, context);
+    Context made(egl, std::move(*opened), context);
     if (!egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         return fail(ErrorCode::DeviceUnavailable, "the OpenGL ES context cannot be made current (EGL error {:#x})",
                     egl.GetError());
@@ -51,21 +51,21 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
 
 Context::~Context() {
     if (mContext == EGL_NO_CONTEXT) return;
-    mEgl->MakeCurrent(mDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    mEgl->DestroyContext(mDisplay, mContext);
+    mEgl->MakeCurrent(display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    mEgl->DestroyContext(display(), mContext);
     mEgl->ReleaseThread();
 }
 
 void Context::makeCurrent() const {
     if (mEgl->GetCurrentContext() == mContext) return;
     mEgl->BindAPI(EGL_OPENGL_ES_API);
-    mEgl->MakeCurrent(mDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
+    mEgl->MakeCurrent(display(), EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
 }
 
 bool Context::makeCurrent(EGLSurface surface) const {
     if (mEgl->GetCurrentContext() == mContext && mEgl->GetCurrentSurface(EGL_DRAW) == surface) return true;
     mEgl->BindAPI(EGL_OPENGL_ES_API);
-    return mEgl->MakeCurrent(mDisplay, surface, surface, mContext) == EGL_TRUE;
+    return mEgl->MakeCurrent(display(), surface, surface, mContext) == EGL_TRUE;
 }
 
 } // namespace filament::backend::gles

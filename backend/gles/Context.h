@@ -5,7 +5,7 @@
 ///   After   the destructor leaves no context current and releases EGL's data for the thread.
 #pragma once
 
-#include "backend/gles/Egl.h"
+#include "backend/gles/HeldDisplay.h"
 
 #include <utility>
 
@@ -17,7 +17,8 @@ public:
     static Result<Context> create(Egl const& egl, DisplaySource source, bool debug);
     ~Context();
     Context(Context&& other) noexcept
-            : mEgl(other.mEgl), mDisplay(other.mDisplay), mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
+            : mEgl(other.mEgl), mDisplay(std::move(other.mDisplay)),
+              mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
     Context& operator=(Context&&) = delete;
 
     /// Free if it is already current on this thread, with or without a surface.
@@ -25,13 +26,13 @@ public:
     /// Makes it current with this surface as the framebuffer 0; EGL_NO_SURFACE: none. False: EGL refuses.
     bool makeCurrent(EGLSurface surface) const;
     Egl const& egl() const { return *mEgl; }
-    EGLDisplay display() const { return mDisplay; }
+    EGLDisplay display() const { return mDisplay.get(); }
 
 private:
-    Context(Egl const& egl, EGLDisplay display, EGLContext context)
-            : mEgl(&egl), mDisplay(display), mContext(context) {}
+    Context(Egl const& egl, HeldDisplay display, EGLContext context)
+            : mEgl(&egl), mDisplay(std::move(display)), mContext(context) {}
     Egl const* mEgl;
-    EGLDisplay mDisplay;
+    HeldDisplay mDisplay;
     EGLContext mContext;
 };
 

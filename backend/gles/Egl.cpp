@@ -70,16 +70,16 @@ Result<DisplaySource> Egl::displaySource(NativeDisplay const& display) const {
                           display.handle };
 }
 
-Result<EGLDisplay> Egl::openDisplay(DisplaySource source) const {
+Result<EGLDisplay> Egl::findDisplay(DisplaySource source) const {
     const EGLDisplay display = mGetPlatformDisplay(source.platform, source.native, nullptr);
-    if (display == EGL_NO_DISPLAY) {
-        return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
-    }
-    if (!Initialize(display, nullptr, nullptr)) { // no effect if it is already initialised
-        return fail(ErrorCode::DeviceUnavailable, "EGL found no driver for its display (EGL error {:#x}); {}",
-                    GetError(), kInstall);
-    }
-    return display;
+    if (display != EGL_NO_DISPLAY) return display;
+    return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
+}
+
+Result<void> Egl::initialize(EGLDisplay display) const {
+    if (Initialize(display, nullptr, nullptr)) return {};
+    return fail(ErrorCode::DeviceUnavailable, "EGL found no driver for its display (EGL error {:#x}); {}", GetError(),
+                kInstall);
 }
 
 ThreadBindingGuard::ThreadBindingGuard(Egl const& egl)

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Egl: libEGL opened at run time, and the displays of the process.
+/// Egl: libEGL opened at run time, and where it finds displays.
 ///   Why     a machine without libEGL must still start and run another backend.
 ///   Thread  any; the library is opened once and stays open.
-///   Memory  a display stays initialised until the process ends. EGL does not count references: terminating a display
-///           ends every context on it, including those of other code. It also unloads Mesa's driver, which costs the
-///           next driver 24 ms of 31 and leaks the library's globals (measured, Mesa 22.3.6).
-///   Fails   load(), openDisplay(): DeviceUnavailable with the packages to install.
+///   Fails   load(), findDisplay(), initialize(): DeviceUnavailable with the packages to install.
 #pragma once
 
 #include "base/Result.h"
@@ -26,7 +23,7 @@ namespace filament::backend::gles {
     X(BindAPI) X(ChooseConfig) X(CreateContext) X(CreateWindowSurface) X(DestroyContext) X(DestroySurface)       \
     X(GetConfigAttrib) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) X(GetError)                \
     X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(QuerySurface) X(ReleaseThread)  \
-    X(SwapBuffers) X(SwapInterval)
+    X(SwapBuffers) X(SwapInterval) X(Terminate)
 // clang-format on
 
 /// One place to look for devices.
@@ -44,8 +41,10 @@ public:
     std::vector<DisplaySource> displaySources() const;
     /// The display of a window system that the app has opened. Unsupported: this EGL does not know that system.
     Result<DisplaySource> displaySource(NativeDisplay const& display) const;
-    /// The initialised display of the source; the same one every time.
-    Result<EGLDisplay> openDisplay(DisplaySource source) const;
+    /// The display of the source, which may not be initialised; the same one every time. Hold it by a HeldDisplay.
+    Result<EGLDisplay> findDisplay(DisplaySource source) const;
+    /// No effect if it is initialised already: EGL does not count.
+    Result<void> initialize(EGLDisplay display) const;
 
 #define X(name) decltype(&::egl##name) name = nullptr;
     FILAMENT_EGL_FUNCTIONS(X)
