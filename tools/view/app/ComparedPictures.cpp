@@ -15,6 +15,21 @@ namespace {
 constexpr float kGrabPixels = 8; ///< beside the line of a wipe
 constexpr ImU32 kLineColor = IM_COL32(255, 158, 26, 255);
 
+/// The part of an image of 4 bytes a pixel; none: it does not lie in the image.
+std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size) {
+    const bool fits = size.x <= image.width && offset.x <= image.width - size.x && size.y <= image.height &&
+                      offset.y <= image.height - size.y;
+    if (!fits || image.pixels.size() != size_t{ image.width } * image.height * 4) return std::nullopt;
+    Image part{ .width = size.x, .height = size.y, .format = image.format };
+    part.pixels.reserve(size_t{ size.x } * size.y * 4);
+    for (uint32_t y = 0; y < size.y; ++y) {
+        const auto row =
+                image.pixels.begin() + static_cast<ptrdiff_t>((size_t{ offset.y + y } * image.width + offset.x) * 4);
+        part.pixels.insert(part.pixels.end(), row, row + static_cast<ptrdiff_t>(size_t{ size.x } * 4));
+    }
+    return part;
+}
+
 Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
 
 } // namespace
@@ -41,6 +56,8 @@ bool ComparedPictures::openSource(EngineOptions const& options) {
     if (mOther && mOpenedWith == with) return true;
     mOther.reset();
     mResult.reset();
+    if (mComparing) mAbandoned.add(*mComparing);
+    mComparing.reset();
     mOpenedWith = with;
     if (with == CompareWith::PathTracer) {
         mOther = std::make_unique<TracedPicture>();
@@ -54,7 +71,8 @@ bool ComparedPictures::openSource(EngineOptions const& options) {
     return other.ok();
 }
 
-bool ComparedPictures::follow(Document const& document, Stage& stage, SwapChain chain, EngineOptions const& options) {
+bool ComparedPictures::follow(Document const& document, Stage& stage, SwapChain chain, uint2 offset,
+                              EngineOptions const& options) {
     if (mode == CompareMode::Off) return false;
     if (!openSource(options)) {
         mode = CompareMode::Off;
@@ -66,46 +84,72 @@ bool ComparedPictures::follow(Document const& document, Stage& stage, SwapChain 
     }
     mOther->follow(document, mNumber);
     for (std::string& message : mOther->takeMessages()) mMessages.push_back(std::move(message));
-    readOwn(stage, chain);
-    return compareNewest();
+    readOwn(stage, chain, offset);
+    const bool hasNews = takeCompared();
+    compareNewest();
+    return hasNews;
 }
 
 /// The scene alone: the interface is drawn over it later.
-void ComparedPictures::readOwn(Stage& stage, SwapChain chain) {
+void ComparedPictures::readOwn(Stage& stage, SwapChain chain, uint2 offset) {
     if (mPending) {
         std::optional<Image> image = stage.renderer().takePixels(mPending);
         if (!image) return;
         mPending = {};
-        if (!image->pixels.empty()) mOwn = NumberedPicture{ std::move(*image), mPendingNumber };
+        if (!image->pixels.empty()) {
+            mOwn = mPendingOwn;
+            mOwn->window = std::make_shared<const Image>(std::move(*image));
+        }
     }
     if (stage.progress().isLoading) return mOwn.reset(); // it shows what was there before
     if (mOwn && mOwn->number == mNumber) return;
     mPending = stage.renderer().readPixels(chain);
-    mPendingNumber = mNumber;
+    mPendingOwn = { .offset = offset, .size = mDocument.view.size, .number = mNumber };
 }
 
-bool ComparedPictures::compareNewest() {
+/// Starts with the newest pair that shows one document, unless it has been compared.
+void ComparedPictures::compareNewest() {
+    mAbandoned.removeFinished();
     std::optional<NumberedPicture> const& other = mOther->picture();
-    if (!mOwn || !other || mOwn->number != other->number) return false;
-    if (mResult && mResultNumber == mOwn->number && mResultVersion == other->version && mResultMode == mode)
-        return false;
-    Result<PictureComparison> compared = compare(mOwn->image, other->image);
-    if (!compared) return false; // the window has changed its size meanwhile
-    mResult = std::move(*compared);
-    mResultNumber = mOwn->number;
-    mResultVersion = other->version;
-    mIsFinal = other->isFinal;
-    mResultMode = mode;
-    makeOverlay(mOwn->image, other->image);
+    if (mComparing || !mOwn || !other || mOwn->number != other->number) return;
+    if (mResult && mResultNumber == mOwn->number && mResultVersion == other->version && mResultMode == mode) return;
+    mComparingNumber = mOwn->number;
+    mComparingVersion = other->version;
+    mComparingIsFinal = other->isFinal;
+    mComparingMode = mode;
+    mComparing.emplace([own = *mOwn, image = std::make_shared<const Image>(other->image), how = mode] {
+        return compareAll(own, *image, how);
+    });
+}
+
+bool ComparedPictures::takeCompared() {
+    if (!mComparing || !mComparing->isFinished()) return false;
+    Compared compared = mComparing->take();
+    mComparing.reset();
+    if (!compared.result) mOwn.reset(); // it is read again
+    if (!compared.result) return false;
+    mResult = std::move(compared.result);
+    mResultNumber = mComparingNumber;
+    mResultVersion = mComparingVersion;
+    mIsFinal = mComparingIsFinal;
+    mResultMode = mComparingMode;
+    if (mResultMode == mode) mOverlay = std::move(compared.overlay);
     return true;
 }
 
-void ComparedPictures::makeOverlay(Image const& own, Image const& other) {
-    if (mode == CompareMode::Wipe) mOverlay = other;
+/// On another thread: a FLIP map takes 1.5 s a megapixel.
+ComparedPictures::Compared ComparedPictures::compareAll(OwnPicture const& own, Image const& other, CompareMode mode) {
+    const std::optional<Image> picture = partOf(*own.window, own.offset, own.size);
+    if (!picture) return {};
+    const Result<PictureComparison> result = compare(*picture, other);
+    if (!result) return {};
+    Compared compared{ .result = *result };
+    if (mode == CompareMode::Wipe) compared.overlay = other;
     if (mode == CompareMode::Difference)
-        if (Result<Image> map = differenceMap(own, other); map) mOverlay = std::move(*map);
+        if (Result<Image> map = differenceMap(*picture, other); map) compared.overlay = std::move(*map);
     if (mode == CompareMode::Flip)
-        if (Result<FlipMap> map = flipMap(own, other); map) mOverlay = std::move(map->image);
+        if (Result<FlipMap> map = flipMap(*picture, other); map) compared.overlay = std::move(map->image);
+    return compared;
 }
 
 void ComparedPictures::upload(UiRenderer& ui, Engine& engine) {
@@ -123,17 +167,17 @@ void ComparedPictures::upload(UiRenderer& ui, Engine& engine) {
     mOverlay.reset();
 }
 
-void ComparedPictures::draw(UiRenderer& ui, Engine& engine, uint2 size) {
+void ComparedPictures::draw(UiRenderer& ui, Engine& engine, uint2 offset, uint2 size) {
     if (mode == CompareMode::Off) return;
     upload(ui, engine);
     if (mTexture.get() && mTextureSize == size) {
+        const float2 begin(offset), end(offset + size);
         const float left = mode == CompareMode::Wipe ? std::round(wipePosition * static_cast<float>(size.x)) : 0;
-        const ImVec2 end(static_cast<float>(size.x), static_cast<float>(size.y));
-        ImGui::GetBackgroundDrawList()->AddImage(mTextureId, { left, 0 }, end, { left / static_cast<float>(size.x), 0 },
-                                                 { 1, 1 });
+        ImGui::GetBackgroundDrawList()->AddImage(mTextureId, { begin.x + left, begin.y }, { end.x, end.y },
+                                                 { left / static_cast<float>(size.x), 0 }, { 1, 1 });
     }
-    if (mode == CompareMode::Wipe) drawWipe(size);
-    drawNumber(size);
+    if (mode == CompareMode::Wipe) drawWipe(offset, size);
+    drawNumber(offset, size);
 }
 
 bool ComparedPictures::handle(InputEvent const& event, uint2 size) {
@@ -149,13 +193,15 @@ bool ComparedPictures::handle(InputEvent const& event, uint2 size) {
     return move && mIsDragging;
 }
 
-void ComparedPictures::drawWipe(uint2 size) const {
-    const float x = std::round(wipePosition * static_cast<float>(size.x));
-    ImGui::GetBackgroundDrawList()->AddRectFilled({ x - 1, 0 }, { x + 1, static_cast<float>(size.y) }, kLineColor);
+void ComparedPictures::drawWipe(uint2 offset, uint2 size) const {
+    const float2 begin(offset), end(offset + size);
+    const float x = begin.x + std::round(wipePosition * static_cast<float>(size.x));
+    ImGui::GetBackgroundDrawList()->AddRectFilled({ x - 1, begin.y }, { x + 1, end.y }, kLineColor);
 }
 
-void ComparedPictures::drawNumber(uint2 size) const {
-    ImGui::SetNextWindowPos({ static_cast<float>(size.x) / 2, 10 }, ImGuiCond_Always, { 0.5f, 0 });
+void ComparedPictures::drawNumber(uint2 offset, uint2 size) const {
+    const float2 begin(offset);
+    ImGui::SetNextWindowPos({ begin.x + static_cast<float>(size.x) / 2, begin.y + 10 }, ImGuiCond_Always, { 0.5f, 0 });
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("compared", nullptr, kFlags)) {
@@ -180,6 +226,9 @@ void ComparedPictures::close(UiRenderer* ui) {
     mPending = {};
     mOwn.reset();
     mResult.reset();
+    mOverlay.reset();
+    if (mComparing) mAbandoned.add(*mComparing);
+    mComparing.reset();
     mNumber = 0;
 }
 

@@ -3,6 +3,8 @@
 /// a wipe, or a map of differences.
 ///   Use      once a frame, after the scene and before the interface: follow(); between ImGui's NewFrame() and Render():
 ///            draw().
+///   Places   the viewer's picture is a part of the window, at `offset`. Events count pixels of the picture.
+///   Waits    for nothing: pictures are compared on another thread, one pair at a time. The destructor waits for the last.
 ///   Memory   two pictures on the host, and a texture of the map.
 ///   Thread   the main thread.
 #pragma once
@@ -10,6 +12,7 @@
 #include "tools/view/app/InputEvent.h"
 #include "tools/view/app/PictureSource.h"
 #include "tools/view/compare/Comparison.h"
+#include "tools/view/stage/Background.h"
 #include "tools/view/stage/Stage.h"
 #include "tools/view/ui/UiRenderer.h"
 
@@ -33,36 +36,56 @@ public:
     float wipePosition = 0.5f; ///< of the width: the other API's picture is to the right
 
     /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine. Whether there is news.
-    bool follow(Document const& document, Stage& stage, SwapChain chain, EngineOptions const& options);
+    bool follow(Document const& document, Stage& stage, SwapChain chain, uint2 offset, EngineOptions const& options);
     /// Whether the event moves the line of the wipe, which the pointer may drag.
     bool handle(InputEvent const& event, uint2 size);
     /// The map, the line of the wipe and the number.
-    void draw(UiRenderer& ui, Engine& engine, uint2 size);
+    void draw(UiRenderer& ui, Engine& engine, uint2 offset, uint2 size);
     /// Before the engine of the viewer ends.
     void close(UiRenderer* ui);
 
     /// Of the newest pair of pictures that show the same document.
     std::optional<PictureComparison> const& result() const { return mResult; }
     /// Another picture, or a better one, is on its way.
-    bool isWaiting() const { return mode != CompareMode::Off && (!mResult || mResultNumber != mNumber || !mIsFinal); }
+    bool isWaiting() const {
+        const bool isCurrent = mResult && mResultNumber == mNumber && mResultMode == mode && mIsFinal;
+        return mode != CompareMode::Off && (!isCurrent || mComparing);
+    }
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
 
 private:
+    /// The window of the viewer, as it was read.
+    struct OwnPicture {
+        std::shared_ptr<const Image> window;
+        uint2 offset{ 0 }, size{ 0 }; ///< of the picture
+        uint64_t number = 0;          ///< of its document
+    };
+    struct Compared {
+        std::optional<PictureComparison> result; ///< none: the window has changed its size meanwhile
+        std::optional<Image> overlay;
+    };
     bool openSource(EngineOptions const& options);
-    void readOwn(Stage& stage, SwapChain chain);
-    bool compareNewest();
-    void makeOverlay(Image const& own, Image const& other);
+    void readOwn(Stage& stage, SwapChain chain, uint2 offset);
+    void compareNewest();
+    bool takeCompared();
+    static Compared compareAll(OwnPicture const& own, Image const& other, CompareMode mode);
     void upload(UiRenderer& ui, Engine& engine);
-    void drawNumber(uint2 size) const;
-    void drawWipe(uint2 size) const;
+    void drawNumber(uint2 offset, uint2 size) const;
+    void drawWipe(uint2 offset, uint2 size) const;
 
     std::unique_ptr<PictureSource> mOther;
     CompareWith mOpenedWith = CompareWith::OtherApi;
     Document mDocument{};
     uint64_t mNumber = 0; ///< of the document
     PixelTicket mPending{};
-    uint64_t mPendingNumber = 0;
-    std::optional<NumberedPicture> mOwn;
+    OwnPicture mPendingOwn; ///< without its window
+    std::optional<OwnPicture> mOwn;
+    std::optional<Background<Compared>> mComparing;
+    uint64_t mComparingNumber = 0;
+    uint32_t mComparingVersion = 0;
+    bool mComparingIsFinal = false;
+    CompareMode mComparingMode = CompareMode::Off;
+    Abandoned mAbandoned;
     std::optional<PictureComparison> mResult;
     uint64_t mResultNumber = 0;
     uint32_t mResultVersion = 0;

@@ -4,13 +4,18 @@
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
+#include "tools/view/app/RecentFiles.h"
 #include "tools/view/app/Viewer.h"
 #include "tools/view/app/Window.h"
+#include "tools/view/document/TextForms.h"
 
 #include <filament/Image.h>
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cstdio>
+#include <future>
 
 namespace filament::view {
 namespace {
@@ -19,12 +24,59 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-Result<Document> documentFor(ViewerOptions const& options) {
+Result<Document> documentOf(ViewerOptions const& options) {
     if (!options.document.empty()) return loadDocument(options.document);
     if (Result<void> made = tools::makeOutFolder(options); !made) return made.error();
     const Result<showcase::Files> files = tools::chooseFiles(options);
     if (!files) return files.error();
     return makeDocument(options, files->model, files->environment);
+}
+
+/// The camera path of the command line is its last one.
+Result<Document> documentFor(ViewerOptions const& options) {
+    if (options.cameraPath.empty()) return documentOf(options);
+    Result<CameraPath> path = loadCameraPath(options.cameraPath);
+    if (!path) return path.error();
+    Result<Document> document = documentOf(options);
+    if (document) document->paths.push_back(std::move(*path));
+    return document;
+}
+
+/// Draws on a thread of its own; this one shows how far it is, and stops it on Ctrl-C.
+Result<PathResult> drawWithProgress(PathRequest const& request) {
+    const tools::StopOnInterrupt tidily;
+    PathProgress progress;
+    auto drawn = std::async(std::launch::async, [&] { return drawPath(request, progress); });
+    while (drawn.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+        if (tools::isInterrupted()) progress.isCancelled = true;
+        if (progress.total > 0)
+            tools::showProgress(fmt::format("{} of {} frames", progress.done.load(), progress.total.load()));
+    }
+    tools::clearProgress();
+    return drawn.get();
+}
+
+int drawFrames(ViewerOptions const& options) {
+    Result<Document> document = documentFor(options);
+    if (!document) return tools::failed(document.error());
+    document->view.size = options.size;
+    const PathRequest request{ .document = *document,
+                               .path = document->paths.back(),
+                               .series = options.series,
+                               .engine = { .backend = options.backend,
+                                           .workers = options.workers,
+                                           .validation = options.validation,
+                                           .exactShaders = options.exactShaders } };
+    const Result<PathResult> drawn = drawWithProgress(request);
+    if (!drawn && drawn.error().code == ErrorCode::Cancelled) { // by a signal: nobody else does
+        tools::printError(drawn.error().message);
+        return tools::kInterruptedStatus;
+    }
+    if (!drawn) return tools::failed(drawn.error());
+    for (std::string const& message : drawn->messages) tools::printWarning(message);
+    for (std::filesystem::path const& made : { options.series.folder, options.series.video })
+        if (!made.empty()) std::printf("%u frames: %s\n", drawn->frames, made.c_str());
+    return 0;
 }
 
 /// Tells of frames, and prints what happened.
@@ -81,9 +133,12 @@ Result<void> show(ViewerOptions const& options) {
     if (!document) return document.error();
     Result<std::unique_ptr<Window>> window = Window::open("filament-view", options.size);
     if (!window) return window.error();
-    const ViewerTarget target{ (*window)->display(), (*window)->native(), (*window)->pixels(), (*window)->scale() };
+    const ViewerTarget target{ (*window)->display(), (*window)->native(), (*window)->pixels(), (*window)->scale(),
+                               (*window)->clipboard() };
     Result<std::unique_ptr<Viewer>> viewer = Viewer::create(options, std::move(*document), target);
     if (!viewer) return viewer.error();
+    if (!options.cameraPath.empty()) // the last one
+        (*viewer)->panels().state.path.path = (*viewer)->document().paths.size() - 1;
     const tools::StopOnInterrupt tidily;
     Loop(options, **window, **viewer, begin).run();
     if (options.screenshot.empty()) return {};
@@ -94,7 +149,10 @@ Result<void> show(ViewerOptions const& options) {
 
 } // namespace
 
-int runViewer(ViewerOptions const& options) {
+int runViewer(ViewerOptions const& given) {
+    if (given.drawsPath()) return drawFrames(given);
+    ViewerOptions options = given;
+    options.recentFiles = recentFilesPath();
     const Result<void> shown = show(options);
     return shown ? 0 : tools::failed(shown.error());
 }

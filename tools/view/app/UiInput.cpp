@@ -2,9 +2,12 @@
 #include "tools/view/app/UiInput.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace filament::view {
@@ -49,54 +52,100 @@ void setModifiers(ImGuiIO& io, Modifiers const& modifiers) {
     io.KeySuper = modifiers.super;
 }
 
-struct Pass {
+/// Gives an event to ImGui.
+struct Apply {
     ImGuiIO& io;
 
-    bool operator()(KeyEvent const& event) const {
+    void operator()(KeyEvent const& event) const {
         if (event.key >= 0 && event.key < static_cast<int>(std::size(io.KeysDown)))
             io.KeysDown[event.key] = event.isDown;
         setModifiers(io, event.modifiers);
-        return io.WantTextInput;
     }
-    bool operator()(TextEvent const& event) const {
-        io.AddInputCharacter(event.character);
-        return io.WantTextInput;
-    }
-    bool operator()(MouseMoveEvent const& event) const {
-        io.MousePos = ImVec2(event.pixel.x, event.pixel.y);
-        return io.WantCaptureMouse;
-    }
-    bool operator()(MouseButtonEvent const& event) const {
+    void operator()(TextEvent const& event) const { io.AddInputCharacter(event.character); }
+    void operator()(MouseMoveEvent const& event) const { io.MousePos = ImVec2(event.pixel.x, event.pixel.y); }
+    void operator()(MouseButtonEvent const& event) const {
         io.MouseDown[static_cast<size_t>(event.button)] = event.isDown; // in the order of ImGui
         setModifiers(io, event.modifiers);
-        return io.WantCaptureMouse;
     }
-    bool operator()(ScrollEvent const& event) const {
+    void operator()(ScrollEvent const& event) const {
         io.MouseWheelH += event.lines.x;
         io.MouseWheel += event.lines.y;
-        return io.WantCaptureMouse;
     }
-    bool operator()(FocusEvent const& event) const {
-        if (event.hasFocus) return false;
+    void operator()(FocusEvent const& event) const {
+        if (event.hasFocus) return;
         std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false); // their releases go elsewhere
         std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
         io.MousePos = ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
-        return false;
     }
     template <class Other>
-    bool operator()(Other const&) const {
-        return false;
-    }
+    void operator()(Other const&) const {}
 };
+
+/// What one frame has got so far: whether it can take an event, too.
+class FrameOfEvents {
+public:
+    bool canTake(InputEvent const& event) {
+        if (auto const* button = std::get_if<MouseButtonEvent>(&event))
+            return std::exchange(mButtons[static_cast<size_t>(button->button)], true) == false;
+        if (std::holds_alternative<MouseMoveEvent>(event)) return !mButtons[0] && !mButtons[1] && !mButtons[2];
+        if (auto const* key = std::get_if<KeyEvent>(&event)) return mKeys.insert(key->key).second;
+        return true;
+    }
+
+private:
+    bool mButtons[3]{}; ///< that have changed
+    std::set<int> mKeys;
+};
+
+UiInput& inputOf(void* data) { return *static_cast<UiInput*>(data); }
 
 } // namespace
 
-void prepareUiInput() {
+UiInput::UiInput(Clipboard clipboard) : mClipboard(std::move(clipboard)) {
     ImGuiIO& io = ImGui::GetIO();
     for (auto const& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
     io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
+    io.ClipboardUserData = this;
+    io.SetClipboardTextFn = [](void* data, const char* text) { inputOf(data).copy(text); };
+    io.GetClipboardTextFn = [](void* data) {
+        UiInput const& input = inputOf(data);
+        input.mForImGui = input.pasted();
+        return input.mForImGui.c_str();
+    };
 }
 
-bool passToUi(InputEvent const& event) { return std::visit(Pass{ ImGui::GetIO() }, event); }
+/// A pointer that has moved since the last frame is over another window now: what it presses is that window's.
+void UiInput::followPointer() const {
+    const auto isButton = [](InputEvent const& event) { return std::holds_alternative<MouseButtonEvent>(event); };
+    if (std::ranges::any_of(mWaiting, isButton)) return; // the pointer waits for it
+    for (InputEvent const& event : mWaiting)
+        if (auto const* move = std::get_if<MouseMoveEvent>(&event)) Apply{ ImGui::GetIO() }(*move);
+    ImGui::UpdateHoveredWindowAndCaptureFlags();
+}
+
+bool UiInput::pass(InputEvent const& event) {
+    ImGuiIO const& io = ImGui::GetIO();
+    auto const* button = std::get_if<MouseButtonEvent>(&event);
+    if (button && button->isDown) followPointer();
+    mWaiting.push_back(event);
+    if (std::holds_alternative<KeyEvent>(event) || std::holds_alternative<TextEvent>(event)) return io.WantTextInput;
+    const bool isMouse = std::holds_alternative<MouseMoveEvent>(event) ||
+                         std::holds_alternative<MouseButtonEvent>(event) || std::holds_alternative<ScrollEvent>(event);
+    return isMouse && io.WantCaptureMouse;
+}
+
+bool UiInput::beginFrame() {
+    FrameOfEvents frame;
+    for (; !mWaiting.empty() && frame.canTake(mWaiting.front()); mWaiting.pop_front())
+        std::visit(Apply{ ImGui::GetIO() }, mWaiting.front());
+    return !mWaiting.empty();
+}
+
+void UiInput::copy(std::string const& text) {
+    if (mClipboard.set) return mClipboard.set(text);
+    mOwnText = text;
+}
+
+std::string UiInput::pasted() const { return mClipboard.get ? mClipboard.get() : mOwnText; }
 
 } // namespace filament::view

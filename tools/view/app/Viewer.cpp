@@ -2,35 +2,34 @@
 // Size: perform() is a table: an action a case.
 #include "tools/view/app/Viewer.h"
 
-#include "tools/view/app/UiInput.h"
+#include "tools/view/app/OpenFiles.h"
 #include "tools/view/panels/AnimationModel.h"
 #include "tools/view/panels/CameraModel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <chrono>
 
 namespace filament::view {
 namespace {
 
-constexpr size_t kLatencies = 120;
 constexpr uint32_t kFramesAfterChange = 3; ///< ImGui settles in two frames, picks and statistics arrive with the next
 constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has gathered its picture
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
 constexpr double kFovDegrees = 40; ///< of a camera that was parallel
 constexpr DebugView kLastDebugView = DebugView::WireframeAlone;
 
-/// What a file is to a viewer, by its ending.
-enum class FileKind : uint8_t { Model, Environment, Document, Unknown };
+constexpr float4 kBetweenPanels{ 0.06f, 0.06f, 0.06f, 1 }; ///< of the window; panels lie over it
 
-FileKind kindOf(std::filesystem::path const& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
-    if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
-    if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;
-    return ending == ".json" ? FileKind::Document : FileKind::Unknown;
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Of the picture, which begins there.
+InputEvent inPicture(InputEvent event, uint2 offset) {
+    if (auto* move = std::get_if<MouseMoveEvent>(&event)) move->pixel -= float2(offset);
+    return event;
 }
 
 KeyModifiers modifiersOf(Modifiers const& modifiers) {
@@ -41,16 +40,6 @@ KeyModifiers modifiersOf(Modifiers const& modifiers) {
 std::optional<Action> actionOf(KeyEvent const& event) {
     if (!event.isDown || event.modifiers.alt || event.modifiers.super) return std::nullopt;
     return actionOf(static_cast<Key>(event.key), modifiersOf(event.modifiers));
-}
-
-void showModel(Document& document, std::filesystem::path const& file) {
-    document.model.file = file;
-    document.model.variant.clear();
-    document.nodes.clear();
-    document.materials.clear();
-    document.modelLights.clear();
-    document.morphs.clear();
-    document.playback = {};
 }
 
 void showNextDebugView(Document& document) {
@@ -64,9 +53,9 @@ void showNextDebugView(Document& document) {
 
 Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget const& target)
         : mOptions(options), mTarget(target), mDocument(std::move(document)), mFirstCamera(mDocument.view.camera),
-          mUi(target.scale), mHistory(mDocument) {
-    prepareUiInput();
+          mUi(target.scale), mInput(target.clipboard), mHistory(mDocument), mRecent(options.recentFiles) {
     mDocument.view.size = max(target.pixels, uint2(1));
+    mPanels.state.fileDialog.recent = mRecent.files();
     mPanels.state.showsPanels = options.panels;
 }
 
@@ -95,12 +84,11 @@ Result<void> Viewer::openStage(Backend backend) {
     mStage = std::move(*stage);
     mUiRenderer.emplace(std::move(*ui));
     mUiRenderer->uploadFonts(mUi.fonts());
-    mChain = mStage->engine().own(mStage->engine().create(SwapChainDesc{ .size = mDocument.view.size,
-                                                                         .window = mTarget.window,
-                                                                         .presentMode = mOptions.presentMode,
-                                                                         .name = "viewer" }));
+    mChainPixels = max(mTarget.pixels, uint2(1));
+    mChain = mStage->engine().own(mStage->engine().create(SwapChainDesc{
+            .size = mChainPixels, .window = mTarget.window, .presentMode = mOptions.presentMode, .name = "viewer" }));
     mPresents = 0;
-    mSent.clear();
+    mPanels.latency.reset();
     mPick = {};
     touch();
     return {};
@@ -108,6 +96,8 @@ Result<void> Viewer::openStage(Backend backend) {
 
 void Viewer::closeStage() {
     mCompared.close(mUiRenderer ? &*mUiRenderer : nullptr);
+    mPictures.close();
+    mReadsFrame = false;
     mUiRenderer.reset();
     mChain.reset();
     mStage.reset();
@@ -141,52 +131,33 @@ void Viewer::note(std::string message) {
 
 void Viewer::handle(InputEvent const& event) {
     touch();
-    if (!mOldestEvent) mOldestEvent = Clock::now();
+    mPanels.latency.input(secondsNow());
     if (std::holds_alternative<CloseEvent>(event)) mIsClosed = true;
     if (auto const* sized = std::get_if<ResizeEvent>(&event)) return resize(*sized);
-    if (auto const* dropped = std::get_if<DropEvent>(&event)) return drop(*dropped);
-    const bool isTaken = passToUi(event);
+    if (auto const* dropped = std::get_if<DropEvent>(&event)) {
+        for (std::filesystem::path const& file : dropped->files) open(file);
+        return;
+    }
+    const bool isTaken = mInput.pass(event);
     auto const* key = std::get_if<KeyEvent>(&event);
     auto const* button = std::get_if<MouseButtonEvent>(&event);
     const bool isRelease = (key && !key->isDown) || (button && !button->isDown); // of what was pressed over the scene
-    if (isTaken && !isRelease && !mHands.isDragging()) return;
+    const bool isForDialog = key && mPanels.state.fileDialog.isOpen();
+    if ((isTaken || isForDialog) && !isRelease && !mHands.isDragging()) return;
     if (const auto action = key ? actionOf(*key) : std::nullopt) return perform(*action);
-    if (mCompared.handle(event, mDocument.view.size) && !mHands.isDragging()) return;
-    mHands.handle(event, mDocument.view.size, mDocument.view.camera);
+    const InputEvent placed = inPicture(event, mOffset);
+    if (mCompared.handle(placed, mDocument.view.size) && !mHands.isDragging()) return;
+    mHands.handle(placed, mDocument.view.size, mDocument.view.camera);
     if (const std::optional<uint2> click = mHands.takeClick(); click && all(lessThan(*click, mDocument.view.size)))
         mPick = mStage->renderer().pick(mStage->scene(), mStage->view(), *click);
 }
 
 void Viewer::resize(ResizeEvent const& event) {
-    mTarget.pixels = event.pixels;
+    const bool isShown = event.pixels.x > 0 && event.pixels.y > 0;
     if (mUi.setScale(event.scale)) mUiRenderer->uploadFonts(mUi.fonts());
-    if (event.pixels.x == 0 || event.pixels.y == 0 || event.pixels == mDocument.view.size) return;
-    mDocument.view.size = event.pixels;
-    mStage->engine().resize(mChain, event.pixels);
-}
-
-void Viewer::drop(DropEvent const& event) {
-    for (std::filesystem::path const& file : event.files) open(file);
-}
-
-void Viewer::open(std::filesystem::path const& file) {
-    switch (kindOf(file)) {
-    case FileKind::Model:
-        return showModel(mDocument, file);
-    case FileKind::Environment:
-        mDocument.environment.file = file;
-        mDocument.environment.prefersModels = false;
-        return;
-    case FileKind::Document: {
-        Result<Document> loaded = loadDocument(file);
-        if (!loaded) return note(loaded.error().message);
-        mDocument = std::move(*loaded);
-        mDocument.view.size = max(mTarget.pixels, uint2(1));
-        return;
-    }
-    case FileKind::Unknown:
-        return note(fmt::format("'{}' is nothing to show: drop .glb, .gltf, .mat, .hdr, .exr or .json", file.string()));
-    }
+    if (isShown && event.pixels != mChainPixels) mStage->engine().resize(mChain, mChainPixels = event.pixels);
+    mTarget.pixels = event.pixels;
+    if (isShown) placePicture();
 }
 
 // ---------------------------------------------------------------------------------------------- actions
@@ -212,41 +183,9 @@ void Viewer::changeCompareMode() {
     if (mCompared.mode == CompareMode::Off) mCompared.close(&*mUiRenderer);
 }
 
-/// "viewer-3.png": the first that is not there yet.
-std::filesystem::path Viewer::freshName(const char* ending) const {
-    for (uint32_t i = 1;; ++i) {
-        std::filesystem::path file = mOptions.out / fmt::format("viewer-{}{}", i, ending);
-        std::error_code ignored;
-        if (!std::filesystem::exists(file, ignored)) return file;
-    }
-}
-
-void Viewer::saveDocumentFile() {
-    const std::filesystem::path file = freshName(".json");
-    const Result<void> saved = saveDocument(file, mDocument);
-    note(saved ? fmt::format("saved {}", file.string()) : saved.error().message);
-}
-
-void Viewer::savePicture() {
-    const std::filesystem::path file = freshName(".png");
-    Result<Image> image = mStage->renderToImage(); // without the panels
-    if (!image) return note(image.error().message);
-    const Result<void> saved = savePng(file, *image, mDocument.view.colorGrading.outputSpace);
-    note(saved ? fmt::format("saved {}", file.string()) : saved.error().message);
-}
-
 void Viewer::playOrPause() {
     if (!mStage->model() || mStage->model()->animationCount() == 0) return note("this model has no animations");
     togglePlaying(mDocument);
-}
-
-void Viewer::saveFrame() {
-    if (mSaver.isBusy()) return note("a frame is being saved");
-    mStage->forgetFrames(); // as a new stage will draw it
-    Result<Image> image = mStage->renderToImage();
-    if (!image) return note(image.error().message);
-    mSaver.start(freshName(".frame"), mDocument, std::move(*image), mOptions.workers);
-    note("saving the frame ...");
 }
 
 void Viewer::perform(Action action) {
@@ -265,10 +204,19 @@ void Viewer::perform(Action action) {
         mIsClosed = true;
         break;
     case Action::Open:
-        note("drop a file on the window: .glb, .gltf, .mat, .hdr, .exr or .json");
+        mPanels.state.fileDialog.open(FilePurpose::Open);
         break;
     case Action::SaveDocument:
         saveDocumentFile();
+        break;
+    case Action::CopyDocument:
+        copy(toJson(mDocument), "document");
+        break;
+    case Action::CopyCamera:
+        copy(toJson(mDocument.view.camera), "camera");
+        break;
+    case Action::Paste:
+        paste();
         break;
     case Action::Reload:
         mStage->reload();
@@ -299,6 +247,12 @@ void Viewer::perform(Action action) {
     case Action::AddBookmark:
         addBookmark(mDocument);
         break;
+    case Action::AddPathKey:
+        addKey(shownPath(mDocument, mPanels.state.path), mPanels.state.path, mDocument.view.camera);
+        break;
+    case Action::PlayPath:
+        togglePathPlaying(mDocument, mPanels.state.path);
+        break;
     case Action::HideSelection:
         hideSelection();
         break;
@@ -327,6 +281,9 @@ void Viewer::perform(Action action) {
     case Action::SavePicture:
         savePicture();
         break;
+    case Action::SavePictureAs:
+        mPanels.state.fileDialog.open(FilePurpose::SavePicture, freshName(".png").filename().string());
+        break;
     case Action::SaveFrame:
         saveFrame();
         break;
@@ -339,11 +296,15 @@ void Viewer::perform(Action action) {
 
 double Viewer::idleSeconds() const {
     const bool moves = mFramesToDraw > 0 || mHands.isMoving() || mDocument.playback.isPlaying || isLoading() || mPick ||
-                       mCompared.isWaiting() || mSaver.isBusy();
-    return moves ? kShortWait : kLongWait; // files are looked at four times a second
+                       mCompared.isWaiting();
+    const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
+    PanelState const& state = mPanels.state;
+    const bool waits = state.path.isPlaying || state.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
+    return moves || saves || waits ? kShortWait : kLongWait; // files are looked at four times a second
 }
 
 void Viewer::play(double seconds) {
+    if (playPath(mDocument, mPanels.state.path, seconds)) touch();
     Playback& playback = mDocument.playback;
     Model const* const model = mStage->model();
     if (!playback.isPlaying || !model || !playback.animation) return;
@@ -357,8 +318,6 @@ void Viewer::pollLoads() {
     mStage->poll();
     for (std::string& message : mStage->takeMessages()) note(std::move(message));
     for (std::string& message : mCompared.takeMessages()) note(std::move(message));
-    if (auto lines = mSaver.poll())
-        for (std::string& line : *lines) note(std::move(line));
     const bool isLoadingNow = isLoading();
     if (std::exchange(mWasLoading, isLoadingNow) || isLoadingNow) touch();
     if (std::exchange(mGeneration, mStage->generation()) != mStage->generation()) touch();
@@ -375,35 +334,29 @@ void Viewer::pollPick() {
 }
 
 void Viewer::pollLatency() {
-    const uint64_t shown = mTarget.window ? mStage->engine().statistics().presents : mPresents;
-    while (!mSent.empty() && mSent.front().presents <= shown) {
-        mLatencies.push_back(std::chrono::duration<double, std::milli>(Clock::now() - mSent.front().event).count());
-        if (mLatencies.size() > kLatencies) mLatencies.pop_front();
-        mSent.pop_front();
-    }
-}
-
-InputLatency Viewer::latency() const {
-    if (mLatencies.empty()) return {};
-    std::vector<double> sorted(mLatencies.begin(), mLatencies.end());
-    std::ranges::sort(sorted);
-    return { static_cast<uint32_t>(sorted.size()), sorted[sorted.size() / 2], sorted.back() };
+    const EngineStatistics statistics = mStage->engine().statistics();
+    // Without a window frames are there as soon as they are drawn.
+    mPanels.latency.look(mTarget.window ? statistics.presents : mPresents, statistics.lastPresentSeconds, secondsNow());
 }
 
 void Viewer::followRequests() {
     PanelRequests& requests = mPanels.requests;
     if (std::exchange(requests.cancelsLoading, false)) mStage->cancel();
     if (std::exchange(requests.framesSelection, false)) frame(boundsOfSelection());
+    if (std::exchange(requests.recordsPath, false)) recordPath();
+    if (std::exchange(requests.stopsRecording, false)) mRecorder.cancel();
+    followFileDialog();
 }
 
 bool Viewer::step(double seconds) {
     if (mHands.advance(seconds, mDocument.view.camera)) touch();
     play(seconds);
     pollLoads();
+    pollSaving();
     pollPick();
     pollLatency();
     const bool isHidden = mTarget.pixels.x == 0 || mTarget.pixels.y == 0;
-    const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting();
+    const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.state.fileDialog.isReading();
     if (!hasWork || isHidden || !mStage->renderer().mayPresent(mChain)) return false;
     if (mFramesToDraw > 0) --mFramesToDraw;
     draw(seconds);
@@ -433,23 +386,41 @@ void Viewer::drawOutline() {
                  { .color = { 1, 0.62f, 0.1f, 1 }, .widthPixels = 2, .depth = DebugDepth::Through });
 }
 
+void Viewer::placePicture() {
+    const float scale = mUi.fonts().Fonts.front()->FontSize / 13; // as Panels
+    const PanelRect picture = layOutPanels(mTarget.pixels, scale, mPanels.state.showsPanels).picture;
+    mOffset = uint2(picture.position);
+    mDocument.view.size = max(uint2(picture.size), uint2(1));
+}
+
+FrameExtras Viewer::extras() const {
+    FrameExtras extras;
+    if (!mOutline.empty() && mCompared.mode == CompareMode::Off) extras.debugDraw = &mOutline;
+    if (mDocument.view.size != mTarget.pixels)
+        extras.viewport =
+                Viewport{ .offset = mOffset, .contents = TargetContents::Clear, .clearColor = kBetweenPanels };
+    return extras;
+}
+
 void Viewer::draw(double seconds) {
-    mUi.newFrame(mDocument.view.size, static_cast<float>(seconds));
-    mCompared.draw(*mUiRenderer, mStage->engine(), mDocument.view.size);
+    if (mInput.beginFrame()) touch(); // the rest of the events
+    mUi.newFrame(mTarget.pixels, static_cast<float>(seconds));
+    placePicture();
+    mCompared.draw(*mUiRenderer, mStage->engine(), mOffset, mDocument.view.size);
     mPanels.draw(mDocument, *mStage);
     followRequests();
     ImGui::Render();
     mHistory.note(mDocument, ImGui::IsAnyItemActive());
     mStage->apply(mDocument); // with what the panels changed
     drawOutline();
-    mStage->render(mChain,
-                   { .debugDraw = mOutline.empty() || mCompared.mode != CompareMode::Off ? nullptr : &mOutline });
-    if (mCompared.follow(mDocument, *mStage, mChain, engineOptions(mStage->engine().device().backend))) touch();
-    mUiRenderer->render(*ImGui::GetDrawData(), mChain, mDocument.view.size);
+    mStage->render(mChain, extras());
+    if (mCompared.follow(mDocument, *mStage, mChain, mOffset, engineOptions(mStage->engine().device().backend)))
+        touch();
+    mUiRenderer->render(*ImGui::GetDrawData(), mChain, mTarget.pixels);
     mStage->renderer().present(mChain);
     mPanels.collect(*mStage);
     ++mPresents;
-    if (mOldestEvent) mSent.push_back({ mPresents, *std::exchange(mOldestEvent, std::nullopt) });
+    mPanels.latency.sent(secondsNow());
 }
 
 Result<Image> Viewer::screenshot() { return mStage->renderer().waitPixels(mStage->renderer().readPixels(mChain)); }

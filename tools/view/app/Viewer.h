@@ -3,8 +3,8 @@
 ///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain, and
 ///            tests act by events.
 ///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads.
-///   Waits    not for the window: if it lags behind, step() comes back without drawing. Saving a picture waits for its
-///            pixels, and a FLIP map is computed in step().
+///   Picture  Document::view.size is what the panels leave free of the window; events count pixels of the window.
+///   Waits    for nothing: if the window lags behind, step() comes back without drawing.
 ///   Thread   the main thread.
 ///   Fails    create(): as Stage::create(). Everything later becomes a message.
 #pragma once
@@ -13,6 +13,10 @@
 #include "tools/view/app/ComparedPictures.h"
 #include "tools/view/app/FrameSaver.h"
 #include "tools/view/app/History.h"
+#include "tools/view/app/PathFrames.h"
+#include "tools/view/app/PictureSaver.h"
+#include "tools/view/app/RecentFiles.h"
+#include "tools/view/app/UiInput.h"
 #include "tools/view/app/ViewerOptions.h"
 #include "tools/view/panels/Panels.h"
 #include "tools/view/panels/Shortcuts.h"
@@ -22,8 +26,6 @@
 
 #include <filament/DebugDraw.h>
 
-#include <chrono>
-#include <deque>
 #include <memory>
 #include <string>
 
@@ -35,12 +37,7 @@ struct ViewerTarget {
     NativeWindow window{}; ///< none: headless
     uint2 pixels{ 1280, 720 };
     float scale = 1;
-};
-
-/// From the moment of an event until its frame was seen to be in the window, over the last frames, in milliseconds.
-struct InputLatency {
-    uint32_t frames = 0;
-    double median = 0, worst = 0;
+    Clipboard clipboard{}; ///< none: texts are copied within the viewer
 };
 
 class Viewer {
@@ -72,27 +69,31 @@ public:
     /// Lines for people since the last call: failed loads, misuse of files, errors of the device.
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
     uint32_t completeFrames() const { return mCompleteFrames; } ///< drawn while nothing was loading
-    InputLatency latency() const;
+    /// From an input until its frame was in the window, in milliseconds.
+    Percentiles latency() const { return mPanels.latency.milliseconds(); }
     /// The last frame as the window has it, with the panels. Waits for it.
     Result<Image> screenshot();
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     Viewer(ViewerOptions const& options, Document document, ViewerTarget const& target);
     EngineOptions engineOptions(Backend backend) const;
     Result<void> openStage(Backend backend);
     void closeStage();
     void resize(ResizeEvent const& event);
-    void drop(DropEvent const& event);
     void open(std::filesystem::path const& file);
+    void followFileDialog();
+    void copy(std::string const& text, const char* what);
+    void paste();
     void note(std::string message);
     void touch(); ///< something has changed: frames are to be drawn
     void play(double seconds);
     void pollLoads();
     void pollPick();
     void pollLatency();
+    void pollSaving();
     void followRequests();
+    void placePicture(); ///< between the panels
+    FrameExtras extras() const;
     void draw(double seconds);
     void drawOutline();
     void hideSelection();
@@ -104,6 +105,7 @@ private:
     void saveDocumentFile();
     void savePicture();
     void saveFrame();
+    void recordPath();
     std::filesystem::path freshName(const char* ending) const;
 
     ViewerOptions mOptions;
@@ -113,25 +115,25 @@ private:
     std::unique_ptr<Stage> mStage;
     Owned<SwapChain> mChain;
     UiContext mUi;
+    UiInput mInput; ///< of the context
     std::optional<UiRenderer> mUiRenderer;
     Panels mPanels;
     History mHistory;
     ComparedPictures mCompared;
+    RecentFiles mRecent;
+    PictureSaver mPictures;
     FrameSaver mSaver;
+    PathRecorder mRecorder;
     CameraHands mHands;
     DebugDraw mOutline;
     PickTicket mPick{};
     uint64_t mGeneration = 0;
     std::vector<std::string> mMessages;
     uint32_t mFramesToDraw = 0, mCompleteFrames = 0;
-    std::optional<Clock::time_point> mOldestEvent; ///< that no frame shows yet
-    struct Sent {
-        uint64_t presents = 0; ///< EngineStatistics::presents once it is in the window
-        Clock::time_point event{};
-    };
-    std::deque<Sent> mSent;
-    uint64_t mPresents = 0; ///< asked for, of this engine
-    std::deque<double> mLatencies;
+    uint2 mOffset{ 0 };       ///< of the picture in the window
+    uint2 mChainPixels{ 0 };  ///< of the swap chain
+    uint64_t mPresents = 0;   ///< asked for, of this engine
+    bool mReadsFrame = false; ///< that is to be saved
     bool mIsClosed = false, mIsFullScreen = false, mWasLoading = false;
 };
 

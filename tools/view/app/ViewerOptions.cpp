@@ -12,6 +12,7 @@ using tools::invalidOption;
 
 struct Words {
     std::string backend = "vulkan", presentMode = "fifo", frames = "0", workers, screenshot, document, panels = "on";
+    std::string cameraPath, framesTo, frameFormat = "png", framesPerSecond = "30", video;
 };
 
 void declare(CLI::App& app, Words& words, ViewerOptions& options) {
@@ -21,6 +22,13 @@ void declare(CLI::App& app, Words& words, ViewerOptions& options) {
     app.add_option("--frames", words.frames, "end after so many frames of the loaded scene (0: when it is closed)");
     app.add_option("--screenshot", words.screenshot, "FILE.png: save the last frame, with the panels");
     app.add_option("--document", words.document, "FILE.json: what a viewer saved, in the place of the other options");
+    app.add_option("--camera-path", words.cameraPath, "FILE.json: a camera path, as the viewer saves it");
+    app.add_option("--frames-to", words.framesTo,
+                   "FOLDER: draw the camera path to numbered pictures, without a window, and end");
+    app.add_option("--frame-format", words.frameFormat, "of those: png (default), or exr: light before the tone mapper")
+            ->default_str("png");
+    app.add_option("--video", words.video, "FILE.mp4, .mov, .mkv, .webm: make a video of them, by the ffmpeg command");
+    app.add_option("--fps", words.framesPerSecond, "frames a second of the camera path")->default_str("30");
     app.add_option("--panels", words.panels, "on (default) or off; Tab changes it while it runs")->default_str("on");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_flag("--validation", options.validation, "check every command, and enable the validation layers");
@@ -61,6 +69,27 @@ Result<void> convertFiles(Words const& words, ViewerOptions& options) {
     return {};
 }
 
+Result<void> convertPath(Words const& words, ViewerOptions& options) {
+    options.cameraPath = words.cameraPath;
+    options.series.folder = words.framesTo;
+    options.series.video = words.video;
+    const auto rate = tools::finiteNumber(words.framesPerSecond);
+    if (!rate || *rate < kLeastFrameRate || *rate > kMostFrameRate)
+        return invalidOption("--fps", words.framesPerSecond, "a number from 0.01 to 1000");
+    options.series.framesPerSecond = *rate;
+    if (words.frameFormat == "exr")
+        options.series.format = PictureFormat::Exr;
+    else if (words.frameFormat != "png")
+        return invalidOption("--frame-format", words.frameFormat, "png or exr");
+    if (!options.drawsPath()) return {};
+    const char* const option = words.framesTo.empty() ? "--video" : "--frames-to";
+    const std::string& word = words.framesTo.empty() ? words.video : words.framesTo;
+    if (words.cameraPath.empty())
+        return invalidOption(option, word, "it together with --camera-path, along which frames are drawn");
+    if (options.frames > 0) return invalidOption(option, word, "it without --frames: the path says how many");
+    return {};
+}
+
 } // namespace
 
 Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* const* argv) {
@@ -75,7 +104,7 @@ Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* co
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<ViewerOptions>{};
     if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts, convertFiles }) {
+    for (auto convert : { convertChoices, convertCounts, convertFiles, convertPath }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

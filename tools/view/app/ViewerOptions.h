@@ -5,6 +5,7 @@
 
 #include "base/Result.h"
 #include "tools/common/SceneOptions.h"
+#include "tools/view/app/PathFrames.h"
 
 #include <filament/Backend.h>
 #include <filament/NativeWindow.h>
@@ -20,6 +21,11 @@ struct ViewerOptions : tools::SceneOptions {
     uint32_t frames = 0;              ///< ends after so many of the complete scene; 0: when the window is closed
     std::filesystem::path screenshot; ///< of the last frame, with the panels; .png; empty: none
     std::filesystem::path document;   ///< .json that a viewer wrote, in the place of the model and the other options
+    std::filesystem::path cameraPath; ///< .json: a camera path, added to those of the document; empty: none
+    FrameSeries series;               ///< of that path: drawn without a window, and the program ends; without a folder
+                                      ///< and a video: a window opens
+    bool drawsPath() const { return !series.folder.empty() || !series.video.empty(); }
+    std::filesystem::path recentFiles; ///< RecentFiles.h; empty: none are kept
     bool panels = true;
     bool validation = false;
     int workers = -1; ///< as EngineOptions::workers

@@ -65,6 +65,15 @@ float Window::scale() const {
     return std::max(x, y);
 }
 
+Clipboard Window::clipboard() const {
+    return { .set = [window = mWindow](std::string const& text) { glfwSetClipboardString(window, text.c_str()); },
+             .get =
+                     [window = mWindow] {
+                         const char* text = glfwGetClipboardString(window);
+                         return std::string(text ? text : "");
+                     } };
+}
+
 float2 Window::pixelsOfUnits() const {
     int width = 1, height = 1;
     glfwGetWindowSize(mWindow, &width, &height);

@@ -7,6 +7,7 @@
 
 #include "base/Result.h"
 #include "tools/view/app/InputEvent.h"
+#include "tools/view/app/UiInput.h"
 
 #include <filament/NativeWindow.h>
 
@@ -30,6 +31,7 @@ public:
     NativeWindow native() const;
     uint2 pixels() const; ///< 0: minimised
     float scale() const;
+    Clipboard clipboard() const; ///< of the display; as long as the window is there
 
     /// What happened since the last call, in order; waits for something to happen, but no longer than this.
     std::vector<InputEvent> takeEvents(double waitSeconds);

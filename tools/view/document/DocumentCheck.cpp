@@ -2,6 +2,7 @@
 /// check(): the ranges of all fields, then the rules that several fields obey together.
 #include "base/Result.h"
 #include "tools/view/document/Fields.h"
+#include "tools/view/document/TextForms.h"
 
 #include <fmt/format.h>
 
@@ -166,6 +167,12 @@ void Checker::rules(std::string const&, Document const& document) {
 Result<void> check(Document const& document) {
     Checker checker;
     checker.visit("", document, -kAnyNumber, kAnyNumber);
+    return checker.result();
+}
+
+Result<void> check(CameraPath const& path) {
+    Checker checker;
+    checker.visit("path", path, -kAnyNumber, kAnyNumber);
     return checker.result();
 }
 

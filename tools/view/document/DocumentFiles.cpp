@@ -1,24 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Result.h"
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/view/document/Document.h"
+#include "tools/view/document/TextForms.h"
 
 #include <fstream>
 
 namespace filament::view {
 
-Result<void> saveDocument(std::filesystem::path const& file, Document const& document) {
+namespace {
+
+Result<void> saveText(std::filesystem::path const& file, std::string const& text) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out << toJson(document);
+    out << text;
     out.close();
     if (out) return {};
     return fail(ErrorCode::Unreadable, "'{}' cannot be written; give another path", file.string());
+}
+
+} // namespace
+
+Result<void> saveDocument(std::filesystem::path const& file, Document const& document) {
+    return saveText(file, toJson(document));
+}
+Result<void> saveCameraPath(std::filesystem::path const& file, CameraPath const& path) {
+    return saveText(file, toJson(path));
 }
 
 Result<Document> loadDocument(std::filesystem::path const& file) {
     const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
     if (!bytes) return bytes.error();
     return documentFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+}
+
+Result<CameraPath> loadCameraPath(std::filesystem::path const& file) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    if (!bytes) return bytes.error();
+    Result<AnyText> any = anyFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+    if (!any) return any.error();
+    if (auto* path = std::get_if<CameraPath>(&*any)) return std::move(*path);
+    if (auto* document = std::get_if<Document>(&*any); document && !document->paths.empty())
+        return std::move(document->paths.front());
+    return fail(ErrorCode::NotFound, "'{}' has no camera path; give a file that a viewer saved one in", file.string());
 }
 
 } // namespace filament::view

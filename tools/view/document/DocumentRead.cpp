@@ -4,6 +4,7 @@
 #include "base/Suggest.h"
 #include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/Fields.h"
+#include "tools/view/document/TextForms.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -210,19 +211,56 @@ Result<void> checkVersion(Json const& json, std::string_view name) {
                 kDocumentVersion, version->get<uint64_t>());
 }
 
+Result<void> checkAlone(Document const& document) { return check(document); }
+Result<void> checkAlone(CameraPath const& path) { return check(path); }
+Result<void> checkAlone(Camera const& camera) {
+    Document document;
+    document.view.camera = camera;
+    return check(document);
+}
+
+/// A value that the text is, or that is its only member but for the version.
+template <class T>
+Result<T> valueOf(Json const& json, const char* member, std::string_view name) {
+    T value;
+    Reader reader;
+    if (!member) {
+        reader.members("", json, value, { "version" });
+    } else {
+        reader.read(member, json[member], value);
+        for (auto const& [key, ignored] : json.items())
+            if (key != member && key != "version")
+                reader.refuse(key, fmt::format("expected nothing beside {}", member));
+    }
+    if (reader.error()) return fail(ErrorCode::Corrupt, "{}: {}", name, *reader.error());
+    if (const Result<void> valid = checkAlone(value); !valid)
+        return fail(ErrorCode::Corrupt, "{}: {}", name, valid.error().message);
+    return value;
+}
+
+/// The tree of a text that this program can read.
+Result<Json> parsedVersion(std::string_view text, std::string_view name) {
+    Result<Json> json = parsed(text, name);
+    if (!json) return json;
+    if (const Result<void> known = checkVersion(*json, name); !known) return known.error();
+    return json;
+}
+
 } // namespace
 
 Result<Document> documentFromJson(std::string_view text, std::string_view name) {
-    const Result<Json> json = parsed(text, name);
+    const Result<Json> json = parsedVersion(text, name);
     if (!json) return json.error();
-    if (const Result<void> known = checkVersion(*json, name); !known) return known.error();
-    Document document;
-    Reader reader;
-    reader.members("", *json, document, { "version" });
-    if (reader.error()) return fail(ErrorCode::Corrupt, "{}: {}", name, *reader.error());
-    if (const Result<void> valid = check(document); !valid)
-        return fail(ErrorCode::Corrupt, "{}: {}", name, valid.error().message);
-    return document;
+    return valueOf<Document>(*json, nullptr, name);
+}
+
+Result<AnyText> anyFromJson(std::string_view text, std::string_view name) {
+    const auto any = [](auto&& value) { return value ? Result<AnyText>(std::move(*value)) : value.error(); };
+    const Result<Json> json = parsedVersion(text, name);
+    if (!json) return json.error();
+    if (json->contains("camera")) return any(valueOf<Camera>(*json, "camera", name));
+    if (json->contains("path")) return any(valueOf<CameraPath>(*json, "path", name));
+    return any(valueOf<Document>(*json, nullptr, name));
 }
 
 } // namespace filament::view

@@ -2,6 +2,7 @@
 /// toJson(): every field of a document, so that a later default changes nothing of what was saved.
 #include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/Fields.h"
+#include "tools/view/document/TextForms.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -98,12 +99,21 @@ Json jsonOf(T const& value) {
         return value;
 }
 
+std::string dumped(Json const& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 } // namespace
 
 std::string toJson(Document const& document) {
     Json json{ { "version", kDocumentVersion } };
     json.update(membersOf(document));
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return dumped(json);
+}
+
+std::string toJson(Camera const& camera) {
+    return dumped({ { "version", kDocumentVersion }, { "camera", membersOf(camera) } });
+}
+std::string toJson(CameraPath const& path) {
+    return dumped({ { "version", kDocumentVersion }, { "path", membersOf(path) } });
 }
 
 } // namespace filament::view

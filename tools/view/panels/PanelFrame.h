@@ -22,6 +22,7 @@ struct PanelFrame {
     FrameHistory const& history;
     ChangeMeter& changes;
     MaterialCost const& materialCost;
+    LatencyMeter const& latency;
 };
 
 void drawScenePanel(PanelFrame& frame);
@@ -29,6 +30,7 @@ void drawMaterialPanel(PanelFrame& frame);
 void drawLightPanel(PanelFrame& frame);
 void drawEnvironmentPanel(PanelFrame& frame);
 void drawAnimationPanel(PanelFrame& frame);
+void drawPathPanel(PanelFrame& frame);
 void drawCameraPanel(PanelFrame& frame);
 void drawOptionPanel(PanelFrame& frame);
 void drawDemandPanel(PanelFrame& frame);

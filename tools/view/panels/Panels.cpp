@@ -15,9 +15,9 @@ struct PanelTab {
     const char* name;
     void (*draw)(PanelFrame& frame);
 };
-constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel }, PanelTab{ "Materials", drawMaterialPanel },
-                                PanelTab{ "Lights", drawLightPanel }, PanelTab{ "Sky", drawEnvironmentPanel },
-                                PanelTab{ "Motion", drawAnimationPanel } };
+constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel },      PanelTab{ "Materials", drawMaterialPanel },
+                                PanelTab{ "Lights", drawLightPanel },     PanelTab{ "Sky", drawEnvironmentPanel },
+                                PanelTab{ "Motion", drawAnimationPanel }, PanelTab{ "Path", drawPathPanel } };
 constexpr std::array kRightTabs{ PanelTab{ "Camera", drawCameraPanel },     PanelTab{ "Options", drawOptionPanel },
                                  PanelTab{ "Demand", drawDemandPanel },     PanelTab{ "Graph", drawGraphPanel },
                                  PanelTab{ "Timeline", drawTimelinePanel }, PanelTab{ "Numbers", drawStatisticsPanel },
@@ -72,10 +72,11 @@ void Panels::draw(Document& document, Stage& stage) {
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);
-    PanelFrame frame{ document, stage, state, requests, mNodes, mOptions, mHistory, mChanges, mMaterialCost };
+    PanelFrame frame{ document, stage, state, requests, mNodes, mOptions, mHistory, mChanges, mMaterialCost, latency };
     drawTabs("left", mLayout.left, kLeftTabs, frame);
     drawTabs("right", mLayout.right, kRightTabs, frame);
     drawLoadProgress(frame, mLayout.picture);
+    state.fileDialog.draw();
     drawShortcutList(state);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
-/// looked into. Left: scene, materials, lights, environment, animation. Right: camera, options, demand, graph, timeline,
+/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, demand, graph, timeline,
 /// statistics, log. Every panel is a thin function over a model of plain functions; the models have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
 ///            render, and panels.collect(stage).
@@ -12,12 +12,15 @@
 #pragma once
 
 #include "tools/view/document/Document.h"
+#include "tools/view/panels/FileDialog.h"
 #include "tools/view/panels/FrameHistory.h"
 #include "tools/view/panels/GraphModel.h"
+#include "tools/view/panels/LatencyMeter.h"
 #include "tools/view/panels/MaterialCost.h"
 #include "tools/view/panels/OptionCosts.h"
 #include "tools/view/panels/OptionTable.h"
 #include "tools/view/panels/PanelLayout.h"
+#include "tools/view/panels/PathModel.h"
 #include "tools/view/panels/SceneTree.h"
 
 #include <filament/Renderer.h>
@@ -48,8 +51,12 @@ struct PanelState {
     std::string treeFilter{}, materialFilter{}, optionFilter{}, demandFilter{};
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
     bool showsPanels = true, showsShortcuts = false;
-    std::string opensPanel{};            ///< one of panelNames(): comes to the front of its column; then empty again
-    std::vector<std::string> messages{}; ///< the newest last; what the program adds, and edits that were refused
+    PathState path{};
+    RecordingState recording{};
+    FileDialog fileDialog{};
+    FrameKind pictureKind = FrameKind::Png; ///< of saved pictures; not Video
+    std::string opensPanel{};               ///< one of panelNames(): comes to the front of its column; then empty again
+    std::vector<std::string> messages{};    ///< the newest last; what the program adds, and edits that were refused
 
     void addMessage(std::string message); ///< keeps the last 50
 };
@@ -61,6 +68,7 @@ std::vector<std::string_view> panelNames();
 struct PanelRequests {
     bool cancelsLoading = false;
     bool framesSelection = false;
+    bool recordsPath = false, stopsRecording = false; ///< PanelState::path, as PanelState::recording says
 };
 
 class Panels {
@@ -73,6 +81,7 @@ public:
 
     PanelState state{};
     PanelRequests requests{};
+    LatencyMeter latency{}; ///< the program feeds it; the statistics panel shows it
     PanelLayout const& layout() const { return mLayout; }
     FrameHistory const& history() const { return mHistory; }
     ChangeMeter const& changes() const { return mChanges; }

@@ -27,6 +27,21 @@ TEST(ViewerOptions, TakesTheWordsOfScripts) {
     EXPECT_EQ(found.workers, 0);
 }
 
+TEST(ViewerOptions, TakesTheWordsOfCameraPaths) {
+    const auto shown = parse({ "--camera-path", "p.json" });
+    ASSERT_TRUE(shown.ok()) << shown.error().message;
+    EXPECT_EQ((*shown)->cameraPath, "p.json");
+    EXPECT_FALSE((*shown)->drawsPath()) << "a window opens";
+    const auto drawn = parse({ "--camera-path", "p.json", "--frames-to", "frames", "--fps", "29.97", "--frame-format",
+                               "exr", "--video", "a.mp4" });
+    ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+    EXPECT_TRUE((*drawn)->drawsPath());
+    EXPECT_EQ((*drawn)->series.folder, "frames");
+    EXPECT_EQ((*drawn)->series.video, "a.mp4");
+    EXPECT_EQ((*drawn)->series.framesPerSecond, 29.97);
+    EXPECT_EQ((*drawn)->series.format, PictureFormat::Exr);
+}
+
 TEST(ViewerOptions, NamesWhatIsWrong) {
     const std::pair<std::vector<const char*>, const char*> cases[] = {
         { { "--backend", "metal" }, "--backend" },
@@ -37,6 +52,12 @@ TEST(ViewerOptions, NamesWhatIsWrong) {
         { { "--screenshot", "a.png" }, "--frames" },
         { { "--frames", "1", "--screenshot", "a.gif" }, ".png" },
         { { "--size", "0x0" }, "--size" },
+        { { "--frames-to", "frames" }, "--camera-path" },
+        { { "--video", "a.mp4" }, "--camera-path" },
+        { { "--frames-to", "frames", "--camera-path", "p.json", "--frames", "3" }, "--frames" },
+        { { "--fps", "0" }, "--fps" },
+        { { "--fps", "fast" }, "--fps" },
+        { { "--frame-format", "gif" }, "png or exr" },
     };
     for (auto const& [words, part] : cases) {
         const auto options = parse(words);

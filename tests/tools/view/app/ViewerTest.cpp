@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer without a window: events in, documents and pictures out, on both APIs.
 #include "tools/view/app/Viewer.h"
-#include "tests/tools/view/app/TestScene.h"
+#include "tests/tools/view/app/HeadlessViewer.h"
 
 #include <gmock/gmock.h>
 
@@ -9,44 +9,6 @@
 
 namespace filament::view {
 namespace {
-
-constexpr uint2 kPictureSize{ 640, 360 };
-
-struct Headless {
-    std::unique_ptr<Viewer> viewer;
-
-    explicit Headless(Backend backend) {
-        auto made = Viewer::create(testOptions(backend), showcaseDocument(kPictureSize), { .pixels = kPictureSize });
-        if (!made) ADD_FAILURE() << made.error().message;
-        if (made) viewer = std::move(*made);
-    }
-    void settle(std::string const& when = "settle") {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        viewer->step(0.01);
-        while ((viewer->isLoading() || viewer->idleSeconds() < 0.1) && std::chrono::steady_clock::now() < end)
-            viewer->step(0.01);
-        if (std::chrono::steady_clock::now() < end) return;
-        ADD_FAILURE() << when << ": still busy after a minute; loading: " << viewer->stage().progress().what;
-    }
-    Image picture(std::string const& when = "picture") {
-        settle(when);
-        auto image = viewer->screenshot();
-        EXPECT_TRUE(image.ok());
-        return image ? std::move(*image) : Image{};
-    }
-    void press(int key, Modifiers modifiers = {}) {
-        viewer->handle(KeyEvent{ key, true, modifiers });
-        viewer->handle(KeyEvent{ key, false, {} });
-    }
-    void click(float2 pixel) {
-        viewer->handle(MouseMoveEvent{ pixel });
-        viewer->step(0.01);
-        viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
-        viewer->step(0.01);
-        viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
-        viewer->step(0.01);
-    }
-};
 
 class ViewerTest : public testing::TestWithParam<Backend> {};
 INSTANTIATE_TEST_SUITE_P(Apis, ViewerTest, testing::Values(Backend::Vulkan, Backend::Gles),

@@ -50,6 +50,8 @@ Image pictureOf(PanelStage& stage, std::string_view panel) {
     stage.panels.state.selectedNode = 1;
     stage.panels.state.selectedMaterial = "canvas";
     stage.panels.state.selectedLight = view::LightSelection{ false, 0 };
+    if (stage.document.paths.empty())
+        addKey(shownPath(stage.document, stage.panels.state.path), stage.panels.state.path, stage.document.view.camera);
     for (int i = 0; i < 3; ++i) stage.frame();
     return stage.read();
 }
@@ -196,11 +198,15 @@ TEST(Panels, EveryWidgetLeavesADocumentThatIsValid) {
     stage.panels.state.selectedMaterial = "canvas";
     stage.panels.state.selectedLight = view::LightSelection{ false, 0 };
     addBookmark(stage.document);
+    for (int i = 0; i < 3; ++i)
+        addKey(shownPath(stage.document, stage.panels.state.path), stage.panels.state.path, stage.document.view.camera);
     stage.frame();
     size_t widgets = 0, edits = 0;
     const std::vector<std::string_view> names = view::panelNames();
+    const auto firstOfRight = std::ranges::find(names, "Camera") - names.begin();
     for (size_t i = 0; i < names.size(); ++i) {
-        const view::PanelRect column = i < 5 ? stage.panels.layout().left : stage.panels.layout().right;
+        const view::PanelRect column =
+                static_cast<ptrdiff_t>(i) < firstOfRight ? stage.panels.layout().left : stage.panels.layout().right;
         const Document before = stage.document;
         for (Clicked const& click : clicksOn(stage, names[i], column)) {
             ++widgets;

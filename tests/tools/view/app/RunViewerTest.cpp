@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera paths by the command line: without a window, and the program ends by itself.
+#include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/tools/view/app/FakeFfmpeg.h"
+#include "tests/tools/view/app/TestScene.h"
+#include "tools/view/app/RunViewer.h"
+#include "tools/view/document/TextForms.h"
+
+#include <gmock/gmock.h>
+
+namespace filament::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The exit status of filament-view; what it says on standard error is kept in `error`.
+int statusOf(std::vector<std::string> const& given, std::string& error) {
+    std::vector<const char*> words{ "filament-view" };
+    for (std::string const& word : given) words.push_back(word.c_str());
+    const auto options = parseViewerOptions(static_cast<int>(words.size()), words.data());
+    EXPECT_TRUE(options.ok()) << options.error().message;
+    testing::internal::CaptureStderr();
+    const int status = options ? runViewer(**options) : -1;
+    error = testing::internal::GetCapturedStderr();
+    return status;
+}
+
+class RunViewer : public testing::Test {
+protected:
+    void SetUp() override {
+        unsetenv("DISPLAY");
+        unsetenv("WAYLAND_DISPLAY");
+        folder = test::folderOfThisTest();
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        CameraPath path;
+        for (int i = 0; i < 2; ++i)
+            path.keys.push_back({ .seconds = 0.5 * i, .camera = Camera::lookAt({ 0.9 - i, 0.6, 1.5 }, double3(0)) });
+        ASSERT_TRUE(saveCameraPath(folder / "path.json", path).ok());
+        words = { showcaseFiles().model.string(), "--environment", showcaseFiles().environment.string(), "--size",
+                  "64x36", "--workers", "0", "--fps", "4", "--camera-path", (folder / "path.json").string() };
+    }
+    std::vector<std::string> with(std::vector<std::string> const& more) const {
+        std::vector<std::string> all = words;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    fs::path folder;
+    std::vector<std::string> words;
+    std::string error;
+};
+
+TEST_F(RunViewer, DrawsACameraPathWithoutADisplay) {
+    for (const char* api : { "vulkan", "gles" }) {
+        const fs::path frames = folder / api;
+        EXPECT_EQ(statusOf(with({ "--backend", api, "--frames-to", frames.string() }), error), 0) << error;
+        EXPECT_EQ(std::distance(fs::directory_iterator(frames), fs::directory_iterator()), 3) << "0, 0.25 and 0.5 s";
+        EXPECT_EQ(error, "");
+    }
+    for (const char* frame : { "frame-00000.png", "frame-00001.png", "frame-00002.png" })
+        EXPECT_EQ(textOfFile(folder / "vulkan" / frame), textOfFile(folder / "gles" / frame)) << frame;
+}
+
+TEST_F(RunViewer, MakesAVideoAndKeepsTheFramesIfAsked) {
+    const FakeFfmpeg ffmpeg(folder / "bin", scriptThatKeepsWords(folder / "words"));
+    const fs::path frames = folder / "frames", video = folder / "round.webm";
+    EXPECT_EQ(statusOf(with({ "--frames-to", frames.string(), "--video", video.string() }), error), 0) << error;
+    EXPECT_TRUE(fs::exists(frames / "frame-00002.png"));
+    EXPECT_EQ(textOfFile(video), "video\n");
+}
+
+TEST_F(RunViewer, FailuresAreOneLineAndAStatus) {
+    const FakeFfmpeg none(folder / "bin", "");
+    EXPECT_EQ(statusOf(with({ "--video", (folder / "a.mp4").string() }), error), 1);
+    EXPECT_THAT(error, testing::HasSubstr("apt-get install ffmpeg"));
+    EXPECT_EQ(std::ranges::count(error, '\n'), 1);
+    words.back() = (folder / "missing.json").string();
+    EXPECT_EQ(statusOf(with({ "--frames-to", (folder / "frames").string() }), error), 1);
+    EXPECT_THAT(error, testing::HasSubstr("missing.json"));
+    EXPECT_FALSE(fs::exists(folder / "frames"));
+}
+
+} // namespace
+} // namespace filament::view

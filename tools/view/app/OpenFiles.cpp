@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/view/app/OpenFiles.h"
+
+#include "filament_core/assets/files/FileBytes.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace filament::view {
+namespace {
+
+void showModel(Document& document, std::filesystem::path const& file) {
+    document.model.file = file;
+    document.model.variant.clear();
+    document.nodes.clear();
+    document.materials.clear();
+    document.modelLights.clear();
+    document.morphs.clear();
+    document.playback = {};
+}
+
+Result<void> showJson(Document& document, std::filesystem::path const& file) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    if (!bytes) return bytes.error();
+    Result<AnyText> text = anyFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+    if (!text) return text.error();
+    showText(document, std::move(*text));
+    return {};
+}
+
+} // namespace
+
+FileKind kindOf(std::filesystem::path const& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
+    if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
+    if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;
+    return ending == ".json" ? FileKind::Document : FileKind::Unknown;
+}
+
+Result<void> showFile(Document& document, std::filesystem::path const& file) {
+    switch (kindOf(file)) {
+    case FileKind::Model:
+        showModel(document, file);
+        return {};
+    case FileKind::Environment:
+        document.environment.file = file;
+        document.environment.prefersModels = false;
+        return {};
+    case FileKind::Document:
+        return showJson(document, file);
+    case FileKind::Unknown:
+        break;
+    }
+    return fail(ErrorCode::Unsupported, "'{}' is nothing to show: open .glb, .gltf, .mat, .hdr, .exr or .json",
+                file.string());
+}
+
+void showText(Document& document, AnyText text) {
+    const uint2 size = document.view.size;
+    if (auto* whole = std::get_if<Document>(&text)) document = std::move(*whole);
+    if (auto* camera = std::get_if<Camera>(&text)) document.view.camera = *camera;
+    if (auto* path = std::get_if<CameraPath>(&text)) document.paths.push_back(std::move(*path));
+    document.view.size = size;
+}
+
+} // namespace filament::view

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PictureFile: the formats that pictures of a viewer are saved in.
+///   Thread  any.   Fails: savePicture(): Unreadable with the path and the reason.
+#pragma once
+
+#include <filament/Image.h>
+
+#include <filesystem>
+#include <optional>
+
+namespace filament::view {
+
+enum class PictureFormat : uint8_t {
+    Png, ///< what is shown: RGBA8, as the document grades it
+    Exr, ///< light before the tone mapper: RGBA16F
+};
+
+inline const char* endingOf(PictureFormat format) { return format == PictureFormat::Exr ? ".exr" : ".png"; }
+/// By the ending; none: another one.
+inline std::optional<PictureFormat> pictureFormatOf(std::filesystem::path const& file) {
+    if (file.extension() == ".png") return PictureFormat::Png;
+    if (file.extension() == ".exr") return PictureFormat::Exr;
+    return std::nullopt;
+}
+/// Of the image that is drawn for it.
+inline Format imageFormatOf(PictureFormat format) {
+    return format == PictureFormat::Exr ? Format::RGBA16F : Format::RGBA8;
+}
+inline Result<void> savePicture(std::filesystem::path const& file, Image const& image, OutputSpace space) {
+    return image.format == Format::RGBA16F ? saveExr(file, image) : savePng(file, image, space);
+}
+
+} // namespace filament::view
