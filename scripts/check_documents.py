@@ -4,7 +4,7 @@
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
-Pictures are the .png and .svg files below docs/. Links to other hosts and to places within a page are not followed.
+Pictures are the .png and .svg files below docs/. Links to other hosts are not followed; scripts/docs also follows those to places within a page.
 """
 import argparse
 import html
@@ -41,7 +41,7 @@ def targets(document):
     text = without_code(text) if document.suffix == ".md" else text
     for found in LINKS[document.suffix].finditer(text):
         target = urllib.parse.unquote(html.unescape(found[1] or found[2]).split("#")[0])
-        if target and not re.match(r"[a-z]+:", target):
+        if target and not re.match(r"[a-z]+:|{{", target):  # {{ }}: of a template
             yield text.count("\n", 0, found.start()) + 1, document.parent / target
 
 
