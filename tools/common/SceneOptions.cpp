@@ -2,6 +2,7 @@
 #include "tools/common/SceneOptions.h"
 
 #include "tools/common/CommandLine.h"
+#include "tools/common/SceneChoices.h"
 
 #include <filament/Look.h>
 #include <filament/RenderPreset.h>
@@ -98,67 +99,6 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     return {};
 }
 
-/// --set sun.NAME=VALUE: what --sun has no place for.
-Result<void> convertSun(std::string const& name, std::string const& value, std::optional<SunLight>& sun) {
-    const std::string option = "--set " + name;
-    if (!sun) return invalidOption(option.c_str(), value, "a --sun as well");
-    if (name == "sun.showsDisc") return convertSwitch(option.c_str(), value, sun->showsDisc);
-    if (name == "sun.contactShadows") return convertSwitch(option.c_str(), value, sun->contactShadows);
-    const auto number = [&](float& member, double least, double most, const char* cure) -> Result<void> {
-        const auto given = finiteNumber(value);
-        if (!given || *given < least || *given > most) return invalidOption(option.c_str(), value, cure);
-        member = static_cast<float>(*given);
-        return {};
-    };
-    if (name == "sun.angularRadiusDegrees") return number(sun->angularRadiusDegrees, 0, 20, "degrees from 0 to 20");
-    if (name == "sun.haloSize") return number(sun->haloSize, 1, 1000, "a number from 1 to 1000");
-    if (name == "sun.haloFalloff") return number(sun->haloFalloff, 0, 10'000, "a number from 0 to 10000");
-    return invalidOption(
-            "--set", name,
-            "sun.showsDisc, sun.contactShadows, sun.angularRadiusDegrees, sun.haloSize or sun.haloFalloff");
-}
-
-/// The options outside Quality: the view's, and those that matter when an engine is made or a file is loaded. Returns
-/// nothing for other names.
-std::optional<Result<void>> convertLoadChoice(std::string const& name, std::string const& value,
-                                              SceneOptions& options) {
-    const auto choose = [&](auto& member, auto const& known, const char* cure) -> Result<void> {
-        if (!known) return invalidOption(("--set " + name).c_str(), value, cure);
-        member = *known;
-        return {};
-    };
-    if (name == "debugView") return choose(options.debugView, debugViewFromName(value), debugViewNames());
-    if (name == "samples")
-        return choose(options.samples,
-                      value == "1"   ? std::optional<uint8_t>(1)
-                      : value == "4" ? std::optional<uint8_t>(4)
-                                     : std::nullopt,
-                      "1 or 4 samples a pixel");
-    if (name == "bloom.dirt") {
-        options.dirt = value;
-        return Result<void>();
-    }
-    if (name.starts_with("sun.")) return convertSun(name, value, options.sun);
-    if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
-    if (name == "environment.format")
-        return choose(options.environmentOptions.format, environmentFormatFromName(value),
-                      "RGBA16F, R11G11B10F, RGB9E5 or RGBM");
-    if (name == "environment.roughnessMapping")
-        return choose(options.environmentOptions.roughnessMapping, roughnessMappingFromName(value),
-                      "quadratic, logarithmic or linear");
-    if (name == "model.positions")
-        return choose(options.modelOptions.positions, positionStorageFromName(value), "asAuthored, half or unorm16");
-    if (name == "model.tangents")
-        return choose(options.modelOptions.tangents, tangentStorageFromName(value), "snorm16, snorm8 or float");
-    if (name == "model.files") {
-        if (value != "folder" && value != "anywhere")
-            return invalidOption("--set model.files", value, "folder or anywhere");
-        options.modelOptions.filesFromAnywhere = value == "anywhere";
-        return Result<void>();
-    }
-    return std::nullopt;
-}
-
 Result<void> convertPreset(SceneWords const& words, SceneOptions& options) {
     if (words.preset.empty()) return {};
     const auto preset = renderPresetFromName(words.preset);
@@ -182,7 +122,7 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
         const size_t equals = word.find('=');
         if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
         const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
-        if (const auto chosen = convertLoadChoice(name, value, options)) {
+        if (const auto chosen = setSceneChoice(options, name, value)) {
             if (!*chosen) return *chosen;
             continue;
         }

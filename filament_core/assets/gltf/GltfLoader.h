@@ -4,12 +4,8 @@
 ///   Out     the default scene. Default morph weights and the skins' rest pose are applied, or, with
 ///           GltfOptions::deformation, skins, morph targets and animations are kept as data. Only what the scene shows
 ///           is loaded: unused meshes, materials and images are skipped.
-///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
-///           KHR_texture_transform, KHR_node_visibility, KHR_lights_punctual, EXT_lights_ies,
-///           EXT_lights_image_based, EXT_mesh_gpu_instancing,
-///           KHR_materials_anisotropy, clearcoat, diffuse_transmission, dispersion, emissive_strength, ior, iridescence,
-///           pbrSpecularGlossiness, sheen, specular, transmission, unlit, variants, volume. Another one is an error if
-///           the file requires it; otherwise it is named in ModelData::warnings, once, and the material without it is drawn.
+///   Knows   the extensions of GltfExtensions.h. Another one is an error if the file requires it; otherwise it is named
+///           in ModelData::warnings, once, and the material without it is drawn.
 ///   Does not  read KTX2 or WebP: a texture in use that has nothing else is an error.
 ///   Thread  any; images and primitives are decoded as jobs, and this thread takes part. The result does not depend on
 ///           the number of workers.

@@ -1,41 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
 
+#include "filament_core/assets/gltf/GltfExtensions.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace filament::assets {
 namespace {
-
-// The extensions that the loader supports completely. KHR_xmp: metadata, without effect.
-constexpr std::array<std::string_view, 26> kSupportedExtensions{
-    "KHR_draco_mesh_compression",
-    "EXT_meshopt_compression",
-    "KHR_meshopt_compression",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
-    "KHR_lights_punctual",
-    "EXT_lights_ies",
-    "EXT_lights_image_based",
-    "KHR_node_visibility",
-    "EXT_mesh_gpu_instancing",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-};
 
 constexpr std::string_view kIesMimeType = "application/x-ies-lm-63";
 
@@ -199,13 +171,10 @@ std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, si
 }
 
 void checkExtensions(JsonNode const& root, Diagnostics& diagnostics) {
-    const auto isSupported = [](std::string_view name) {
-        return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) != kSupportedExtensions.end();
-    };
     std::vector<std::string> required;
     for (JsonNode const& node : root["extensionsRequired"].elements()) {
         required.push_back(node.text());
-        if (isSupported(required.back())) continue;
+        if (isSupportedGltfExtension(required.back())) continue;
         diagnostics.refuse(ErrorCode::Unsupported,
                            "extension {} is required by the file but not supported; export the model without it",
                            required.back());
@@ -213,7 +182,8 @@ void checkExtensions(JsonNode const& root, Diagnostics& diagnostics) {
     for (JsonNode const& node : root["extensionsUsed"].elements()) {
         const std::string name = node.text();
         const bool wasNamed = std::find(required.begin(), required.end(), name) != required.end();
-        if (!isSupported(name) && !wasNamed) diagnostics.warn("extension {} is not supported and is ignored", name);
+        if (!isSupportedGltfExtension(name) && !wasNamed)
+            diagnostics.warn("extension {} is not supported and is ignored", name);
     }
 }
 

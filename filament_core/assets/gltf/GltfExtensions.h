@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfExtensions: the extensions of glTF 2.0 that the loader supports completely, and what it makes of each. The loader
+/// refuses files that require another one; docs/gltf.md has the table.
+///   Thread  any; constant data.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace filament::assets {
+
+struct GltfExtension {
+    std::string_view name;   ///< as files spell it
+    std::string_view effect; ///< for documents: one phrase of Markdown
+};
+
+/// Sorted by subject: how data is stored, the scene, light, materials, metadata.
+std::span<const GltfExtension> gltfExtensions();
+bool isSupportedGltfExtension(std::string_view name);
+
+} // namespace filament::assets

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What --set accepts besides quality, effects and grading: every choice of the table is one, with the value that it has at first.
+#include "tools/common/SceneChoices.h"
+
+#include <gmock/gmock.h>
+
+namespace filament::tools {
+namespace {
+
+using ::testing::HasSubstr;
+
+SceneOptions sunny() {
+    SceneOptions options;
+    options.sun = SunLight{};
+    return options;
+}
+
+/// What the choices change, as one text.
+std::string stateOf(SceneOptions const& o) {
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(o.debugView), o.samples,
+                       o.sun->showsDisc, o.sun->contactShadows, o.sun->angularRadiusDegrees, o.sun->haloSize,
+                       o.sun->haloFalloff, o.exactShaders, static_cast<int>(o.environmentOptions.format),
+                       static_cast<int>(o.environmentOptions.roughnessMapping),
+                       static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
+                       o.modelOptions.filesFromAnywhere);
+}
+
+TEST(SceneChoices, HaveTheirInitialValuesAtFirst) {
+    for (SceneChoice const& choice : sceneChoices()) {
+        if (choice.initial.empty()) continue;
+        SceneOptions options = sunny();
+        const auto done = setSceneChoice(options, std::string(choice.name), std::string(choice.initial));
+        ASSERT_TRUE(done && *done) << choice.name;
+        EXPECT_EQ(stateOf(options), stateOf(sunny())) << choice.name;
+    }
+}
+
+TEST(SceneChoices, ChangeWhatTheyName) {
+    const std::pair<const char*, const char*> kChanges[] = {
+        { "debugView", "froxels" },          { "samples", "4" },
+        { "sun.showsDisc", "on" },           { "sun.contactShadows", "on" },
+        { "sun.angularRadiusDegrees", "2" }, { "sun.haloSize", "3" },
+        { "sun.haloFalloff", "7" },          { "exact", "off" },
+        { "environment.format", "RGBM" },    { "environment.roughnessMapping", "linear" },
+        { "model.positions", "half" },       { "model.tangents", "float" },
+        { "model.files", "anywhere" },
+    };
+    for (auto const& [name, value] : kChanges) {
+        SceneOptions options = sunny();
+        const auto done = setSceneChoice(options, name, value);
+        ASSERT_TRUE(done && *done) << name;
+        EXPECT_NE(stateOf(options), stateOf(sunny())) << name;
+    }
+    EXPECT_EQ(std::size(kChanges) + 1, sceneChoices().size()); // and bloom.dirt
+    SceneOptions options;
+    EXPECT_TRUE(*setSceneChoice(options, "bloom.dirt", "dirt.png"));
+    EXPECT_EQ(options.dirt, "dirt.png");
+}
+
+TEST(SceneChoices, RefuseOtherValues) {
+    for (SceneChoice const& choice : sceneChoices()) {
+        if (choice.name == "bloom.dirt") continue;
+        SceneOptions options = sunny();
+        const auto done = setSceneChoice(options, std::string(choice.name), "nonsense");
+        ASSERT_TRUE(done) << choice.name;
+        ASSERT_FALSE(*done) << choice.name;
+        EXPECT_THAT(done->error().message, HasSubstr(fmt::format("--set {}", choice.name)));
+        EXPECT_EQ(stateOf(options), stateOf(sunny())) << choice.name;
+    }
+}
+
+TEST(SceneChoices, OfASunNeedASunAndOthersBelongToOthers) {
+    SceneOptions options;
+    EXPECT_THAT(setSceneChoice(options, "sun.showsDisc", "on")->error().message, HasSubstr("a --sun as well"));
+    EXPECT_THAT(setSceneChoice(options, "sun.colour", "1")->error().message, HasSubstr("sun.haloSize"));
+    EXPECT_FALSE(setSceneChoice(options, "fresnel", "exact"));
+}
+
+} // namespace
+} // namespace filament::tools

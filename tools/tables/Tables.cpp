@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/tables/Tables.h"
+
+#include "filament_core/assets/gltf/GltfExtensions.h"
+#include "shaders/compiler/LanguageTables.h"
+#include "tools/common/SceneChoices.h"
+
+#include <filament/ColorGrading.h>
+#include <filament/Effects.h>
+#include <filament/Quality.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace filament::tools {
+namespace {
+
+constexpr std::string_view kBegin = "<!-- begin: ", kEnd = "<!-- end: ", kClose = " -->";
+
+std::string qualityTable() {
+    std::string text = "| name | values | initially |\n|---|---|---|\n";
+    for (QualityChoice const& choice : qualityChoices()) {
+        std::string values;
+        for (const std::string_view value : choice.values)
+            values += fmt::format("{}`{}`", values.empty() ? "" : ", ", value);
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", choice.name, values,
+                       qualityValue({}, choice.name).value_or(""));
+    }
+    return text;
+}
+
+std::string effectTable() {
+    std::string text = "| name | values | initially |\n|---|---|---|\n";
+    for (EffectOption const& option : effectOptions())
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", option.name, option.range,
+                       effectValue({}, option.name).value_or(""));
+    return text;
+}
+
+std::string gradingTable() {
+    std::string text = "| name | values | initially |\n|---|---|---|\n";
+    for (ColorGradingOption const& option : colorGradingOptions())
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", option.name, option.range,
+                       colorGradingValue(SceneOptions{}.colorGrading, option.name).value_or(""));
+    return text;
+}
+
+std::string choiceTable() {
+    std::string text = "| name | values | initially | effect |\n|---|---|---|---|\n";
+    for (SceneChoice const& choice : sceneChoices()) {
+        const std::string initial = choice.initial.empty() ? "" : fmt::format("`{}`", choice.initial);
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} | {} |\n", choice.name, choice.values, initial,
+                       choice.effect);
+    }
+    return text;
+}
+
+std::string extensionTable() {
+    std::string text = "| extension | what the engine makes of it |\n|---|---|\n";
+    for (assets::GltfExtension const& extension : assets::gltfExtensions())
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} |\n", extension.name, extension.effect);
+    return text;
+}
+
+Error wrongMark(std::string_view document, size_t at, std::string_view name, std::string const& reason) {
+    const auto line = 1 + std::ranges::count(document.substr(0, at), '\n');
+    return fail(ErrorCode::InvalidArgument, "{}:{}: {}", name, line, reason);
+}
+
+/// "NAME" of the mark whose prefix ends at `at`.
+std::string_view markName(std::string_view document, size_t at) {
+    const size_t end = document.find(kClose, at);
+    return document.substr(at, end == std::string_view::npos ? 0 : end - at);
+}
+
+} // namespace
+
+std::vector<NamedTable> documentTables() {
+    std::vector<NamedTable> tables = shader::languageTables();
+    tables.emplace_back("quality-choices", qualityTable());
+    tables.emplace_back("effect-options", effectTable());
+    tables.emplace_back("grading-options", gradingTable());
+    tables.emplace_back("scene-choices", choiceTable());
+    tables.emplace_back("gltf-extensions", extensionTable());
+    return tables;
+}
+
+Result<std::string> withTables(std::string_view document, std::vector<NamedTable> const& tables,
+                               std::string_view name) {
+    std::string out;
+    size_t copied = 0;
+    for (size_t at = document.find(kBegin); at != std::string_view::npos; at = document.find(kBegin, copied)) {
+        const std::string_view table = markName(document, at + kBegin.size());
+        const auto known = std::ranges::find(tables, table, &NamedTable::first);
+        if (known == tables.end()) return wrongMark(document, at, name, fmt::format("there is no table '{}'", table));
+        const std::string begin = fmt::format("{}{}{}\n", kBegin, table, kClose);
+        const std::string end = fmt::format("{}{}{}", kEnd, table, kClose);
+        const size_t to = document.find(end, at);
+        if (!document.substr(at).starts_with(begin) || to == std::string_view::npos)
+            return wrongMark(
+                    document, at, name,
+                    fmt::format("the table needs a line '{}' and then '{}'", begin.substr(0, begin.size() - 1), end));
+        out += document.substr(copied, at - copied);
+        out += begin + known->second + end;
+        copied = to + end.size();
+    }
+    out += document.substr(copied);
+    return out;
+}
+
+} // namespace filament::tools
