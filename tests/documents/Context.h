@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the C++ examples of the documents assume to be there: each is compiled as the body of a function in which these names
+// are known (check_code.py). An example may declare any of them anew.
+#pragma once
+
+#include <filament/BuiltInMaterials.h>
+#include <filament/filament.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace materials {
+std::span<const std::byte> stone(); // as filament_add_materials() generates it
+}
+
+namespace example {
+using namespace filament;
+
+// Engine and Model are results at first: examples write engine-> right after Engine::create(), and engine. elsewhere.
+struct Device {
+    Engine& object;
+    operator Engine&() const { return object; }
+    Engine* operator->() const { return &object; }
+    Engine& operator*() const { return object; }
+};
+
+int report(Error const& error);
+void showLoadingScreen();
+void select(Node node, double3 const& positionWorld);
+
+// windows
+struct Window;
+void* glfwGetX11Display();
+unsigned long glfwGetX11Window(Window* window);
+extern Window* window;
+extern uint2 size, newSize;
+extern bool isOpen, isResized, isEditing;
+
+// objects
+extern Renderer renderer, mapRenderer, interfaceRenderer, cameraRenderer;
+extern Scene scene, world, widgets, overlay;
+extern View view, overlayView, filmed;
+extern Camera fromAbove, parallel;
+extern SwapChain swapChain;
+extern Texture dirt;
+extern Material material;
+extern MaterialInstance red, doorway, otherWorld, television, glow;
+extern VertexBuffer vertices;
+extern IndexBuffer indices;
+extern Renderable smoke;
+extern Result<Model> model, gizmoModel;
+extern Node root;
+extern std::optional<PickHit> hit;
+extern Box bounds;
+extern double4x4 roll, worldFromCar;
+extern double frameSeconds, milliseconds, mouseX, mouseY;
+extern float measured;
+} // namespace example
