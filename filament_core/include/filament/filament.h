@@ -16,6 +16,7 @@
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
 #include <filament/Image.h>
+#include <filament/JobTimeline.h>
 #include <filament/Light.h>
 #include <filament/LightProfile.h>
 #include <filament/Lines.h>

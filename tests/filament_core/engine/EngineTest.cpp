@@ -8,10 +8,13 @@
 #include "base/Log.h"
 #include "shaders/package/EngineMaterials.h"
 
+#include <filament/JobTimeline.h>
+
 #include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <map>
+#include <string>
 #include <thread>
 
 namespace filament {
@@ -302,6 +305,76 @@ TEST(EngineTrace, IsRefusedWhereItWasNotAskedFor) {
     const Result<void> written = engine->writeJobTrace("unused.json");
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("traceJobs"), std::string::npos) << written.error().message;
+}
+
+Result<Engine> tracedEngine(bool traces) {
+    return Engine::create({ .backend = Backend::Null, .workers = 1, .traceJobs = traces });
+}
+
+void drawFrames(Engine& engine, int frames) {
+    Scene scene(engine);
+    Renderer renderer(engine);
+    for (int i = 0; i < frames; ++i) ASSERT_TRUE(renderer.renderToImage(scene, View{ .size = { 8, 8 } }));
+    (void)renderer.takeTimings(); // of the last replay
+}
+
+TEST(JobTimeline, HasThePhasesOfEveryFrameInItsOrder) {
+    auto engine = tracedEngine(true);
+    ASSERT_TRUE(engine);
+    drawFrames(*engine, 3);
+    std::map<std::string, std::vector<JobSpan>> spans;
+    for (JobTrack const& track : jobTimeline(*engine, 1e9)) {
+        EXPECT_FALSE(track.spans.empty()) << track.name;
+        for (JobSpan const& span : track.spans) {
+            EXPECT_LE(span.beginSeconds, span.endSeconds);
+            if (span.frame >= 0) spans[track.name + ": " + span.name].push_back(span);
+        }
+    }
+    for (const char* name : { "app thread: prepare frame", "app thread: wait for driver", "app thread: record frame",
+                              "driver thread: replay frame" })
+        EXPECT_EQ(spans[name].size(), 3u) << name;
+    for (size_t i = 0; i < 3; ++i) {
+        JobSpan const& record = spans["app thread: record frame"].at(i);
+        JobSpan const& replay = spans["driver thread: replay frame"].at(i);
+        EXPECT_EQ(record.frame, replay.frame);
+        EXPECT_LE(record.beginSeconds, replay.beginSeconds) << "the same clock for both threads";
+        EXPECT_EQ(record.kind, JobSpan::Kind::Phase);
+    }
+}
+
+TEST(JobTimeline, KeepsWhatEndedLately) {
+    auto engine = tracedEngine(true);
+    ASSERT_TRUE(engine);
+    drawFrames(*engine, 3);
+    double newest = 0;
+    for (JobTrack const& track : jobTimeline(*engine, 1e9))
+        for (JobSpan const& span : track.spans) newest = std::max(newest, span.endSeconds);
+    size_t kept = 0;
+    for (JobTrack const& track : jobTimeline(*engine, 0))
+        for (JobSpan const& span : track.spans) {
+            EXPECT_NEAR(span.endSeconds, newest, 1e-9);
+            ++kept;
+        }
+    EXPECT_EQ(kept, 1u);
+}
+
+TEST(JobTimeline, KnowsNothingOfAnEngineWithoutATrace) {
+    auto engine = tracedEngine(false);
+    ASSERT_TRUE(engine);
+    drawFrames(*engine, 1);
+    EXPECT_TRUE(jobTimeline(*engine, 1e9).empty());
+}
+
+TEST(JobTimeline, IsReadByOtherThreadsWhileFramesAreDrawn) {
+    auto engine = tracedEngine(true);
+    ASSERT_TRUE(engine);
+    size_t tracks = 0;
+    std::thread reader([&] {
+        for (int i = 0; i < 50; ++i) tracks = std::max(tracks, jobTimeline(*engine, 1).size());
+    });
+    drawFrames(*engine, 20);
+    reader.join();
+    EXPECT_GE(jobTimeline(*engine, 1e9).size(), 2u);
 }
 
 TEST(EngineCreate, ListsBothApis) {
