@@ -18,6 +18,14 @@ namespace {
 
 constexpr size_t kEncoders = 2; // pictures at a time
 
+Result<void> makeFolder(std::filesystem::path const& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (!error && std::filesystem::is_directory(folder, error)) return {};
+    return fail(ErrorCode::Unreadable, "cannot make the folder '{}': {}; choose another one", folder.string(),
+                error ? error.message() : "a file has its name");
+}
+
 /// Where frames lie while a video alone is asked for: beside it, removed at the end.
 class FrameFolder {
 public:
@@ -32,13 +40,6 @@ public:
         if (mIsOwn) std::filesystem::remove_all(mPath, ignored);
     }
     std::filesystem::path const& path() const { return mPath; }
-    Result<void> make() const {
-        std::error_code error;
-        std::filesystem::create_directories(mPath, error);
-        if (!error && std::filesystem::is_directory(mPath, error)) return {};
-        return fail(ErrorCode::Unreadable, "cannot make the folder '{}': {}; choose another one", mPath.string(),
-                    error ? error.message() : "a file has its name");
-    }
 
 private:
     std::filesystem::path mPath;
@@ -152,7 +153,9 @@ Result<void> check(PathRequest const& request) {
 Result<PathResult> drawPath(PathRequest const& request, PathProgress& progress) {
     if (Result<void> good = check(request); !good) return good.error();
     const FrameFolder folder(request.series);
-    if (Result<void> made = folder.make(); !made) return made.error();
+    if (Result<void> made = makeFolder(folder.path()); !made) return made.error();
+    const std::filesystem::path ofVideo = request.series.video.parent_path();
+    if (Result<void> made = ofVideo.empty() ? Result<void>() : makeFolder(ofVideo); !made) return made.error();
     PathResult result;
     {
         auto stage = Stage::create({ .engine = request.engine, .watchesFiles = false });

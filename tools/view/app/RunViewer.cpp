@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <future>
@@ -91,6 +92,7 @@ public:
             for (InputEvent const& event : mWindow.takeEvents(mViewer.idleSeconds())) mViewer.handle(event);
             const Clock::time_point now = Clock::now();
             if (mOptions.frames > 0) mViewer.redraw();
+            openPanels();
             mViewer.step(std::chrono::duration<double>(now - last).count());
             last = now;
             followFullScreen();
@@ -101,6 +103,21 @@ public:
 
 private:
     bool isDone() const { return mOptions.frames > 0 && mViewer.completeFrames() >= mOptions.frames; }
+
+    /// One at a time: the panels say when it is in front. A node is selected once the model is there.
+    void openPanels() {
+        PanelState& state = mViewer.panels().state;
+        if (state.opensPanel.empty() && mOpened < mOptions.openPanels.size())
+            state.opensPanel = mOptions.openPanels[mOpened++];
+        if (mOptions.select.empty() || mHasSelected || mViewer.isLoading() || mViewer.stage().nodes().empty()) return;
+        mHasSelected = true;
+        const std::vector<SceneNode> nodes = sceneNodes(mViewer.stage());
+        const auto found = std::ranges::find(nodes, mOptions.select, &SceneNode::name);
+        if (found == nodes.end())
+            tools::printWarning(fmt::format("--select {}: the model has no node of this name", mOptions.select));
+        else
+            state.selectedNode = static_cast<uint32_t>(found - nodes.begin());
+    }
 
     void followFullScreen() {
         if (mIsFullScreen == mViewer.wantsFullScreen()) return;
@@ -124,7 +141,8 @@ private:
     Window& mWindow;
     Viewer& mViewer;
     const Clock::time_point mBegin;
-    bool mIsFullScreen = false, mHasFirstFrame = false;
+    bool mIsFullScreen = false, mHasFirstFrame = false, mHasSelected = false;
+    size_t mOpened = 0; ///< of ViewerOptions::openPanels
 };
 
 Result<void> show(ViewerOptions const& options) {

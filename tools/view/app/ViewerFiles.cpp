@@ -15,7 +15,9 @@ PictureFormat pictureFormatOf(FrameKind kind) {
 } // namespace
 
 void Viewer::open(std::filesystem::path const& file) {
+    const size_t paths = mDocument.paths.size();
     if (const Result<void> shown = showFile(mDocument, file); !shown) return note(shown.error().message);
+    if (mDocument.paths.size() > paths) mPanels.state.path = { .path = mDocument.paths.size() - 1 };
     const Result<void> kept = mRecent.add(file);
     mPanels.state.fileDialog.recent = mRecent.files();
     if (!kept) note(kept.error().message);

@@ -2,8 +2,12 @@
 #include "tools/view/app/ViewerOptions.h"
 
 #include "tools/common/CommandLine.h"
+#include "tools/view/panels/Panels.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
 
 namespace filament::view {
 namespace {
@@ -30,6 +34,8 @@ void declare(CLI::App& app, Words& words, ViewerOptions& options) {
     app.add_option("--video", words.video, "FILE.mp4, .mov, .mkv, .webm: make a video of them, by the ffmpeg command");
     app.add_option("--fps", words.framesPerSecond, "frames a second of the camera path")->default_str("30");
     app.add_option("--panels", words.panels, "on (default) or off; Tab changes it while it runs")->default_str("on");
+    app.add_option("--panel", options.openPanels, "NAME, as on its tab: open it at the start; repeatable");
+    app.add_option("--select", options.select, "NODE: select this node of the model, once it is loaded");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_flag("--validation", options.validation, "check every command, and enable the validation layers");
 }
@@ -45,6 +51,9 @@ Result<void> convertChoices(Words const& words, ViewerOptions& options) {
         options.presentMode = PresentMode::Immediate;
     else if (words.presentMode != "fifo")
         return invalidOption("--present", words.presentMode, "fifo, mailbox or immediate");
+    for (std::string const& name : options.openPanels)
+        if (const std::vector<std::string_view> known = panelNames(); std::ranges::find(known, name) == known.end())
+            return invalidOption("--panel", name, fmt::format("one of {}", fmt::join(known, ", ")).c_str());
     return tools::convertSwitch("--panels", words.panels, options.panels);
 }
 

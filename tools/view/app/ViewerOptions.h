@@ -12,6 +12,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace filament::view {
 
@@ -27,6 +29,8 @@ struct ViewerOptions : tools::SceneOptions {
     bool drawsPath() const { return !series.folder.empty() || !series.video.empty(); }
     std::filesystem::path recentFiles; ///< RecentFiles.h; empty: none are kept
     bool panels = true;
+    std::vector<std::string> openPanels; ///< of panelNames(): each comes to the front of its column
+    std::string select;                  ///< a node of the model by its name; empty: none
     bool validation = false;
     int workers = -1; ///< as EngineOptions::workers
 };

@@ -56,6 +56,13 @@ void drawBookmarks(PanelFrame& frame) {
     }
 }
 
+void drawPictureFormat(FrameKind& kind) {
+    int chosen = static_cast<int>(kind);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 16);
+    if (ImGui::Combo("of F12", &chosen, "PNG: what is shown\0EXR: light before the tone mapper\0"))
+        kind = static_cast<FrameKind>(chosen);
+}
+
 void drawFileCameras(PanelFrame& frame) {
     if (!frame.stage.modelCopy()) return;
     const std::vector<CopyCamera> cameras = frame.stage.modelCopy()->cameras();
@@ -78,6 +85,8 @@ void drawCameraPanel(PanelFrame& frame) {
     if (ImGui::CollapsingHeader("Exposure", ImGuiTreeNodeFlags_DefaultOpen)) drawExposure(camera.exposure);
     ImGui::PopItemWidth();
     if (ImGui::CollapsingHeader("Bookmarks", ImGuiTreeNodeFlags_DefaultOpen)) drawBookmarks(frame);
+    if (ImGui::CollapsingHeader("Saved pictures", ImGuiTreeNodeFlags_DefaultOpen))
+        drawPictureFormat(frame.state.pictureKind);
     ImGui::PushID("file");
     if (ImGui::CollapsingHeader("Cameras of the file", ImGuiTreeNodeFlags_DefaultOpen)) drawFileCameras(frame);
     ImGui::PopID();

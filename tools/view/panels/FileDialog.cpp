@@ -133,7 +133,11 @@ void FileDialog::walk(std::vector<size_t> const& shown) {
 void FileDialog::drawPlace() {
     if (ImGui::ArrowButton("above", ImGuiDir_Up)) goTo(mFolder.parent_path());
     ImGui::SameLine();
-    ImGui::TextUnformatted(shownName(mFolder.string()).c_str());
+    std::string place = shownName(mFolder.string());
+    const auto characters = static_cast<size_t>(ImGui::GetContentRegionAvail().x / ImGui::CalcTextSize("m").x);
+    if (characters > 3 && place.size() > characters) // its end says more than its beginning
+        place = "..." + shownName(place.substr(place.size() - characters + 3));
+    ImGui::TextUnformatted(place.c_str());
 }
 
 void FileDialog::drawRecent() {

@@ -10,7 +10,7 @@
 
 namespace filament::view {
 
-inline constexpr float kLeftColumn = 320, kRightColumn = 400, kLeastColumn = 180;
+inline constexpr float kLeftColumn = 330, kRightColumn = 400, kLeastColumn = 180;
 inline constexpr float kLeftShare = 0.55f; ///< of the left column's height: the tree; the rest: what is selected
 
 struct PanelRect {

@@ -34,6 +34,7 @@ bool drawKey(PanelFrame& frame, CameraPath& path, size_t key) {
     PathState& state = frame.state.path;
     const double first = path.keys.front().seconds;
     ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
     if (ImGui::Selectable(fmt::format("{}", key + 1).c_str(), state.key == key)) selectKey(frame.document, state, key);
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-FLT_MIN);

@@ -28,10 +28,10 @@ void drawHistory(FrameHistory const& history, FrameNumber number) {
 
 void drawLatency(LatencyMeter const& latency) {
     const Percentiles input = latency.milliseconds(), inFlight = latency.inFlight();
-    if (input.count == 0) return quietText("from input to window: no input yet");
-    quietText(fmt::format("from input to window: median {}, 95 % within {}", millisecondsText(input.median),
+    if (input.count == 0) return quietText("input to window: no input yet");
+    quietText(fmt::format("input to window: median {}, p95 {}", millisecondsText(input.median),
                           millisecondsText(input.p95)));
-    quietText(fmt::format("frames in flight: median {:.0f}, 95 % at most {:.0f}", inFlight.median, inFlight.p95));
+    quietText(fmt::format("frames in flight: median {:.0f}, p95 {:.0f}", inFlight.median, inFlight.p95));
     const std::vector<float> values = latency.history();
     const std::string label = fmt::format("input to window, last {} inputs", input.count);
     ImGui::PlotLines("##latency", values.data(), static_cast<int>(values.size()), 0, label.c_str(), 0,
@@ -47,7 +47,8 @@ void drawStatisticsPanel(PanelFrame& frame) {
     ImGui::TextWrapped("%s: %s", toString(device.backend), device.device.c_str());
     quietText(fmt::format("{} pipelines, {} programs; {} on the device", statistics.pipelinesCreated,
                           statistics.programsCreated, bytesText(statistics.deviceBytes)));
-    quietText(fmt::format("waited {} for the driver thread", millisecondsText(statistics.latency.backPressureMedian)));
+    const std::string waited = millisecondsText(statistics.latency.backPressureMedian);
+    quietText(fmt::format("waited {} for the driver thread", waited.empty() ? "not" : waited));
     drawLatency(frame.latency);
     if (ImGui::BeginChild("plots"))
         for (uint8_t i = 0; i < static_cast<uint8_t>(FrameNumber::Count); ++i)

@@ -158,7 +158,6 @@ TEST(PathFrames, FailuresNameTheirFile) {
 
 TEST(PathFrames, AVideoAloneLeavesNoFrames) {
     const fs::path folder = emptyFolder();
-    fs::create_directories(folder / "videos");
     // It looks at the frames that it is given.
     const std::string counts =
             "n=0; for f in \"$(dirname \"$last\")\"/.*.frames/frame-*.png; do n=$((n+1)); done; echo $n > \"$last\"";

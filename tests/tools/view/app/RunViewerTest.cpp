@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera paths by the command line: without a window, and the program ends by itself.
+#include "tools/view/app/RunViewer.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/tools/view/app/FakeFfmpeg.h"
 #include "tests/tools/view/app/TestScene.h"
-#include "tools/view/app/RunViewer.h"
+#include "tests/windows/VirtualDisplay.h"
+#include "tools/view/app/RecentFiles.h"
 #include "tools/view/document/TextForms.h"
 
 #include <gmock/gmock.h>
@@ -37,8 +39,15 @@ protected:
         for (int i = 0; i < 2; ++i)
             path.keys.push_back({ .seconds = 0.5 * i, .camera = Camera::lookAt({ 0.9 - i, 0.6, 1.5 }, double3(0)) });
         ASSERT_TRUE(saveCameraPath(folder / "path.json", path).ok());
-        words = { showcaseFiles().model.string(), "--environment", showcaseFiles().environment.string(), "--size",
-                  "64x36", "--workers", "0", "--fps", "4", "--camera-path", (folder / "path.json").string() };
+        words = { showcaseFiles().model.string(),
+                  "--environment",
+                  showcaseFiles().environment.string(),
+                  "--workers",
+                  "0",
+                  "--fps",
+                  "4",
+                  "--camera-path",
+                  (folder / "path.json").string() };
     }
     std::vector<std::string> with(std::vector<std::string> const& more) const {
         std::vector<std::string> all = words;
@@ -53,7 +62,8 @@ protected:
 TEST_F(RunViewer, DrawsACameraPathWithoutADisplay) {
     for (const char* api : { "vulkan", "gles" }) {
         const fs::path frames = folder / api;
-        EXPECT_EQ(statusOf(with({ "--backend", api, "--frames-to", frames.string() }), error), 0) << error;
+        EXPECT_EQ(statusOf(with({ "--backend", api, "--size", "64x36", "--frames-to", frames.string() }), error), 0)
+                << error;
         EXPECT_EQ(std::distance(fs::directory_iterator(frames), fs::directory_iterator()), 3) << "0, 0.25 and 0.5 s";
         EXPECT_EQ(error, "");
     }
@@ -63,10 +73,27 @@ TEST_F(RunViewer, DrawsACameraPathWithoutADisplay) {
 
 TEST_F(RunViewer, MakesAVideoAndKeepsTheFramesIfAsked) {
     const FakeFfmpeg ffmpeg(folder / "bin", scriptThatKeepsWords(folder / "words"));
-    const fs::path frames = folder / "frames", video = folder / "round.webm";
-    EXPECT_EQ(statusOf(with({ "--frames-to", frames.string(), "--video", video.string() }), error), 0) << error;
+    const fs::path frames = folder / "frames", video = folder / "new folder/round.webm";
+    EXPECT_EQ(statusOf(with({ "--size", "64x36", "--frames-to", frames.string(), "--video", video.string() }), error),
+              0)
+            << error;
     EXPECT_TRUE(fs::exists(frames / "frame-00002.png"));
     EXPECT_EQ(textOfFile(video), "video\n");
+}
+
+TEST_F(RunViewer, OpensPanelsAndRemembersItsModel) {
+    const auto server = test::VirtualDisplay::start();
+    if (!server) return;
+    setenv("DISPLAY", server->name().c_str(), 1);
+    setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);
+    const fs::path picture = folder / "window.png";
+    const std::vector<std::string> last{ "--frames", "4",      "--panel",      "Path",           "--panel", "Numbers",
+                                         "--select", "nobody", "--screenshot", picture.string(), "--size",  "900x500" };
+    EXPECT_EQ(statusOf(with(last), error), 0) << error;
+    EXPECT_THAT(error, testing::HasSubstr("--select nobody: the model has no node of this name"));
+    EXPECT_TRUE(loadImage(picture).ok());
+    EXPECT_THAT(RecentFiles(recentFilesPath()).files(), testing::ElementsAre(showcaseFiles().model));
+    unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(RunViewer, FailuresAreOneLineAndAStatus) {

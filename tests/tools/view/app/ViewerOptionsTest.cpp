@@ -13,8 +13,10 @@ Result<std::optional<ViewerOptions>> parse(std::vector<const char*> words) {
 }
 
 TEST(ViewerOptions, TakesTheWordsOfScripts) {
-    const auto options = parse({ "model.glb", "--backend", "gles", "--size", "640x360", "--frames", "3", "--screenshot",
-                                 "shot.png", "--present", "mailbox", "--panels", "off", "--workers", "0" });
+    const auto options =
+            parse({ "model.glb", "--backend", "gles",    "--size",   "640x360", "--frames",  "3", "--screenshot",
+                    "shot.png",  "--present", "mailbox", "--panels", "off",     "--workers", "0", "--panel",
+                    "Motion",    "--panel",   "Log",     "--select", "torus" });
     ASSERT_TRUE(options.ok()) << options.error().message;
     ViewerOptions const& found = **options;
     EXPECT_EQ(found.model, "model.glb");
@@ -25,6 +27,8 @@ TEST(ViewerOptions, TakesTheWordsOfScripts) {
     EXPECT_EQ(found.presentMode, PresentMode::Mailbox);
     EXPECT_FALSE(found.panels);
     EXPECT_EQ(found.workers, 0);
+    EXPECT_EQ(found.openPanels, (std::vector<std::string>{ "Motion", "Log" }));
+    EXPECT_EQ(found.select, "torus");
 }
 
 TEST(ViewerOptions, TakesTheWordsOfCameraPaths) {
@@ -56,6 +60,7 @@ TEST(ViewerOptions, NamesWhatIsWrong) {
         { { "--video", "a.mp4" }, "--camera-path" },
         { { "--frames-to", "frames", "--camera-path", "p.json", "--frames", "3" }, "--frames" },
         { { "--fps", "0" }, "--fps" },
+        { { "--panel", "Kitchen" }, "one of Scene, Materials" },
         { { "--fps", "fast" }, "--fps" },
         { { "--frame-format", "gif" }, "png or exr" },
     };

@@ -125,6 +125,29 @@ TEST(Panels, TheListOfKeysIsDrawnOverThePicture) {
     EXPECT_EQ(stage.ui->statistics().draws, 0u) << "without panels the picture is alone";
 }
 
+TEST(Panels, TheFileDialogLiesOverThePictureAndTakesTheKeyboard) {
+    std::vector<Image> images;
+    const std::filesystem::path folder = test::folderOfThisTest() / "models";
+    std::filesystem::create_directories(folder / "more");
+    for (const char* name : { "bird.glb", "cat.gltf", "room 9.hdr", "room 10.hdr" })
+        std::ofstream(folder / name) << name;
+    for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+        PanelStage stage(backend);
+        view::FileDialog& dialog = stage.panels.state.fileDialog;
+        dialog.recent = { "/models/helmet.glb", "/skies/noon.hdr" };
+        dialog.open(view::FilePurpose::Open);
+        dialog.goTo(folder);
+        while (dialog.isReading()) stage.interfaceFrame();
+        for (int i = 0; i < 3; ++i) stage.frame();
+        images.push_back(stage.read());
+        EXPECT_TRUE(ImGui::GetIO().WantTextInput);
+        const uint2 middle = stage.size / 2u;
+        EXPECT_GT(coloursOf(images.back(), middle - uint2(200, 150), middle + uint2(200, 150)), 5u);
+    }
+    keep(images[0], "Files");
+    EXPECT_EQ(images[0].pixels, images[1].pixels);
+}
+
 /// A place on each widget that the mouse can find in a column, in the order of rows.
 std::vector<ImVec2> widgetsOf(PanelStage& stage, view::PanelRect const& column) {
     std::vector<ImVec2> places;
