@@ -53,6 +53,7 @@ std::string untracedParts(Document const& document) {
     std::vector<const char*> parts;
     if (!document.nodes.empty()) parts.push_back("edits of nodes");
     if (!document.materials.empty()) parts.push_back("edits of materials");
+    if (!document.textures.empty()) parts.push_back("textures that were changed");
     if (!document.modelLights.empty()) parts.push_back("edits of the file's lights");
     if (!document.morphs.empty()) parts.push_back("morph weights");
     if (document.playback.animation) parts.push_back("animations");

@@ -54,6 +54,14 @@ struct MaterialEdit {
     ParameterValue value = 0.0f;
 };
 
+/// A picture in the place of a texture of all materials with this name, in this copy of the model. A glTF material reads
+/// the maps that its file has; others are set and not seen.
+struct TextureEdit {
+    std::string material{}, parameter{};
+    std::filesystem::path file{}; ///< as loadImage() takes it
+    bool isData = false;          ///< numbers themselves, such as normals and roughness; false: colours
+};
+
 using AnyLight = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
 /// A light that the document adds, in the world. Its `profile` handle means nothing here: `profileFile` does.
@@ -97,6 +105,7 @@ struct Document {
     DocumentEnvironment environment{};
     std::vector<NodeEdit> nodes{};         ///< one of a node
     std::vector<MaterialEdit> materials{}; ///< one of a parameter
+    std::vector<TextureEdit> textures{};   ///< one of a parameter
     std::vector<DocumentLight> lights{};
     std::vector<ModelLightEdit> modelLights{}; ///< one of a light
     Playback playback{};
@@ -118,6 +127,7 @@ bool operator==(DocumentModel const& a, DocumentModel const& b);
 bool operator==(DocumentEnvironment const& a, DocumentEnvironment const& b);
 bool operator==(NodeEdit const& a, NodeEdit const& b);
 bool operator==(MaterialEdit const& a, MaterialEdit const& b);
+bool operator==(TextureEdit const& a, TextureEdit const& b);
 bool operator==(DocumentLight const& a, DocumentLight const& b);
 bool operator==(ModelLightEdit const& a, ModelLightEdit const& b);
 bool operator==(MorphEdit const& a, MorphEdit const& b);
@@ -153,6 +163,9 @@ void setParameter(Document& document, std::string_view material, std::string_vie
                   ParameterValue const& value);
 /// Undoes setParameter().
 void resetParameter(Document& document, std::string_view material, std::string_view parameter);
+void setTexture(Document& document, std::string_view material, std::string_view parameter,
+                std::filesystem::path const& file, bool isData);
+void resetTexture(Document& document, std::string_view material, std::string_view parameter);
 void setMorph(Document& document, std::string_view target, float weight);
 /// Removes edits that change nothing.
 void removeIdleEdits(Document& document);

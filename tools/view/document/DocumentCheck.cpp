@@ -160,6 +160,9 @@ void Checker::rules(std::string const&, Document const& document) {
     unique("materials", document.materials, "parameter", [](MaterialEdit const& edit) {
         return std::pair<std::string_view, std::string_view>(edit.material, edit.parameter);
     });
+    unique("textures", document.textures, "parameter", [](TextureEdit const& edit) {
+        return std::pair<std::string_view, std::string_view>(edit.material, edit.parameter);
+    });
 }
 
 } // namespace

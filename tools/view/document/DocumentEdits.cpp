@@ -15,7 +15,7 @@ T& foundOrAdded(std::vector<T>& list, T added, IsIt const& isIt) {
 }
 
 auto ofParameter(std::string_view material, std::string_view parameter) {
-    return [=](MaterialEdit const& edit) { return edit.material == material && edit.parameter == parameter; };
+    return [=](auto const& edit) { return edit.material == material && edit.parameter == parameter; };
 }
 
 } // namespace
@@ -40,6 +40,19 @@ void setParameter(Document& document, std::string_view material, std::string_vie
 
 void resetParameter(Document& document, std::string_view material, std::string_view parameter) {
     std::erase_if(document.materials, ofParameter(material, parameter));
+}
+
+void setTexture(Document& document, std::string_view material, std::string_view parameter,
+                std::filesystem::path const& file, bool isData) {
+    TextureEdit& edit = foundOrAdded(
+            document.textures, TextureEdit{ .material = std::string(material), .parameter = std::string(parameter) },
+            ofParameter(material, parameter));
+    edit.file = file;
+    edit.isData = isData;
+}
+
+void resetTexture(Document& document, std::string_view material, std::string_view parameter) {
+    std::erase_if(document.textures, ofParameter(material, parameter));
 }
 
 void setMorph(Document& document, std::string_view target, float weight) {

@@ -53,6 +53,7 @@ bool operator==(DocumentModel const& a, DocumentModel const& b) { return Same()(
 bool operator==(DocumentEnvironment const& a, DocumentEnvironment const& b) { return Same()(a, b); }
 bool operator==(NodeEdit const& a, NodeEdit const& b) { return Same()(a, b); }
 bool operator==(MaterialEdit const& a, MaterialEdit const& b) { return Same()(a, b); }
+bool operator==(TextureEdit const& a, TextureEdit const& b) { return Same()(a, b); }
 bool operator==(DocumentLight const& a, DocumentLight const& b) { return Same()(a, b); }
 bool operator==(ModelLightEdit const& a, ModelLightEdit const& b) { return Same()(a, b); }
 bool operator==(MorphEdit const& a, MorphEdit const& b) { return Same()(a, b); }

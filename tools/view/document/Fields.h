@@ -207,6 +207,12 @@ template <> struct Fields<MaterialEdit> {
                                              field("value", &MaterialEdit::value) };
     static constexpr size_t others = 0;
 };
+template <> struct Fields<TextureEdit> {
+    static constexpr auto list = std::tuple{ field("material", &TextureEdit::material),
+                                             field("parameter", &TextureEdit::parameter),
+                                             field("file", &TextureEdit::file), field("isData", &TextureEdit::isData) };
+    static constexpr size_t others = 0;
+};
 template <> struct Fields<DocumentLight> {
     static constexpr auto list = std::tuple{ field("name", &DocumentLight::name), field("isOn", &DocumentLight::isOn),
                                              field("light", &DocumentLight::light),
@@ -251,7 +257,7 @@ template <> struct Fields<Document> {
     static constexpr auto list = std::tuple{
         field("model", &Document::model), field("environment", &Document::environment),
         field("nodes", &Document::nodes),
-        field("materials", &Document::materials), field("lights", &Document::lights),
+        field("materials", &Document::materials), field("textures", &Document::textures), field("lights", &Document::lights),
         field("modelLights", &Document::modelLights), field("playback", &Document::playback),
         field("morphs", &Document::morphs), field("view", &Document::view), field("look", &Document::look),
         field("dirt", &Document::dirt), field("bookmarks", &Document::bookmarks), field("paths", &Document::paths) };
@@ -266,7 +272,8 @@ constexpr bool areComplete() {
 static_assert(
         areComplete<Exposure, Lens, Camera, View, GltfLoadOptions, EnvironmentLoadOptions, EnvironmentSettings>());
 static_assert(areComplete<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>());
-static_assert(areComplete<DocumentModel, DocumentEnvironment, NodeEdit, MaterialEdit, DocumentLight, ModelLightEdit>());
+static_assert(areComplete<DocumentModel, DocumentEnvironment, NodeEdit, MaterialEdit, TextureEdit, DocumentLight,
+                          ModelLightEdit>());
 static_assert(areComplete<MorphEdit, Playback, Bookmark, CameraKey, CameraPath, Document>());
 
 // ---- what a field may be

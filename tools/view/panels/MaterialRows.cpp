@@ -49,13 +49,27 @@ ParameterKind parameterKind(ParameterDescription const& description) {
     return isThreeOrFour && nameIsColor(description.name) ? ParameterKind::Color : ParameterKind::Number;
 }
 
+bool takesPicture(ParameterDescription const& description) {
+    return description.type == ParameterType::Sampler2D && description.format == SamplerFormat::Float &&
+           description.arraySize == 0;
+}
+
+bool holdsData(std::string_view parameter) {
+    constexpr std::array<std::string_view, 13> kWords{ "normal",    "roughness",  "metallic",  "occlusion",
+                                                       "height",    "bump",       "thickness", "transmission",
+                                                       "clearcoat", "anisotropy", "iridescen", "displace",
+                                                       "direction" };
+    return std::ranges::any_of(kWords, [&](std::string_view word) { return matchesFilter(parameter, word); });
+}
+
 std::vector<MaterialRow> materialRows(Stage const& stage, Document const& document, std::string_view filter) {
     std::vector<MaterialRow> rows;
     for (CopyMaterial const& material : stage.materials()) {
         if (!matchesFilter(material.name, filter)) continue;
         auto row = std::ranges::find(rows, material.name, &MaterialRow::name);
         if (row == rows.end()) {
-            const auto edits = std::ranges::count(document.materials, material.name, &MaterialEdit::material);
+            const auto edits = std::ranges::count(document.materials, material.name, &MaterialEdit::material) +
+                               std::ranges::count(document.textures, material.name, &TextureEdit::material);
             rows.push_back({ .name = material.name,
                              .instance = material.instance,
                              .material = material.material,
@@ -73,9 +87,12 @@ std::vector<ParameterRow> parameterRows(Stage& stage, MaterialRow const& materia
         ParameterRow row{ .description = parameter, .kind = parameterKind(parameter) };
         if (row.kind != ParameterKind::Texture && parameter.arraySize == 0)
             if (Result<ParameterValue> value = stage.parameter(material.instance, parameter.name)) row.value = *value;
-        row.isEdited = std::ranges::any_of(document.materials, [&](MaterialEdit const& edit) {
+        const auto isOfRow = [&](auto const& edit) {
             return edit.material == material.name && edit.parameter == parameter.name;
-        });
+        };
+        if (const auto found = std::ranges::find_if(document.textures, isOfRow); found != document.textures.end())
+            row.texture = *found;
+        row.isEdited = row.texture || std::ranges::any_of(document.materials, isOfRow);
         rows.push_back(std::move(row));
     }
     return rows;

@@ -22,7 +22,7 @@ enum class ParameterKind : uint8_t {
     Number,  ///< of any type of numbers and of 1 to 4 components
     Color,   ///< three or four floats whose name says so
     Switch,  ///< bools
-    Texture, ///< shown, not edited
+    Texture, ///< a picture file can take its place: takesPicture()
     Other,   ///< matrices and arrays: shown by their type
 };
 
@@ -30,10 +30,15 @@ struct ParameterRow {
     ParameterDescription description{};
     ParameterKind kind = ParameterKind::Other;
     std::optional<ParameterValue> value{}; ///< as drawn now; none: textures and arrays
+    std::optional<TextureEdit> texture{};  ///< as edited
     bool isEdited = false;
 };
 
 ParameterKind parameterKind(ParameterDescription const& description);
+/// Two-dimensional and of floats.
+bool takesPicture(ParameterDescription const& description);
+/// Whether the name says that its pictures are no colours: "normalMap", "roughnessMap".
+bool holdsData(std::string_view parameter);
 
 struct MaterialRow {
     std::string name{};

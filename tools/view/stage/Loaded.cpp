@@ -46,11 +46,12 @@ Result<LoadedMaterial> onStand(Engine& engine, tools::MaterialFile file) {
     auto shared = std::make_shared<const tools::MaterialFile>(std::move(file));
     Result<tools::MaterialStand> stand = tools::MaterialStand::make(engine, *shared);
     if (!stand) return stand.error();
-    LoadedMaterial loaded{ .file = shared, .stand = std::move(*stand), .values = {} };
+    LoadedMaterial loaded{ .file = shared, .stand = std::move(*stand), .values = {}, .textures = {} };
     for (shader::Parameter const& parameter : shared->package.parameters) {
         Result<ParameterValue> value = parameterOf(engine, loaded.stand.instance(), parameter.name);
         if (value) loaded.values.emplace_back(parameter.name, std::move(*value));
     }
+    loaded.textures = texturesOf(engine, loaded.stand.instance());
     return loaded;
 }
 
@@ -70,6 +71,17 @@ Result<ParameterValue> parameterOf(Engine& engine, MaterialInstance instance, st
     ParameterValue value = valueOfType(static_cast<size_t>(parameter->type), kTypes);
     std::visit([&](auto& held) { readValue(record.parameters.data() + parameter->offset, held); }, value);
     return value;
+}
+
+std::vector<scene::TextureBinding> texturesOf(Engine& engine, MaterialInstance instance) {
+    return engine.impl().instances.get(instance).textures;
+}
+
+void setTextures(Engine& engine, MaterialInstance instance, std::vector<scene::TextureBinding> const& textures) {
+    scene::MaterialInstance& record = engine.impl().instances.get(instance);
+    engine.impl().markDirty(instance);
+    record.textures = textures;
+    record.texturesDirty = engine.impl().aUseEnded = true;
 }
 
 Box LoadedModel::bounds() const {

@@ -6,6 +6,7 @@
 
 #include "base/Result.h"
 #include "filament_core/assets/image/Image.h"
+#include "filament_core/scene/Materials.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Background.h"
@@ -27,11 +28,16 @@ namespace filament::view {
 /// The value of a parameter of an instance, as it is now.
 Result<ParameterValue> parameterOf(Engine& engine, MaterialInstance instance, std::string_view parameter);
 
+/// The textures of an instance, and the same ones put back: those of the material's file after edits.
+std::vector<scene::TextureBinding> texturesOf(Engine& engine, MaterialInstance instance);
+void setTextures(Engine& engine, MaterialInstance instance, std::vector<scene::TextureBinding> const& textures);
+
 /// A material on its stand, and the values that its file gives.
 struct LoadedMaterial {
     std::shared_ptr<const tools::MaterialFile> file;
     tools::MaterialStand stand;
     std::vector<std::pair<std::string, ParameterValue>> values; ///< without textures and arrays
+    std::vector<scene::TextureBinding> textures;
 };
 
 /// A model or a material.

@@ -45,6 +45,7 @@ void copyModelPart(Document const& from, Document& to) {
     to.model = from.model;
     to.nodes = from.nodes;
     to.materials = from.materials;
+    to.textures = from.textures;
     to.modelLights = from.modelLights;
     to.playback = from.playback;
     to.morphs = from.morphs;
@@ -66,11 +67,13 @@ struct Stage::Impl {
     void pollEnvironment();
     void pollLook();
     void pollDirt();
+    void pollTextures();
     void readProfiles(bool again);
     void watchFiles(bool again);
     void lookAtFiles();
     bool isLoading() const {
-        return model.isLoading() || environment.isLoading() || lookFile.isLoading() || dirt.isLoading();
+        return model.isLoading() || environment.isLoading() || lookFile.isLoading() || dirt.isLoading() ||
+               textures.isLoading();
     }
     template <class SlotType>
     void finish(SlotType& slot, Result<typename std::remove_reference_t<decltype(*slot.value())>>&& result);
@@ -98,6 +101,7 @@ struct Stage::Impl {
     Slot<LookLoad, std::filesystem::path> lookFile;
     Slot<DirtLoad, std::filesystem::path> dirt;
     Profiles profiles;
+    LoadedTextures textures;
     FileWatch watch;
     std::vector<std::filesystem::path> watchedOthers, modelFiles; ///< the latter: of watchedModel
     std::filesystem::path watchedModel;
@@ -119,6 +123,7 @@ void Stage::Impl::startLoads(bool again) {
                                            !document.environment.file.empty(), again, abandoned);
     lookFile.want(engine, document.look, !document.look.empty(), again, abandoned);
     dirt.want(engine, document.dirt, !document.dirt.empty(), again, abandoned);
+    textures.want(document.textures, again, abandoned);
     readProfiles(again);
     watchFiles(again);
     if (modelEnded)
@@ -169,6 +174,10 @@ void Stage::Impl::pollDirt() {
     updateView();
 }
 
+void Stage::Impl::pollTextures() {
+    if (textures.poll(engine, messages)) rebuild();
+}
+
 /// Small files, so at once. One that cannot be read leaves its light without a profile.
 void Stage::Impl::readProfiles(bool again) {
     Profiles known = std::exchange(profiles, {});
@@ -191,6 +200,7 @@ void Stage::Impl::readProfiles(bool again) {
 void Stage::Impl::watchFiles(bool again) {
     std::vector<std::filesystem::path> files{ document.environment.file, document.look, document.dirt };
     for (DocumentLight const& light : document.lights) files.push_back(light.profileFile);
+    for (TextureEdit const& edit : document.textures) files.push_back(edit.file);
     const bool isSame = document.model.file == watchedModel && files == watchedOthers && !again;
     if (!options.watchesFiles || isSame) return;
     watchedModel = document.model.file;
@@ -213,6 +223,8 @@ void Stage::Impl::lookAtFiles() {
             lookFile.want(engine, file, true, true, abandoned);
         } else if (file == document.dirt) {
             dirt.want(engine, file, true, true, abandoned);
+        } else if (std::ranges::find(document.textures, file, &TextureEdit::file) != document.textures.end()) {
+            textures.reload(file, abandoned);
         } else {
             readProfiles(true);
             rebuild();
@@ -245,7 +257,8 @@ void Stage::Impl::rebuild() {
     shown = wanted();
     LoadedModel* loaded = model.value() ? &*model.value() : nullptr;
     scene.reset();
-    scene = std::make_unique<StagedScene>(engine, loaded, profiles, shown, messages);
+    scene = std::make_unique<StagedScene>(engine, loaded, profiles, textures, shown, messages);
+    textures.dropRetired();
     ++generation;
     light();
     updateView();
@@ -312,6 +325,7 @@ void Stage::poll() {
     mImpl->pollEnvironment();
     mImpl->pollLook();
     mImpl->pollDirt();
+    mImpl->pollTextures();
 }
 
 StageProgress Stage::progress() const {
@@ -328,6 +342,7 @@ StageProgress Stage::progress() const {
     add(mImpl->document.environment.file, mImpl->environment.state());
     add(mImpl->document.look, mImpl->lookFile.state());
     add(mImpl->document.dirt, mImpl->dirt.state());
+    if (const auto file = mImpl->textures.firstLoading()) add(*file, LoadState{ .step = "decoding" });
     return progress;
 }
 
@@ -340,6 +355,7 @@ void Stage::cancel() {
     mImpl->environment.drop(mImpl->abandoned);
     mImpl->lookFile.drop(mImpl->abandoned);
     mImpl->dirt.drop(mImpl->abandoned);
+    mImpl->textures.drop(mImpl->abandoned);
 }
 
 void Stage::reload() {

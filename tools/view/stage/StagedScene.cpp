@@ -73,13 +73,14 @@ void addBelow(Scene const& scene, Node node, std::vector<Node>& nodes) {
 
 } // namespace
 
-StagedScene::StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, Document const& document,
-                         Messages& messages)
+StagedScene::StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, LoadedTextures const& textures,
+                         Document const& document, Messages& messages)
         : mEngine(engine), mModel(model), mScene(engine) {
     placeModel(document);
     if (mRoot) recordFile();
     if (mCopy && !document.model.variant.empty()) messages.addOnce(mCopy->setVariant(document.model.variant));
     setMaterials(document, messages);
+    setTextures(document, textures, messages);
     setModelLights(document, messages);
     setVisibility(document, messages);
     setPose(document, messages);
@@ -121,7 +122,7 @@ void StagedScene::recordFile() {
 
 bool StagedScene::needsAnother(Document const& from, Document const& to) {
     return from.model.fit != to.model.fit || from.model.variant != to.model.variant || !editsSameParameters(from, to) ||
-           !hasSameLights(from, to) || modelLightsOff(from) != modelLightsOff(to);
+           from.textures != to.textures || !hasSameLights(from, to) || modelLightsOff(from) != modelLightsOff(to);
 }
 
 void StagedScene::update(Document const& from, Document const& to, Messages& messages) {
@@ -193,6 +194,24 @@ void StagedScene::setMaterials(Document const& document, Messages& messages) {
             messages.addOnce(mEngine.set(material->stand.instance(), name, value));
     }
     for (MaterialEdit const& edit : document.materials) messages.addOnce(setMaterial(edit));
+}
+
+Result<void> StagedScene::setTexture(TextureEdit const& edit, Texture texture) {
+    if (mCopy) return mCopy->set(edit.material, edit.parameter, texture);
+    LoadedMaterial const* material = mModel->material();
+    if (edit.material != material->file->name)
+        return fail(ErrorCode::NotFound, "there is no material '{}'; it is called '{}'", edit.material,
+                    material->file->name);
+    return mEngine.set(material->stand.instance(), edit.parameter, texture, Sampler{});
+}
+
+/// Those that are there: the others come with another scene.
+void StagedScene::setTextures(Document const& document, LoadedTextures const& textures, Messages& messages) {
+    if (!mRoot) return;
+    if (LoadedMaterial const* material = mModel->material())
+        view::setTextures(mEngine, material->stand.instance(), material->textures);
+    for (TextureEdit const& edit : document.textures)
+        if (const Texture texture = textures.find(edit)) messages.addOnce(setTexture(edit, texture));
 }
 
 std::vector<CopyMaterial> StagedScene::materials() const {

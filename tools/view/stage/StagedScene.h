@@ -9,6 +9,7 @@
 
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Loaded.h"
+#include "tools/view/stage/LoadedTextures.h"
 #include "tools/view/stage/Messages.h"
 
 #include <filament/Animator.h>
@@ -27,8 +28,8 @@ using Profiles = std::map<std::filesystem::path, Owned<LightProfile>>;
 
 class StagedScene {
 public:
-    StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, Document const& document,
-                Messages& messages);
+    StagedScene(Engine& engine, LoadedModel* model, Profiles const& profiles, LoadedTextures const& textures,
+                Document const& document, Messages& messages);
     ~StagedScene() = default;
     StagedScene(StagedScene const&) = delete;
     StagedScene& operator=(StagedScene const&) = delete;
@@ -64,6 +65,8 @@ private:
     void setVisibility(Document const& document, Messages& messages);
     void setPose(Document const& document, Messages& messages);
     Result<void> setMaterial(MaterialEdit const& edit);
+    void setTextures(Document const& document, LoadedTextures const& textures, Messages& messages);
+    Result<void> setTexture(TextureEdit const& edit, Texture texture);
     AnyLight withProfile(DocumentLight const& light, Profiles const& profiles) const;
 
     Engine& mEngine;

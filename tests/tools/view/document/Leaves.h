@@ -213,6 +213,7 @@ inline Document fullDocument() {
     document.model.file = "helmet.glb";
     document.nodes = { { .node = 3, .isVisible = false }, { .node = 1, .parentFromNode = double4x4(2.0) } };
     document.materials = everyParameter(std::make_index_sequence<std::variant_size_v<ParameterValue>>());
+    document.textures = { { "paint", "baseColorMap", "wood.png", false }, { "paint", "normalMap", "bumps.png", true } };
     document.lights = { { .light = SunLight{} },  { .light = PointLight{} }, { .light = SpotLight{} },
                         { .light = RectLight{} }, { .light = DiscLight{} },  { .light = TubeLight{} } };
     document.modelLights = { { .light = 0 }, { .light = 2, .replacement = SpotLight{ .innerConeRadians = 0.1f } } };
