@@ -11,6 +11,9 @@
 
 namespace filament::view {
 
+/// Vulkan of OpenGL ES, and the reverse.
+inline Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
+
 class ApiPicture final : public PictureSource {
 public:
     /// `options`: of the viewer's engine; the display means nothing.

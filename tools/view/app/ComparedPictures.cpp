@@ -3,6 +3,7 @@
 
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/TracedPicture.h"
+#include "tools/view/compare/Pixels.h"
 
 #include <fmt/format.h>
 
@@ -14,23 +15,6 @@ namespace {
 
 constexpr float kGrabPixels = 8; ///< beside the line of a wipe
 constexpr ImU32 kLineColor = IM_COL32(255, 158, 26, 255);
-
-/// The part of an image of 4 bytes a pixel; none: it does not lie in the image.
-std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size) {
-    const bool fits = size.x <= image.width && offset.x <= image.width - size.x && size.y <= image.height &&
-                      offset.y <= image.height - size.y;
-    if (!fits || image.pixels.size() != size_t{ image.width } * image.height * 4) return std::nullopt;
-    Image part{ .width = size.x, .height = size.y, .format = image.format };
-    part.pixels.reserve(size_t{ size.x } * size.y * 4);
-    for (uint32_t y = 0; y < size.y; ++y) {
-        const auto row =
-                image.pixels.begin() + static_cast<ptrdiff_t>((size_t{ offset.y + y } * image.width + offset.x) * 4);
-        part.pixels.insert(part.pixels.end(), row, row + static_cast<ptrdiff_t>(size_t{ size.x } * 4));
-    }
-    return part;
-}
-
-Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
 
 } // namespace
 

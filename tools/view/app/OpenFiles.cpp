@@ -14,6 +14,7 @@ void showModel(Document& document, std::filesystem::path const& file) {
     document.model.variant.clear();
     document.nodes.clear();
     document.materials.clear();
+    document.textures.clear();
     document.modelLights.clear();
     document.morphs.clear();
     document.playback = {};
@@ -36,6 +37,7 @@ FileKind kindOf(std::filesystem::path const& file) {
     const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
     if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
     if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;
+    if (isOneOf(".png", ".jpg", ".jpeg")) return FileKind::Picture;
     return ending == ".json" ? FileKind::Document : FileKind::Unknown;
 }
 
@@ -50,6 +52,7 @@ Result<void> showFile(Document& document, std::filesystem::path const& file) {
         return {};
     case FileKind::Document:
         return showJson(document, file);
+    case FileKind::Picture:
     case FileKind::Unknown:
         break;
     }

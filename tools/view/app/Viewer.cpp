@@ -59,6 +59,7 @@ Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget con
         (void)mRecent.add(options.model); // a list that cannot be written is no reason to say so
     mPanels.state.fileDialog.recent = mRecent.files();
     mPanels.state.showsPanels = options.panels;
+    mGizmo.scale = static_cast<double>(mUi.scale());
 }
 
 Viewer::~Viewer() { closeStage(); }
@@ -100,6 +101,8 @@ void Viewer::closeStage() {
     mCompared.close(mUiRenderer ? &*mUiRenderer : nullptr);
     mPictures.close();
     mReadsFrame = false;
+    mNumerics.close();
+    mInspector.close();
     mUiRenderer.reset();
     mChain.reset();
     mStage.reset();
@@ -145,7 +148,10 @@ void Viewer::handle(InputEvent const& event) {
     auto const* button = std::get_if<MouseButtonEvent>(&event);
     const bool isRelease = (key && !key->isDown) || (button && !button->isDown); // of what was pressed over the scene
     const bool isForDialog = key && mPanels.state.fileDialog.isOpen();
-    if ((isTaken || isForDialog) && !isRelease && !mHands.isDragging()) return;
+    if ((isTaken || isForDialog) && !isRelease && !mHands.isDragging() && !mGizmo.isDragging()) return;
+    const InputEvent placed = inPicture(event, mOffset);
+    if (auto const* move = std::get_if<MouseMoveEvent>(&placed)) mInspector.point(uint2(max(move->pixel, float2(0))));
+    if (!mHands.isDragging() && mGizmo.handle(placed, gizmoScene())) return;
     if (const auto action = key ? actionOf(*key) : std::nullopt) return perform(*action);
     const InputEvent placed = inPicture(event, mOffset);
     if (mCompared.handle(placed, mDocument.view.size) && !mHands.isDragging()) return;
@@ -156,7 +162,9 @@ void Viewer::handle(InputEvent const& event) {
 
 void Viewer::resize(ResizeEvent const& event) {
     const bool isShown = event.pixels.x > 0 && event.pixels.y > 0;
+    mGizmo.letGo(); // its pixels are others now
     if (mUi.setScale(event.scale)) mUiRenderer->uploadFonts(mUi.fonts());
+    mGizmo.scale = static_cast<double>(mUi.scale());
     if (isShown && event.pixels != mChainPixels) mStage->engine().resize(mChain, mChainPixels = event.pixels);
     mTarget.pixels = event.pixels;
     if (isShown) placePicture();
@@ -267,8 +275,26 @@ void Viewer::perform(Action action) {
     case Action::PlayPause:
         playOrPause();
         break;
+    case Action::MoveHandles:
+        mGizmo.mode = GizmoMode::Move;
+        break;
+    case Action::RotateHandles:
+        mGizmo.mode = GizmoMode::Rotate;
+        break;
+    case Action::ScaleHandles:
+        mGizmo.mode = GizmoMode::Scale;
+        break;
+    case Action::NoHandles:
+        mGizmo.mode = GizmoMode::Off;
+        break;
+    case Action::HandleAxes:
+        mGizmo.axes = mGizmo.axes == GizmoAxes::Local ? GizmoAxes::World : GizmoAxes::Local;
+        break;
     case Action::NextDebugView:
         showNextDebugView(mDocument);
+        break;
+    case Action::LockPixel:
+        mInspector.toggleLock();
         break;
     case Action::Compare:
         changeCompareMode();
@@ -298,7 +324,8 @@ void Viewer::perform(Action action) {
 
 double Viewer::idleSeconds() const {
     const bool moves = mFramesToDraw > 0 || mHands.isMoving() || mDocument.playback.isPlaying || isLoading() || mPick ||
-                       mCompared.isWaiting();
+                       mCompared.isWaiting() || mNumerics.isWaiting() ||
+                       (mPanels.requests.inspectsPixel && mInspector.isWaiting());
     const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
     PanelState const& state = mPanels.state;
     const bool waits = state.path.isPlaying || state.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
@@ -341,10 +368,18 @@ void Viewer::pollLatency() {
     mPanels.latency.look(mTarget.window ? statistics.presents : mPresents, statistics.lastPresentSeconds, secondsNow());
 }
 
+/// The inspector works while its panel is seen.
+void Viewer::pollInspector() {
+    const EngineOptions options = engineOptions(mStage->engine().device().backend);
+    if (mInspector.follow(mPanels.requests.inspectsPixel, mDocument, options)) touch();
+    for (std::string& message : mInspector.takeMessages()) note(std::move(message));
+}
+
 void Viewer::followRequests() {
     PanelRequests& requests = mPanels.requests;
     if (std::exchange(requests.cancelsLoading, false)) mStage->cancel();
     if (std::exchange(requests.framesSelection, false)) frame(boundsOfSelection());
+    if (std::exchange(requests.togglesPixelLock, false)) mInspector.toggleLock();
     if (std::exchange(requests.recordsPath, false)) recordPath();
     if (std::exchange(requests.stopsRecording, false)) mRecorder.cancel();
     followFileDialog();
@@ -357,6 +392,8 @@ bool Viewer::step(double seconds) {
     pollSaving();
     pollPick();
     pollLatency();
+    pollInspector();
+    if (mNumerics.poll(*mStage)) touch();
     const bool isHidden = mTarget.pixels.x == 0 || mTarget.pixels.y == 0;
     const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.state.fileDialog.isReading();
     if (!hasWork || isHidden || !mStage->renderer().mayPresent(mChain)) return false;
@@ -383,7 +420,7 @@ Box Viewer::boundsOfSelection() const {
 
 void Viewer::drawOutline() {
     mOutline.clear();
-    if (!mPanels.state.selectedNode) return;
+    if (!mPanels.state.selectedNode || mDocument.view.debugView == DebugView::Numerics) return; // it covers marks
     mOutline.box(boundsOfSelection(),
                  { .color = { 1, 0.62f, 0.1f, 1 }, .widthPixels = 2, .depth = DebugDepth::Through });
 }
@@ -404,18 +441,33 @@ FrameExtras Viewer::extras() const {
     return extras;
 }
 
+/// A frame around the pixel that stays.
+void Viewer::drawLockedPixel() const {
+    if (!mPanels.requests.inspectsPixel || !mInspector.locked()) return;
+    const float2 at = float2(*mInspector.locked() + mOffset);
+    ImGui::GetBackgroundDrawList()->AddRect({ at.x - 3, at.y - 3 }, { at.x + 4, at.y + 4 }, IM_COL32(0, 0, 0, 255));
+    ImGui::GetBackgroundDrawList()->AddRect({ at.x - 2, at.y - 2 }, { at.x + 3, at.y + 3 },
+                                            IM_COL32(255, 255, 255, 255));
+}
+
 void Viewer::draw(double seconds) {
     if (mInput.beginFrame()) touch(); // the rest of the events
     mUi.newFrame(mTarget.pixels, static_cast<float>(seconds));
     placePicture();
     mCompared.draw(*mUiRenderer, mStage->engine(), mOffset, mDocument.view.size);
+    mNumerics.draw(mOffset, mDocument.view.size);
+    mPanels.requests.inspectsPixel = false;
+    mPanels.pixel = mInspector.report();
     mPanels.draw(mDocument, *mStage);
     followRequests();
+    drawLockedPixel();
+    mGizmo.draw(gizmoScene(), *ImGui::GetBackgroundDrawList(), mOffset, ImGui::GetIO().WantCaptureMouse);
     ImGui::Render();
-    mHistory.note(mDocument, ImGui::IsAnyItemActive());
+    mHistory.note(mDocument, ImGui::IsAnyItemActive() || mGizmo.isDragging());
     mStage->apply(mDocument); // with what the panels changed
     drawOutline();
     mStage->render(mChain, extras());
+    mNumerics.follow(*mStage, mChain, mOffset);
     if (mCompared.follow(mDocument, *mStage, mChain, mOffset, engineOptions(mStage->engine().device().backend)))
         touch();
     mUiRenderer->render(*ImGui::GetDrawData(), mChain, mTarget.pixels);

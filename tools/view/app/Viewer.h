@@ -12,9 +12,12 @@
 #include "tools/view/app/CameraHands.h"
 #include "tools/view/app/ComparedPictures.h"
 #include "tools/view/app/FrameSaver.h"
+#include "tools/view/app/GizmoHands.h"
 #include "tools/view/app/History.h"
+#include "tools/view/app/NumericsCounter.h"
 #include "tools/view/app/PathFrames.h"
 #include "tools/view/app/PictureSaver.h"
+#include "tools/view/app/PixelInspector.h"
 #include "tools/view/app/RecentFiles.h"
 #include "tools/view/app/UiInput.h"
 #include "tools/view/app/ViewerOptions.h"
@@ -65,7 +68,11 @@ public:
     Document& document() { return mDocument; }
     Stage& stage() { return *mStage; }
     Panels& panels() { return mPanels; }
+    GizmoHands& gizmo() { return mGizmo; }
+    GizmoScene gizmoScene() { return { mDocument, *mStage, mPanels.state, mHands.targetWorld }; }
     ComparedPictures const& compared() const { return mCompared; }
+    NumericsCounter const& numerics() const { return mNumerics; }
+    PixelInspector const& inspector() const { return mInspector; }
     /// Lines for people since the last call: failed loads, misuse of files, errors of the device.
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
     uint32_t completeFrames() const { return mCompleteFrames; } ///< drawn while nothing was loading
@@ -81,6 +88,7 @@ private:
     void closeStage();
     void resize(ResizeEvent const& event);
     void open(std::filesystem::path const& file);
+    void openPicture(std::filesystem::path const& file);
     void followFileDialog();
     void copy(std::string const& text, const char* what);
     void paste();
@@ -91,6 +99,8 @@ private:
     void pollPick();
     void pollLatency();
     void pollSaving();
+    void pollInspector();
+    void drawLockedPixel() const;
     void followRequests();
     void placePicture(); ///< between the panels
     FrameExtras extras() const;
@@ -122,9 +132,12 @@ private:
     ComparedPictures mCompared;
     RecentFiles mRecent;
     PictureSaver mPictures;
+    NumericsCounter mNumerics;
+    PixelInspector mInspector;
     FrameSaver mSaver;
     PathRecorder mRecorder;
     CameraHands mHands;
+    GizmoHands mGizmo;
     DebugDraw mOutline;
     PickTicket mPick{};
     uint64_t mGeneration = 0;

@@ -2,6 +2,7 @@
 // What a viewer reads and writes: files, the clipboard, pictures, recordings.
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/app/Viewer.h"
+#include "tools/view/panels/MaterialRows.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,16 @@ PictureFormat pictureFormatOf(FrameKind kind) {
 
 } // namespace
 
+/// In the place of the texture that is chosen in the panel of materials.
+void Viewer::openPicture(std::filesystem::path const& file) {
+    std::optional<TextureTarget> const& target = mPanels.state.textureTarget;
+    if (!target) return note("choose a texture in the panel Materials first: the picture takes its place");
+    setTexture(mDocument, target->material, target->parameter, file, holdsData(target->parameter));
+    touch();
+}
+
 void Viewer::open(std::filesystem::path const& file) {
+    if (kindOf(file) == FileKind::Picture) return openPicture(file);
     const size_t paths = mDocument.paths.size();
     if (const Result<void> shown = showFile(mDocument, file); !shown) return note(shown.error().message);
     if (mDocument.paths.size() > paths) mPanels.state.path = { .path = mDocument.paths.size() - 1 };

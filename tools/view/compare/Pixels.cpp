@@ -40,4 +40,18 @@ std::array<float, 4> pixelAt(Image const& image, size_t index) {
     return value;
 }
 
+std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size) {
+    const bool fits = size.x <= image.width && offset.x <= image.width - size.x && size.y <= image.height &&
+                      offset.y <= image.height - size.y;
+    if (!fits || image.pixels.size() != size_t{ image.width } * image.height * 4) return std::nullopt;
+    Image part{ .width = size.x, .height = size.y, .format = image.format };
+    part.pixels.reserve(size_t{ size.x } * size.y * 4);
+    for (uint32_t y = 0; y < size.y; ++y) {
+        const auto row =
+                image.pixels.begin() + static_cast<ptrdiff_t>((size_t{ offset.y + y } * image.width + offset.x) * 4);
+        part.pixels.insert(part.pixels.end(), row, row + static_cast<ptrdiff_t>(size_t{ size.x } * 4));
+    }
+    return part;
+}
+
 } // namespace filament::view

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace filament::view {
 
@@ -19,5 +20,8 @@ Result<void> checkPicture(Image const& image);
 
 /// Codes divided by the largest one (sRGB is not decoded), or light.
 std::array<float, 4> pixelAt(Image const& image, size_t index);
+
+/// A part of an image of 4 bytes a pixel; none: it does not lie in the image.
+std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size);
 
 } // namespace filament::view

@@ -3,6 +3,7 @@
 #include "tools/view/panels/PanelFrame.h"
 
 #include <fmt/format.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 
@@ -52,6 +53,29 @@ bool drawComponents(ParameterRow const& row, ParameterValue& value) {
     return isChanged;
 }
 
+/// The file of a picture; pictures that are dropped on the window go to the row that is chosen.
+void drawPicture(PanelFrame& frame, MaterialRow const& material, ParameterRow const& row) {
+    std::string const& parameter = row.description.name;
+    const TextureTarget target{ material.name, parameter };
+    if (ImGui::RadioButton("##drop", frame.state.textureTarget == target)) frame.state.textureTarget = target;
+    tooltip("a picture that is dropped on the window comes here");
+    ImGui::SameLine();
+    bool isData = row.texture ? row.texture->isData : holdsData(parameter);
+    std::string file = row.texture ? row.texture->file.string() : std::string();
+    const bool toggles = row.texture && ImGui::Checkbox("##data", &isData);
+    if (row.texture) {
+        tooltip("the numbers themselves (normals, roughness), not colours");
+        ImGui::SameLine();
+    }
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool isEntered =
+            ImGui::InputTextWithHint("##file", "picture file, Enter", &file, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (isEntered && file.empty())
+        resetTexture(frame.document, material.name, parameter);
+    else if (isEntered || toggles)
+        setTexture(frame.document, material.name, parameter, file, isData);
+}
+
 void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow const& row) {
     ParameterDescription const& parameter = row.description;
     ImGui::PushID(parameter.name.c_str());
@@ -65,7 +89,10 @@ void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow 
     tooltip(fmt::format("{} {}", toString(parameter.type), parameter.name));
     ImGui::TableNextColumn();
     if (row.isEdited) {
-        if (ImGui::SmallButton("x")) resetParameter(frame.document, material.name, parameter.name);
+        if (ImGui::SmallButton("x")) {
+            resetParameter(frame.document, material.name, parameter.name);
+            resetTexture(frame.document, material.name, parameter.name);
+        }
         tooltip("as in the file");
         ImGui::SameLine();
     }
@@ -73,6 +100,8 @@ void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow 
     if (row.value && row.kind != ParameterKind::Other) {
         ParameterValue value = *row.value;
         if (drawComponents(row, value)) setParameter(frame.document, material.name, parameter.name, value);
+    } else if (takesPicture(parameter)) {
+        drawPicture(frame, material, row);
     } else {
         quietText(parameter.arraySize > 0 ? fmt::format("{}[{}]", toString(parameter.type), parameter.arraySize)
                                           : std::string(toString(parameter.type)));

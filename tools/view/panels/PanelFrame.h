@@ -23,6 +23,7 @@ struct PanelFrame {
     ChangeMeter& changes;
     MaterialCost const& materialCost;
     LatencyMeter const& latency;
+    PixelReport const& pixel;
 };
 
 void drawScenePanel(PanelFrame& frame);
@@ -37,6 +38,7 @@ void drawDemandPanel(PanelFrame& frame);
 void drawGraphPanel(PanelFrame& frame);
 void drawTimelinePanel(PanelFrame& frame);
 void drawStatisticsPanel(PanelFrame& frame);
+void drawPixelPanel(PanelFrame& frame);
 void drawMessagePanel(PanelFrame& frame);
 void drawShortcutList(PanelState& state);
 void drawLoadProgress(PanelFrame& frame, PanelRect const& picture);

@@ -21,7 +21,7 @@ constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel },      PanelT
 constexpr std::array kRightTabs{ PanelTab{ "Camera", drawCameraPanel },     PanelTab{ "Options", drawOptionPanel },
                                  PanelTab{ "Demand", drawDemandPanel },     PanelTab{ "Graph", drawGraphPanel },
                                  PanelTab{ "Timeline", drawTimelinePanel }, PanelTab{ "Numbers", drawStatisticsPanel },
-                                 PanelTab{ "Log", drawMessagePanel } };
+                                 PanelTab{ "Pixel", drawPixelPanel },       PanelTab{ "Log", drawMessagePanel } };
 
 void drawTabs(const char* name, PanelRect const& place, std::span<const PanelTab> tabs, PanelFrame& frame) {
     if (!place.isThere()) return;
@@ -72,7 +72,8 @@ void Panels::draw(Document& document, Stage& stage) {
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);
-    PanelFrame frame{ document, stage, state, requests, mNodes, mOptions, mHistory, mChanges, mMaterialCost, latency };
+    PanelFrame frame{ document, stage,    state,         requests, mNodes, mOptions,
+                      mHistory, mChanges, mMaterialCost, latency,  pixel };
     drawTabs("left", mLayout.left, kLeftTabs, frame);
     drawTabs("right", mLayout.right, kRightTabs, frame);
     drawLoadProgress(frame, mLayout.picture);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
 /// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, demand, graph, timeline,
-/// statistics, log. Every panel is a thin function over a model of plain functions; the models have tests of their own.
+/// statistics, pixel, log. Every panel is a thin function over a model of plain functions; the models have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
 ///            render, and panels.collect(stage).
 ///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured by the
@@ -11,6 +11,7 @@
 ///   Cost     what the visible panels show: the tree is read again only when Stage::generation() changes.
 #pragma once
 
+#include "tools/view/compare/PixelReport.h"
 #include "tools/view/document/Document.h"
 #include "tools/view/panels/FileDialog.h"
 #include "tools/view/panels/FrameHistory.h"
@@ -42,11 +43,18 @@ struct LightSelection {
     friend bool operator==(LightSelection const&, LightSelection const&) = default;
 };
 
+/// A texture of a material.
+struct TextureTarget {
+    std::string material{}, parameter{};
+    friend bool operator==(TextureTarget const&, TextureTarget const&) = default;
+};
+
 /// What the panels remember: a plain value, which programs may read and set (a click into the picture selects a node).
 struct PanelState {
     std::optional<uint32_t> selectedNode{};
     std::string selectedMaterial{};
     std::optional<LightSelection> selectedLight{};
+    std::optional<TextureTarget> textureTarget{}; ///< of pictures that are dropped on the window
     TreeState tree{};
     std::string treeFilter{}, materialFilter{}, optionFilter{}, demandFilter{};
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
@@ -69,6 +77,8 @@ struct PanelRequests {
     bool cancelsLoading = false;
     bool framesSelection = false;
     bool recordsPath = false, stopsRecording = false; ///< PanelState::path, as PanelState::recording says
+    bool inspectsPixel = false; ///< the pixel panel is seen: Panels::pixel is to follow the pointer
+    bool togglesPixelLock = false;
 };
 
 class Panels {
@@ -82,6 +92,7 @@ public:
     PanelState state{};
     PanelRequests requests{};
     LatencyMeter latency{}; ///< the program feeds it; the statistics panel shows it
+    PixelReport pixel{}; ///< what the program found: the pixel panel shows it
     PanelLayout const& layout() const { return mLayout; }
     FrameHistory const& history() const { return mHistory; }
     ChangeMeter const& changes() const { return mChanges; }

@@ -28,6 +28,11 @@ constexpr std::array kShortcuts{
     Shortcut{ Action::HideSelection, Key::H, None, "edit", "hide or show what is selected" },
     Shortcut{ Action::IsolateSelection, Key::I, None, "edit", "show only what is selected, or everything" },
     Shortcut{ Action::ShowAll, Key::H, Shift, "edit", "show everything" },
+    Shortcut{ Action::MoveHandles, Key::One, None, "edit", "handles that move what is selected" },
+    Shortcut{ Action::RotateHandles, Key::Two, None, "edit", "handles that turn it" },
+    Shortcut{ Action::ScaleHandles, Key::Three, None, "edit", "handles that scale it" },
+    Shortcut{ Action::NoHandles, Key::Zero, None, "edit", "no handles" },
+    Shortcut{ Action::HandleAxes, Key::X, None, "edit", "handles along its own axes, or those of the world" },
     Shortcut{ Action::PlayPause, Key::Space, None, "edit", "play or stop the animation" },
     Shortcut{ Action::PlayPath, Key::Space, Shift, "camera", "play or stop the camera path" },
     Shortcut{ Action::AddPathKey, Key::K, None, "camera", "add this view to the camera path" },
@@ -37,6 +42,7 @@ constexpr std::array kShortcuts{
     Shortcut{ Action::ToggleParallel, Key::P, None, "camera", "perspective or parallel" },
     Shortcut{ Action::AddBookmark, Key::B, Control, "camera", "keep this view" },
     Shortcut{ Action::NextDebugView, Key::V, None, "picture", "next debug view" },
+    Shortcut{ Action::LockPixel, Key::L, None, "picture", "the inspected pixel stays, or follows the pointer" },
     Shortcut{ Action::Compare, Key::C, None, "picture", "compare with the other API: wipe, difference, FLIP" },
     Shortcut{ Action::CompareWith, Key::C, Shift, "picture", "compare with the path tracer, or with the other API" },
     Shortcut{ Action::ChangeBackend, Key::B, None, "picture", "draw with the other API" },
@@ -52,6 +58,7 @@ constexpr std::array kMouseHelp{
     MouseHelp{ "Ctrl left or Alt right button", "look around" },
     MouseHelp{ "wheel", "nearer to the point under the cursor, or farther" },
     MouseHelp{ "click", "select what is under the cursor" },
+    MouseHelp{ "left button on a handle", "drag it; with Ctrl in whole steps, Esc: as before" },
     MouseHelp{ "W A S D, E, Q", "fly; with Shift ten times as fast" },
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A viewer of the showcase without a window, and hands for it.
+/// HeadlessViewer: a viewer of the showcase without a window, and hands for it.
 #pragma once
 
 #include "tests/tools/view/app/TestScene.h"
@@ -39,6 +39,19 @@ struct Headless {
     void press(int key, Modifiers modifiers = {}) {
         viewer->handle(KeyEvent{ key, true, modifiers });
         viewer->handle(KeyEvent{ key, false, {} });
+    }
+    /// From one pixel to another, with so many moves of the pointer. `seconds`: what passes after each, with a frame; 0: only
+    /// the last one is drawn.
+    void drag(float2 from, float2 to, int moves = 1, double seconds = 0) {
+        viewer->handle(MouseMoveEvent{ from });
+        viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
+        for (int i = 1; i <= moves; ++i) {
+            const float share = static_cast<float>(i) / static_cast<float>(moves);
+            viewer->handle(MouseMoveEvent{ i == moves ? to : from + (to - from) * share });
+            if (seconds > 0) viewer->step(seconds);
+        }
+        viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
+        viewer->step(0.01);
     }
     void click(float2 pixel) {
         viewer->handle(MouseMoveEvent{ pixel });

@@ -256,6 +256,32 @@ TEST(Panels, TypingFiltersTheOptions) {
     EXPECT_EQ(typed, "Fog.den");
 }
 
+TEST(Panels, TypingAPathGivesATextureAPicture) {
+    constexpr int kEnter = 1; // any number that no other key has
+    PanelStage stage(Backend::Vulkan);
+    stage.panels.state.selectedMaterial = "canvas";
+    stage.open("Materials");
+    ImGui::GetIO().KeyMap[ImGuiKey_Enter] = kEnter;
+    for (const ImVec2 place : widgetsOf(stage, stage.panels.layout().left)) {
+        if (place.y < 60) continue; // tabs, and the filter
+        stage.click(place);
+        if (!ImGui::GetIO().WantTextInput) continue;
+        stage.type("cloth.png");
+        ImGui::GetIO().KeysDown[kEnter] = true;
+        stage.interfaceFrame();
+        ImGui::GetIO().KeysDown[kEnter] = false;
+        stage.interfaceFrame();
+        if (!stage.document.textures.empty()) break;
+        ImGui::ClearActiveID();
+    }
+    ASSERT_EQ(stage.document.textures.size(), 1u);
+    EXPECT_EQ(stage.document.textures.front().material, "canvas");
+    EXPECT_EQ(stage.document.textures.front().file, "cloth.png");
+    const auto files = stage.document.textures;
+    stage.interfaceFrame();
+    EXPECT_EQ(stage.document.textures, files) << "only Enter changes it";
+}
+
 TEST(Panels, WorkAtAnySizeAndScale) {
     for (const float scale : { 1.0f, 2.0f }) {
         for (const uint2 size : { uint2(1, 1), uint2(200, 100), uint2(640, 360), uint2(1920, 1080) }) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// NumericsCounter: how many pixels DebugView::Numerics marks in the frame that is shown, and the legend of its colours.
+///   Use      after each frame, before the interface is drawn over it: follow(); in every step: poll(); between ImGui's
+///            NewFrame() and Render(): draw().
+///   Counts   the marks of the picture itself (<filament/DebugViews.h>), so that they agree with what is seen. They come a frame
+///            or two later; until they are those of the newest frame, the legend says so.
+///   Places   the picture is a part of the window, at `offset`.
+///   Waits    never.   Memory: a picture while it is read back.
+///   Thread   the main thread.
+#pragma once
+
+#include "tools/view/document/Document.h"
+#include "tools/view/stage/Stage.h"
+
+#include <filament/DebugViews.h>
+
+#include <optional>
+
+namespace filament::view {
+
+class NumericsCounter {
+public:
+    /// Asks for the picture that was drawn, if its view is the one with marks and nothing else is on its way.
+    void follow(Stage& stage, SwapChain chain, uint2 offset);
+    /// True: the counts have changed, or a newer picture has to be read: draw again.
+    bool poll(Stage& stage);
+    void draw(uint2 offset, uint2 size) const;
+    void close() { *this = {}; } ///< before the renderer that reads pictures ends
+
+    bool isWaiting() const { return static_cast<bool>(mPending); }
+    /// Of the last picture that was read; none: another view is shown.
+    std::optional<NumericsCounts> const& counts() const { return mCounts; }
+
+private:
+    std::optional<NumericsCounts> mCounts;
+    PixelTicket mPending{};
+    uint64_t mFrame = 0, mPendingFrame = 0; ///< frames that were drawn, and the one that is being read
+    Document mDocument{};                   ///< of mPendingFrame
+    uint2 mOffset{ 0 };                     ///< of its picture
+    uint64_t mGeneration = 0;
+    bool mIsNewest = false;
+};
+
+} // namespace filament::view
