@@ -29,7 +29,8 @@ bool isDeepPng(std::span<const std::byte> bytes) {
 
 Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view name) {
     if (!isPngOrJpeg(bytes))
-        return fail(ErrorCode::Unsupported, "image '{}' is neither PNG nor JPEG; convert it to one of them", name);
+        return fail(ErrorCode::Unsupported, "image '{}' is none of PNG, JPEG and WebP; convert it to one of them",
+                    name);
     const uint2 size = imageSize(bytes);
     if (size.x > kMaxImageSide || size.y > kMaxImageSide)
         return fail(ErrorCode::Unsupported, "image '{}' is {} x {} pixels, more than {} on a side; make it smaller",
@@ -40,6 +41,7 @@ Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view n
 }
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name) {
+    if (isWebp(bytes)) return decodeWebp(bytes, name);
     if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
     return beginsAsPng(bytes) ? decodePng(bytes, name) : decodeJpeg(bytes, name);
 }

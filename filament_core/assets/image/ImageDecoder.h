@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// decodeImage: a PNG or JPEG file in memory as RGBA8 pixels.
+/// decodeImage: a PNG, JPEG or WebP file in memory as RGBA8 pixels.
 ///   In      the file's bytes; `name` is used in error messages.
 ///   Out     one level, format RGBA8 (the caller knows whether it is sRGB); missing alpha is 255, grey is copied to all
 ///           colours. Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 demands.
@@ -7,6 +7,8 @@
 ///           decodeDeepPng() keeps them.
 ///           JPEG: the accurate integer DCT and triangle-filtered chroma of libjpeg-turbo, whose bits do not depend on
 ///           the processor; baseline and progressive; CMYK as Adobe's programs write it, inverted.
+///           WebP: lossy and lossless, as libwebp decodes them, whose bits do not depend on the processor; no
+///           animations.
 ///   Thread  any; no shared state.
 ///   Memory  at most 1 GiB of pixels (16384 x 16384), and of progressive JPEGs twice that while decoding; the size is
 ///           checked before anything is allocated.
@@ -18,6 +20,8 @@
 #include "base/Result.h"
 #include "filament_core/assets/image/Image.h"
 
+#include <filament/Math.h>
+
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,6 +32,10 @@ inline constexpr uint32_t kMaxImageSide = 16384;
 
 /// Whether the first bytes are those of a PNG or JPEG.
 bool isPngOrJpeg(std::span<const std::byte> bytes);
+
+bool isWebp(std::span<const std::byte> bytes);
+/// As its header says; {0, 0} if there is none.
+uint2 webpSize(std::span<const std::byte> bytes);
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name);
 
@@ -47,5 +55,6 @@ Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view n
 /// What decodeImage() calls when the first bytes of the file say so.
 Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name);
 Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name);
+Result<Image> decodeWebp(std::span<const std::byte> bytes, std::string_view name);
 
 } // namespace filament::assets

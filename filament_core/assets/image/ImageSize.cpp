@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/ImageSize.h"
 
+#include "filament_core/assets/image/ImageDecoder.h"
+#include "filament_core/assets/image/Ktx2File.h"
+
 #include <cstdint>
 #include <string_view>
 
@@ -64,6 +67,8 @@ uint2 jpegSize(Bytes bytes) {
 
 uint2 imageSize(std::span<const std::byte> bytes) {
     if (isPng(bytes)) return pngSize(bytes);
+    if (isWebp(bytes)) return webpSize(bytes);
+    if (isKtx2(bytes)) return ktx2Size(bytes);
     const bool isJpeg = bytes.size() >= 4 && number(bytes, 0, 2) == 0xFFD8;
     return isJpeg ? jpegSize(bytes) : uint2(0);
 }

@@ -4,6 +4,7 @@
 #include "base/math/Half.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
+#include "filament_core/assets/image/Ktx2Decoder.h"
 
 #include <filament/Color.h>
 
@@ -85,13 +86,23 @@ Result<Image> decodeFloats(std::span<const std::byte> bytes, std::string_view na
     return pixels.take();
 }
 
+Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .isFull = options.isFull, .isOneLevel = true });
+    if (!texture) return texture.error();
+    if (texture->image.layers > 1)
+        return fail(ErrorCode::Unsupported, "image '{}' has {} pictures ({}); export one of them", name,
+                    texture->image.layers, texture->isCube ? "a cube" : "an array");
+    return std::move(texture->image);
+}
+
 } // namespace
 
 Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
     if (isHdrImage(bytes)) return decodeFloats(bytes, name, options);
-    if (!isPngOrJpeg(bytes))
-        return fail(ErrorCode::Unsupported, "image '{}' is none of PNG, JPEG, HDR and EXR; convert it to one of them",
-                    name);
+    if (isKtx2(bytes)) return decodeLevel(bytes, name, options);
+    if (!isPngOrJpeg(bytes) && !isWebp(bytes))
+        return fail(ErrorCode::Unsupported,
+                    "image '{}' is none of PNG, JPEG, WebP, KTX2, HDR and EXR; convert it to one of them", name);
     if (isDeepPng(bytes)) return decodeDeep(bytes, name, options);
     Result<Image> picture = decodeImage(bytes, name);
     if (picture && options.isColor) picture->format = backend::Format::RGBA8Srgb;

@@ -8,6 +8,7 @@
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/ImageSize.h"
+#include "filament_core/assets/image/Ktx2File.h"
 #include "filament_core/assets/image/PictureDecoder.h"
 
 #include <algorithm>
@@ -19,15 +20,16 @@ namespace filament::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 
-/// PNG and JPEG. Returns whether it was a picture.
+/// PNG, JPEG and WebP. Returns whether it was a picture.
 inline bool fuzzImage(std::span<const std::byte> bytes) {
     isCutShortPng(bytes);
     const uint2 size = imageSize(bytes);
     if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return false; // only slow
     const Result<Image> image = decodeImage(bytes, "fuzzed");
     // Whatever the first bytes say, the decoders themselves refuse what is not theirs.
-    const bool isPng = decodePng(bytes, "fuzzed").ok(), isJpeg = decodeJpeg(bytes, "fuzzed").ok();
-    FILAMENT_ASSERT(!(isPng && isJpeg) && image.ok() == (isPng || isJpeg), "one decoder reads what is a picture");
+    const int readers =
+            decodePng(bytes, "fuzzed").ok() + decodeJpeg(bytes, "fuzzed").ok() + decodeWebp(bytes, "fuzzed").ok();
+    FILAMENT_ASSERT(readers < 2 && image.ok() == (readers == 1), "one decoder reads what is a picture");
     if (!image) {
         FILAMENT_ASSERT(image.error().message.starts_with("image 'fuzzed' "), "an error names its picture");
         return false;
@@ -60,6 +62,7 @@ inline bool fuzzHdrImage(std::span<const std::byte> bytes) {
 
 /// Any kind of picture, as loadImage() decodes it.
 inline void fuzzPicture(std::span<const std::byte> bytes) {
+    if (isKtx2(bytes)) return; // tests/fuzz/TextureFuzzBody.h
     const uint2 size = imageSize(bytes);
     if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return; // only slow
     if (const auto floats = decodeHdrImage(bytes, "fuzzed"); floats && floats->pixels.size() > kMaxFuzzedPixels) return;
