@@ -193,7 +193,7 @@ struct GltfMaterial {
 
 struct GltfTexture {
     uint32_t sampler = kNone;
-    uint32_t image = kNone; ///< kNone: the file offers only formats that this loader cannot read
+    uint32_t image = kNone; ///< kNone: the file offers none, or only formats that this loader cannot read
 };
 
 /// Exactly one of the two is set.

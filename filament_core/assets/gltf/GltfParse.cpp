@@ -274,6 +274,17 @@ GltfImage parseImage(JsonNode const& node, Counts const& counts) {
     return image;
 }
 
+/// The image of an extension takes the place of the core one, which is a fallback for loaders without the extension.
+GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
+    GltfTexture texture{ node["sampler"].index(counts.samplers, "samplers"),
+                         node["source"].index(counts.images, "images") };
+    for (const char* extension : { "EXT_texture_webp", "KHR_texture_basisu" }) { // the last one comes first
+        const uint32_t image = node.extension(extension)["source"].index(counts.images, "images");
+        if (image != kNone) texture.image = image;
+    }
+    return texture;
+}
+
 /// A node has at most one parent, and nodes in a cycle cannot be reached from a root (section 3.5.2).
 void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
     std::vector<uint32_t> parents(nodes.size(), kNone);
@@ -384,10 +395,8 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
     document.samplers = parseAll<Sampler>(root["samplers"], parseGltfSampler);
     document.materials = parseAll<GltfMaterial>(
             root["materials"], [&](JsonNode const& node) { return parseGltfMaterial(node, counts.textures); });
-    document.textures = parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) {
-        return GltfTexture{ node["sampler"].index(counts.samplers, "samplers"),
-                            node["source"].index(counts.images, "images") };
-    });
+    document.textures =
+            parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) { return parseTexture(node, counts); });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
     document.cameras = parseAll<CameraData>(root["cameras"], parseGltfCamera);
     document.profiles = parseAll<GltfProfile>(root.extension("EXT_lights_ies")["lights"], [&](JsonNode const& node) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfTextures.h"
 
-#include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/MipMaps.h"
+#include "filament_core/assets/image/TextureDecoder.h"
 
 #include <exception>
 #include <map>
@@ -111,8 +111,8 @@ private:
         if (info.texture == kNone) return reference;
         GltfTexture const& texture = mDocument.textures[info.texture];
         if (texture.image == kNone) {
-            mDiagnostics.refuse(ErrorCode::Unsupported, "textures[{}]: has no PNG or JPEG image; export it as one",
-                                info.texture);
+            mDiagnostics.refuse(ErrorCode::Unsupported,
+                                "textures[{}]: has no PNG, JPEG, WebP or KTX2 image; export it as one", info.texture);
             return reference;
         }
         reference.image = mFirstOfSame[texture.image];
@@ -164,8 +164,28 @@ private:
     uint32_t mMaterial = 0;
 };
 
-Result<Image> decode(GltfDocument const& document, GltfImageSource const& source) {
-    return decodeImage(source.bytes, imageName(document, source.image));
+Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize) {
+    return decodeTexture(source.bytes, imageName(document, source.image), maxSize);
+}
+
+/// The file of a texture says whether it holds colours, and so does its use.
+void warnAboutTransfer(GltfDocument const& document, GltfImageSource const& source, std::optional<bool> isSrgb,
+                       GltfImageJob& job) {
+    if (!isSrgb || (job.colorTexture != kNone) == (job.dataTexture != kNone)) return;
+    const bool isColor = job.colorTexture != kNone;
+    if (*isSrgb == isColor) return;
+    job.diagnostics.warn("{} is used for {}, but its file says that it is {}; the use counts",
+                         imageName(document, source.image), isColor ? "colours" : "data", *isSrgb ? "sRGB" : "linear");
+}
+
+/// The first level of a texture, for packing.
+Result<Image> decodeFirstLevel(GltfDocument const& document, GltfImageSource const& source) {
+    Result<DecodedTexture> texture = decode(document, source, 0);
+    if (!texture) return texture.error();
+    Image& image = texture->image;
+    image.data.resize(image.levelBytes(0));
+    image.levels = 1;
+    return std::move(image);
 }
 
 uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
@@ -202,12 +222,13 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job) {
     GltfImageSource const& source = textures.sources[job.source];
     try {
-        Result<Image> image = decode(document, source);
-        if (!image) return job.diagnostics.refuse(image.error());
+        Result<DecodedTexture> texture = decode(document, source, maxSize);
+        if (!texture) return job.diagnostics.refuse(texture.error());
+        warnAboutTransfer(document, source, texture->isSrgb, job);
         const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
-        if (isBoth) job.data = withMipMaps(*image, false, maxSize);
+        if (isBoth) job.data = withAllLevels(texture->image, false, maxSize);
         (job.colorTexture != kNone ? job.color : job.data) =
-                withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
+                withAllLevels(std::move(texture->image), job.colorTexture != kNone, maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again",
                                source.image);
@@ -219,9 +240,9 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
 void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job) {
     GltfImageSource const &one = textures.sources[job.first], &other = textures.sources[job.second];
     try {
-        Result<Image> first = decode(document, one);
+        Result<Image> first = decodeFirstLevel(document, one);
         if (!first) return job.diagnostics.refuse(first.error());
-        Result<Image> second = decode(document, other);
+        Result<Image> second = decodeFirstLevel(document, other);
         if (!second) return job.diagnostics.refuse(second.error());
         Image packed = packImages(std::move(*first), std::move(*second), job.layout);
         job.image = withMipMaps(std::move(packed), job.layout == PackLayout::ColorAlpha, maxSize);

@@ -6,9 +6,8 @@
 ///           texture and the file has two, they are packed, with one job per distinct pair. TextureRef::image is an
 ///           index into the jobs' textures, in order.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
-///   Fails   a missing or broken image is an error that names it. A texture in an unsupported format (KTX2, WebP
-///           without fallback) is dropped with a warning, and so is the second map of a pair whose texture coordinates
-///           or sampler differ from those of the first.
+///   Fails   a missing or broken image is an error that names it. The second map of a pair whose texture coordinates
+///           or sampler differ from those of the first is dropped with a warning.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"

@@ -153,7 +153,6 @@ void Viewer::handle(InputEvent const& event) {
     if (auto const* move = std::get_if<MouseMoveEvent>(&placed)) mInspector.point(uint2(max(move->pixel, float2(0))));
     if (!mHands.isDragging() && mGizmo.handle(placed, gizmoScene())) return;
     if (const auto action = key ? actionOf(*key) : std::nullopt) return perform(*action);
-    const InputEvent placed = inPicture(event, mOffset);
     if (mCompared.handle(placed, mDocument.view.size) && !mHands.isDragging()) return;
     mHands.handle(placed, mDocument.view.size, mDocument.view.camera);
     if (const std::optional<uint2> click = mHands.takeClick(); click && all(lessThan(*click, mDocument.view.size)))

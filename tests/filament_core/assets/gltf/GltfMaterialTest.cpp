@@ -195,10 +195,10 @@ TEST(GltfMaterial, AnUnknownExtensionThatTheFileRequiresIsAnError) {
 
 TEST(GltfMaterial, ATextureInAFormatThatIsNotReadIsAnError) {
     TestFile file = texturedTriangle(Json::parse(R"({ "emissiveTexture": { "index": 0 } })"));
-    file.root["textures"][0] = Json::parse(R"({ "extensions": { "KHR_texture_basisu": { "source": 0 } } })");
+    file.root["textures"][0] = Json::parse(R"({ "extensions": { "MSFT_texture_dds": { "source": 0 } } })");
     const Result<ModelData> model = file.load();
     ASSERT_FALSE(model);
-    EXPECT_THAT(model.error().message, HasSubstr("textures[0]: has no PNG or JPEG image"));
+    EXPECT_THAT(model.error().message, HasSubstr("textures[0]: has no PNG, JPEG, WebP or KTX2 image"));
 }
 
 TEST(GltfMaterial, ImagesComeFromDataUrisAndFilesWithEncodedNames) {

@@ -4,10 +4,12 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
+#include "tests/filament_core/assets/blocks/BasisWriter.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/assets/gltf/ImageBasedLightFile.h"
 #include "tests/filament_core/assets/gltf/MeshStreamFuzzBody.h"
+#include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tools/paths/Paths.h"
 
 #include <chrono>
@@ -119,8 +121,43 @@ Specimen lightSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
+/// A texture of ETC1S and one of UASTC.
+Specimen basisSpecimen() {
+    BasisWriter writer(8, 8, false, 1);
+    std::vector<blocks::Texel8> texels;
+    const Bytes slice = writer.slice(12, 9, texels);
+    Ktx2Writer etc1s{ .format = 0,
+                      .width = 12,
+                      .height = 9,
+                      .compression = 1,
+                      .model = 163,
+                      .transfer = 2,
+                      .channels = { 0 },
+                      .levels = { slice } };
+    etc1s.globalData = writer.globalData({ { .length = static_cast<uint32_t>(slice.size()) } });
+    const Ktx2Writer uastc{ .format = 0,
+                            .width = 4,
+                            .height = 4,
+                            .model = 166,
+                            .transfer = 1,
+                            .channels = { 0 },
+                            .levels = { Bytes(16, std::byte{ 0x37 }), Bytes(16), Bytes(16) } };
+    TestFile file = TestFile::triangle();
+    file.attribute("TEXCOORD_0", std::vector<float>{ 0, 0, 1, 0, 0, 1 }, kFloat, "VEC2", 2);
+    for (Bytes const& image : { etc1s.file(), uastc.file() })
+        file.root["images"].push_back({ { "bufferView", file.addView(image) }, { "mimeType", "image/ktx2" } });
+    file.root["textures"] = Json::parse(R"([ { "extensions": { "KHR_texture_basisu": { "source": 0 } } },
+        { "source": 0, "extensions": { "EXT_texture_webp": { "source": 1 } } } ])");
+    file.root["materials"] =
+            Json::parse(R"([ { "emissiveTexture": { "index": 0 }, "normalTexture": { "index": 1 } } ])");
+    file.root["extensionsUsed"] = { "KHR_texture_basisu", "EXT_texture_webp" };
+    file.primitive()["material"] = 0;
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
