@@ -95,7 +95,7 @@ public:
 
     std::vector<uint32_t> result() && {
         for (Branch const& branch : mBranches) {
-            if (isDecidedByUniforms(branch.condition)) mHidden.push_back(branch);
+            if (readsUniforms(branch.condition)) mHidden.push_back(branch);
         }
         if (mHidden.empty() || !mEntryPoint) return std::move(mWords);
         makeTruth();
@@ -111,11 +111,13 @@ private:
         size_t function = 0; ///< index into mFirstBlocks
         uint32_t condition = 0;
     };
-    enum class Known : uint8_t { No, Asked, Constant, Uniform, Varying };
+    /// What a value depends on: bits. A constant on nothing.
+    using Known = uint8_t;
+    static constexpr Known kConstant = 0, kUniform = 1, kVarying = 2, kAsked = 4, kUnknown = 8;
     struct Value {
         Instruction made{};
         std::vector<uint32_t> stored{}; ///< to a variable
-        Known known = Known::No;
+        Known known = kUnknown;
     };
 
     Value* value(uint32_t id) { return id < mById.size() ? &mById[id] : nullptr; }
@@ -191,48 +193,47 @@ private:
 
     // ---- what conditions depend on
 
-    bool isDecidedByUniforms(uint32_t condition) { return knowledgeOf(condition, 0) == Known::Uniform; }
+    bool readsUniforms(uint32_t condition) { return (knowledgeOf(condition, 0) & kUniform) != 0; }
 
     /// A phi of a loop that is asked about itself counts as a constant: the other ways into it decide.
     Known knowledgeOf(uint32_t id, int depth) {
         constexpr int kMostDepth = 4000;
         Value* it = value(id);
-        if (!it || depth > kMostDepth) return Known::Varying;
-        if (it->known == Known::Asked) return Known::Constant;
-        if (it->known != Known::No) return it->known;
-        it->known = Known::Asked;
+        if (!it || depth > kMostDepth) return kVarying;
+        if (it->known == kAsked) return kConstant;
+        if (it->known != kUnknown) return it->known;
+        it->known = kAsked;
         return it->known = askedAnew(*it, depth);
     }
 
     Known askedAnew(Value const& it, int depth) {
         const uint32_t op = it.made.op;
-        if (isConstant(op)) return Known::Constant;
+        if (isConstant(op)) return kConstant;
         if (op == OpLoad) return loaded(it.made.word(3), depth);
         if (op == OpPhi) {
-            Known known = Known::Constant;
-            for (size_t i = 3; i < it.made.words.size(); i += 2)
-                known = std::max(known, knowledgeOf(it.made.words[i], depth + 1));
+            Known known = kConstant;
+            for (size_t i = 3; i < it.made.words.size(); i += 2) known |= knowledgeOf(it.made.words[i], depth + 1);
             return known;
         }
-        return isArithmetic(op) ? ofAll(valuesOf(it.made), depth) : Known::Varying;
+        return isArithmetic(op) ? ofAll(valuesOf(it.made), depth) : kVarying;
     }
 
     Known ofAll(std::span<const uint32_t> ids, int depth) {
-        Known known = Known::Constant;
-        for (const uint32_t id : ids) known = std::max(known, knowledgeOf(id, depth + 1));
+        Known known = kConstant;
+        for (const uint32_t id : ids) known |= knowledgeOf(id, depth + 1);
         return known;
     }
 
     Known loaded(uint32_t pointer, int depth) {
-        Known known = Known::Constant;
+        Known known = kConstant;
         const uint32_t base = baseOf(pointer);
         for (uint32_t at = pointer; at != base; at = value(at)->made.word(3))
-            known = std::max(known, ofAll(value(at)->made.words.subspan(4), depth));
+            known |= ofAll(value(at)->made.words.subspan(4), depth);
         Value const* variable = value(base);
-        if (!variable || variable->made.op != OpVariable) return Known::Varying;
+        if (!variable || variable->made.op != OpVariable) return kVarying;
         const uint32_t storage = variable->made.word(3);
-        if (storage == kStorageUniform || storage == kStoragePushConstant) return std::max(known, Known::Uniform);
-        return storage == kStorageFunction ? std::max(known, ofAll(variable->stored, depth)) : Known::Varying;
+        if (storage == kStorageUniform || storage == kStoragePushConstant) return known | kUniform;
+        return storage == kStorageFunction ? known | ofAll(variable->stored, depth) : kVarying;
     }
 
     // ---- the new module

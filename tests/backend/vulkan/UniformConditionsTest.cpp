@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions that uniforms decide alone are hidden, others stay; modules stay valid, also with damaged words.
+// Conditions that uniforms take part in are hidden, others stay; modules stay valid, also with damaged words.
 #include "backend/vulkan/UniformConditions.h"
 
 #include "backend/vulkan/Spirv.h"
@@ -57,13 +57,19 @@ TEST(UniformConditions, ThoseThatUniformsDecideAloneAreHidden) {
               1u);
 }
 
+TEST(UniformConditions, ThoseThatMixUniformsWithWhatVariesAreHidden) {
+    const auto fragment = [](std::string_view body) { return hiddenIn(ShaderStage::Fragment, withBody(body)); };
+    EXPECT_EQ(fragment("if (v.x * u.a.x > 0.0) color.x += 1.0;"), 1u);
+    EXPECT_EQ(fragment("if (u.a.x > 0.0 && v.x > 0.0) color.x += 1.0;"), 2u) << "two branches";
+    EXPECT_EQ(fragment("float x = u.a.x; if (v.y > 3.0) x = v.x; if (x > 1.0) color.x += 1.0;"), 1u);
+}
+
 TEST(UniformConditions, OthersStay) {
     const auto fragment = [](std::string_view body) { return hiddenIn(ShaderStage::Fragment, withBody(body)); };
     EXPECT_EQ(fragment(""), 0u);
     EXPECT_EQ(fragment("if (v.x > 0.0) color.x += 1.0;"), 0u);
-    EXPECT_EQ(fragment("if (v.x * u.a.x > 0.0) color.x += 1.0;"), 0u);
     EXPECT_EQ(fragment("for (int i = 0; i < 4; ++i) color.x += v[i];"), 0u) << "compilers unroll it";
-    EXPECT_EQ(fragment("float x = u.a.x; if (v.y > 3.0) x = v.x; if (x > 1.0) color.x += 1.0;"), 0u);
+    EXPECT_EQ(fragment("float x = v.x; if (v.y > 3.0) x = 2.0; if (x > 1.0) color.x += 1.0;"), 0u);
 }
 
 TEST(UniformConditions, EveryStageAndFunctionHasATruthOfItsOwn) {
@@ -73,7 +79,7 @@ TEST(UniformConditions, EveryStageAndFunctionHasATruthOfItsOwn) {
     EXPECT_EQ(hiddenIn(ShaderStage::Vertex, vertex), 2u);
     EXPECT_EQ(hiddenIn(ShaderStage::Fragment,
                        withBody("if (u.a.x > gl_FragCoord.x) color.x = 1.0; if (u.a.x > 0.0) color.y = 1.0;")),
-              1u)
+              2u)
             << "the variable that is there is used";
     EXPECT_EQ(hiddenIn(ShaderStage::Vertex,
                        std::string(kHead) +
