@@ -39,6 +39,7 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     mChunks = std::exchange(other.mChunks, {});
     mUsed = std::exchange(other.mUsed, {});
     mSpare = std::exchange(other.mSpare, {});
+    mKept = std::exchange(other.mKept, {});
     mCommandCount = std::exchange(other.mCommandCount, 0);
     mKinds = std::exchange(other.mKinds, 0);
     mPayloadBytes = std::exchange(other.mPayloadBytes, 0);
@@ -114,6 +115,7 @@ void CommandBuffer::append(CommandBuffer&& tail) {
     reserveMore(mChunks, tail.mChunks.size());
     reserveMore(mUsed, tail.mUsed.size());
     reserveMore(mSpare, mUsed.size() + tail.mUsed.size());
+    reserveMore(mKept, tail.mKept.size());
     reserveMore(tail.mSpare, tail.mUsed.size()); // nothing below allocates
     if (!tail.mChunks.empty()) {
         seal();
@@ -131,6 +133,8 @@ void CommandBuffer::append(CommandBuffer&& tail) {
         returnEqualBlock(block.size, tail);
         mUsed.push_back(std::move(block));
     }
+    std::ranges::move(tail.mKept, std::back_inserter(mKept));
+    tail.mKept.clear();
     tail.mUsed.clear();
     tail.mChunks.clear();
     tail.mCommands = tail.mPayload = {};
@@ -157,6 +161,7 @@ void CommandBuffer::reset() {
     });
     std::move(mUsed.begin(), mUsed.end(), std::back_inserter(mSpare));
     mUsed.clear();
+    mKept.clear();
     mChunks.clear();
     mCommands = mPayload = {};
     mCommandCount = mPayloadBytes = mReserve = mKinds = 0;

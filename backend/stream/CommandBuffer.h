@@ -5,9 +5,10 @@
 ///           reset() keeps the chunks, so that steady frames allocate nothing, also if payloads are a little larger in
 ///           some of them than in others: sizes are rounded up by at most a quarter. A larger chunk is freed once
 ///           kIdleFrames frames in a row did not need it, one of more than kKeptBytes after the first such frame.
-///   Fails   record(), allocate(), append(): std::bad_alloc, and nothing has changed. reset(), rollBack() and
+///   Fails   record(), allocate(), keep(), append(): std::bad_alloc, and nothing has changed. reset(), rollBack() and
 ///           recordInReserve() never fail: a caller that runs out of memory in the middle can still end what it began.
-///   Names   every span and string_view given to record() inside a command is copied into the buffer.
+///   Names   every span and string_view given to record() inside a command is copied into the buffer. Large payloads that
+///           their owner gives away need no copy: keep() and recordAdopted().
 #pragma once
 
 #include "backend/api/Commands.h"
@@ -16,6 +17,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace filament::backend {
@@ -41,7 +43,10 @@ public:
     /// at it and call recordAdopted() to avoid the copy (large uploads).
     std::span<std::byte> allocate(size_t bytes, size_t alignment = 16);
 
-    /// record() for commands whose spans already point into this buffer.
+    /// Shares the ownership of memory that commands point to until reset(), which drops it on the thread that replays.
+    void keep(std::shared_ptr<const void> payload) { mKept.push_back(std::move(payload)); }
+
+    /// record() for commands whose spans already point into this buffer, or into what it keeps.
     template <class C>
     void recordAdopted(C const& command) {
         append(command);
@@ -151,6 +156,7 @@ private:
     mutable std::vector<CommandChunk> mChunks; // command blocks in order
     std::vector<Block> mUsed;                  // owns the memory of commands and payloads
     std::vector<Block> mSpare;                 // kept for the next frame
+    std::vector<std::shared_ptr<const void>> mKept;
     size_t mCommandCount = 0;
     uint64_t mKinds = 0; // bit kCommandId<C>: contains<C>()
     size_t mPayloadBytes = 0;

@@ -28,6 +28,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -118,6 +119,10 @@ struct ToneTable {
     Texture texture;
 };
 
+/// Of bytes that travel to the device without a copy: shared until the driver thread has taken them. None: the bytes
+/// are the caller's, and are copied.
+using BytesOwner = std::shared_ptr<const void>;
+
 /// Something with device objects of its own that may outlive the engine.
 class Dependent {
 public:
@@ -168,9 +173,12 @@ struct Engine::Impl {
     auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
     double secondsSinceStart(int64_t steadyNanoseconds) const;
 
-    Texture createTexture(TextureDesc const& desc);
-    VertexBuffer createVertexBuffer(VertexBufferDesc const& desc);
-    IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
+    /// `holder`: of the bytes of the description.
+    Texture createTexture(TextureDesc const& desc, engine::BytesOwner const& holder = {});
+    /// `bounds`: what scene::boundsOf() says of the vertices, if the caller knows it.
+    VertexBuffer createVertexBuffer(VertexBufferDesc const& desc, engine::BytesOwner const& holder = {},
+                                    std::optional<scene::MinMax> const& bounds = {});
+    IndexBuffer createIndexBuffer(IndexBufferDesc const& desc, engine::BytesOwner const& holder = {});
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
     void resize(engine::SwapChainState& state, uint2 size);
@@ -201,6 +209,8 @@ struct Engine::Impl {
     Texture toneTable(engine::ToneTableKey const& key);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
+    /// The second half of it: what loadMaterial() made gets a handle, if this device can draw it.
+    Result<Material> addMaterial(scene::Material loaded);
     void removeMaterial(Material material) noexcept;
     /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
     std::span<const std::byte> enginePackage(std::string_view name) const;

@@ -16,15 +16,18 @@ Handle orBadAlloc(Handle handle) {
     return handle ? handle : throw std::bad_alloc();
 }
 
-Texture uploadCube(Engine::Impl& engine, assets::Image const& image, std::string name) {
+/// Gives its texels away.
+Texture uploadCube(Engine::Impl& engine, assets::Image& image, std::string name) {
+    const auto texels = std::make_shared<const std::vector<std::byte>>(std::exchange(image.data, {}));
     return engine.createTexture({ .kind = TextureKind::Cube,
                                   .format = image.format,
                                   .width = image.width,
                                   .height = image.height,
                                   .layers = 6,
                                   .levels = image.levels,
-                                  .pixels = image.data,
-                                  .name = std::move(name) });
+                                  .pixels = *texels,
+                                  .name = std::move(name) },
+                                texels);
 }
 
 } // namespace
@@ -48,8 +51,9 @@ size_t EnvironmentUpload::step(size_t index) {
     if (image.data.empty()) return 0; // of the irradiance only coefficients may be known
     constexpr const char* kSuffixes[kSteps] = { "", " sky", " irradiance" };
     Texture& texture = index == 0 ? mParts->specular : index == 1 ? mParts->sky : mParts->irradiance;
+    const size_t bytes = image.data.size();
     texture = uploadCube(mEngine, image, mName + kSuffixes[index]);
-    return std::exchange(image.data, {}).size();
+    return bytes;
 }
 
 Environment EnvironmentUpload::finish() {

@@ -7,10 +7,17 @@
 
 #include <filament/LoadTicket.h>
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace filament {
+namespace {
+
+/// One poll() begins no step after this; a step takes well below a millisecond.
+constexpr std::chrono::milliseconds kLongestSlice(4);
+
+} // namespace
 
 const char* toString(LoadStage stage) {
     switch (stage) {
@@ -81,12 +88,7 @@ LoadStatus LoadTask::status() const {
 LoadStatus LoadTask::poll(size_t sliceBytes) {
     if (mStage.load(std::memory_order_acquire) != LoadStage::Creating) return status();
     try {
-        size_t bytes = 0;
-        do {
-            if (mNextStep < stepCount()) bytes += step(mNextStep++);
-            setProgress(mNextStep, stepCount());
-        } while (mNextStep < stepCount() && bytes < sliceBytes);
-        if (mNextStep == stepCount()) {
+        if (createSlice(sliceBytes)) {
             finish();
             mStage.store(LoadStage::Ready, std::memory_order_release);
         } else {
@@ -98,6 +100,17 @@ LoadStatus LoadTask::poll(size_t sliceBytes) {
         mStage.store(LoadStage::Failed, std::memory_order_release);
     }
     return status();
+}
+
+bool LoadTask::createSlice(size_t sliceBytes) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point end = Clock::now() + kLongestSlice;
+    size_t bytes = 0;
+    do {
+        if (mNextStep < stepCount()) bytes += step(mNextStep++);
+        setProgress(mNextStep, stepCount());
+    } while (mNextStep < stepCount() && bytes < sliceBytes && Clock::now() < end);
+    return mNextStep == stepCount();
 }
 
 void LoadTask::cancel() {

@@ -74,6 +74,8 @@ protected:
 
 private:
     void run() noexcept;
+    /// Steps until the slice is full or 4 ms have passed, one at least. Whether all are done.
+    bool createSlice(size_t sliceBytes);
     void endWith(Error error);
     bool enter(LoadStage stage, LoadStage expected);
 

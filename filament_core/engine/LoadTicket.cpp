@@ -5,6 +5,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/LoadTask.h"
+#include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
 
 #include <optional>
@@ -65,10 +66,11 @@ protected:
 class ModelTask : public UploadTask<Model, ModelUpload> {
 public:
     ModelTask(Engine::Impl& owner, std::filesystem::path path, GltfLoadOptions const& options)
-            : UploadTask(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)) {}
+            : UploadTask(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)),
+              mChoice(GltfMaterials::choiceOf(owner)) {}
     ModelTask(Engine::Impl& owner, GltfMemory const& model, GltfLoadOptions const& options)
             : UploadTask(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
-              mOptions(gltfOptions(model, options)) {}
+              mOptions(gltfOptions(model, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
 
 private:
     Result<void> work() override {
@@ -78,7 +80,8 @@ private:
             setProgress(done, total);
             if (progress) progress(stage, done, total);
         };
-        Result<ReadModel> read = mIsInMemory ? readModel(mFile, jobs, mOptions) : readModel(mPath, jobs, mOptions);
+        Result<ReadModel> read =
+                mIsInMemory ? readModel(mFile, jobs, mOptions, mChoice) : readModel(mPath, jobs, mOptions, mChoice);
         if (!read) return read.error();
         mRead.emplace(std::move(*read));
         return {};
@@ -100,6 +103,7 @@ private:
     std::filesystem::path mPath;
     std::vector<std::byte> mFile; // instead of a path
     assets::GltfOptions mOptions;
+    const GltfMaterialChoice mChoice;
     std::optional<ReadModel> mRead; // by work(), until the first step
 };
 

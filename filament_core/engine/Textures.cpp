@@ -52,20 +52,33 @@ backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
              .height = desc.height };
 }
 
+/// With or without a copy of the command's bytes.
+template <class C>
+void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner const& owner) {
+    if (owner)
+        commands.recordAdopted(command);
+    else
+        commands.record(command);
+}
+
 // One upload per level; all layers of a level are contiguous.
-void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc) {
+void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc,
+                  engine::BytesOwner const& owner) {
+    if (owner) commands.keep(owner);
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
     for (uint32_t level = 0; level < levels; ++level) {
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
         const size_t bytes = imageBytes(desc.format, width, height) * desc.layers;
         FILAMENT_ASSERT(offset + bytes <= desc.pixels.size(), "`pixels` holds all layers of all levels");
-        commands.record(CmdUploadTexture{ handle,
-                                          static_cast<uint8_t>(level),
-                                          0,
-                                          static_cast<uint16_t>(desc.layers),
-                                          { 0, 0, width, height },
-                                          desc.pixels.subspan(offset, bytes) });
+        recordBytes(commands,
+                    CmdUploadTexture{ handle,
+                                      static_cast<uint8_t>(level),
+                                      0,
+                                      static_cast<uint16_t>(desc.layers),
+                                      { 0, 0, width, height },
+                                      desc.pixels.subspan(offset, bytes) },
+                    owner);
         offset += bytes;
     }
 }
@@ -82,24 +95,26 @@ assets::Image mipsOf(filament::TextureDesc const& desc) {
     return assets::withMipMaps(std::move(base), true);
 }
 
-void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc) {
+void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc,
+                  engine::BytesOwner const& owner) {
     if (!makesMipsHere(desc)) {
-        uploadLevels(commands, handle, desc);
+        uploadLevels(commands, handle, desc, owner);
         if (desc.generateMips) commands.record(CmdGenerateMips{ handle });
         return;
     }
-    const assets::Image mips = mipsOf(desc);
+    const auto mips = std::make_shared<const assets::Image>(mipsOf(desc));
     filament::TextureDesc whole = desc;
-    whole.levels = mips.levels, whole.generateMips = false, whole.pixels = mips.data;
-    uploadLevels(commands, handle, whole);
+    whole.levels = mips->levels, whole.generateMips = false, whole.pixels = mips->data;
+    uploadLevels(commands, handle, whole, mips);
 }
 
 BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
-                          std::string const& name) {
+                          std::string const& name, engine::BytesOwner const& owner) {
     NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
     AllOrNothing both(engine.pending);
     engine.pending.record(CmdCreateBuffer{ handle, { data.size(), usage, name } });
-    engine.pending.record(CmdUpdateBuffer{ handle, 0, data });
+    if (owner) engine.pending.keep(owner);
+    recordBytes(engine.pending, CmdUpdateBuffer{ handle, 0, data }, owner);
     both.complete();
     return handle.keep();
 }
@@ -117,7 +132,7 @@ bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
 
 } // namespace
 
-Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
+Texture Engine::Impl::createTexture(filament::TextureDesc const& desc, engine::BytesOwner const& holder) {
     engine::Draft draft(textures);
     engine::TextureState& state = draft.state();
     state.desc = backendDesc(desc);
@@ -128,14 +143,15 @@ Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
     NewHandle handle(*stream, stream->allocateTexture());
     AllOrNothing all(pending);
     pending.record(CmdCreateTexture{ handle, created });
-    if (!desc.pixels.empty()) uploadPixels(pending, handle, desc);
+    if (!desc.pixels.empty()) uploadPixels(pending, handle, desc, holder);
     all.complete();
     state.handle = handle.keep();
     state.hasContents = !desc.pixels.empty();
     return draft.keep();
 }
 
-VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc) {
+VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc, engine::BytesOwner const& holder,
+                                              std::optional<scene::MinMax> const& bounds) {
     FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
                     "a vertex buffer has vertices and a stride that is a multiple of 4");
     FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
@@ -153,13 +169,13 @@ VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc) {
     state.layout.buffers[0].stride = static_cast<uint16_t>(desc.stride);
     state.layout.bufferCount = 1;
     state.vertexCount = desc.vertexCount;
-    state.bounds = scene::boundsOf(state.layout, desc.data);
+    state.bounds = bounds ? *bounds : scene::boundsOf(state.layout, desc.data);
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Vertex, desc.data, desc.name);
+    state.handle = createBuffer(*this, BufferUsage::Vertex, desc.data, desc.name, holder);
     return draft.keep();
 }
 
-IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
+IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc, engine::BytesOwner const& holder) {
     const size_t bytes = static_cast<size_t>(desc.indexCount) * (desc.format == IndexFormat::UInt16 ? 2 : 4);
     FILAMENT_ASSERT(desc.indexCount > 0 && desc.data.size() == bytes, "`data` holds indexCount indices, at least one");
     engine::Draft draft(indexBuffers);
@@ -167,7 +183,7 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
     state.format = desc.format;
     state.indexCount = desc.indexCount;
     state.name = desc.name;
-    state.handle = createBuffer(*this, BufferUsage::Index, desc.data, desc.name);
+    state.handle = createBuffer(*this, BufferUsage::Index, desc.data, desc.name, holder);
     return draft.keep();
 }
 

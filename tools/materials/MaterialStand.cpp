@@ -69,9 +69,11 @@ Result<MaterialStand::Geometry> MaterialStand::makeGeometry(Engine& engine, std:
 }
 
 Result<void> MaterialStand::addSlab(Engine& engine) {
-    Result<Material> material = engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") });
-    if (!material) return material.error();
-    mSlabMaterial = engine.own(*material);
+    if (!mSlabMaterial.get()) {
+        Result<Material> material = engine.create(MaterialDesc{ .package = shader::engineMaterial(kSlabPackage) });
+        if (!material) return material.error();
+        mSlabMaterial = engine.own(*material);
+    }
     mSlabInstance = engine.own(engine.createInstance(mSlabMaterial, "slab"));
     if (Result<void> done = engine.set(mSlabInstance, "baseColorFactor", float4(0.5f, 0.5f, 0.5f, 1)); !done)
         return done;
@@ -116,21 +118,25 @@ Result<void> MaterialStand::setOne(Engine& engine, MaterialInstance instance, Ma
 }
 
 Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& file, MaterialValues const& values,
-                                          std::string const& meshName) {
+                                          std::string const& meshName, StandMaterials made) {
     MaterialValues all = file.show.values;
     for (auto const& value : values) {
         std::erase_if(all, [&](auto const& old) { return old.first == value.first; });
         all.push_back(value);
     }
-    Result<std::vector<MaterialConstant>> constants = materialConstants(file.package, all);
-    if (!constants) return constants.error();
-    Result<Material> material =
-            engine.create(MaterialDesc{ .package = file.bytes, .constants = *constants, .name = file.name });
-    if (!material) return material.error();
+    if (!made.shown.get()) {
+        Result<std::vector<MaterialConstant>> constants = materialConstants(file.package, all);
+        if (!constants) return constants.error();
+        Result<Material> material =
+                engine.create(MaterialDesc{ .package = file.bytes, .constants = *constants, .name = file.name });
+        if (!material) return material.error();
+        made.shown = engine.own(*material);
+    }
     MaterialStand stand;
     stand.mName = file.name;
-    stand.mMaterial = engine.own(*material);
-    stand.mInstance = engine.own(engine.createInstance(*material, file.name));
+    stand.mMaterial = std::move(made.shown);
+    stand.mSlabMaterial = std::move(made.slab);
+    stand.mInstance = engine.own(engine.createInstance(stand.mMaterial, file.name));
     stand.mInstances = file.show.instances;
     stand.mIsInObjectSpace = file.package.vertexDomain == shader::VertexDomain::Object;
     Result<Geometry> mesh = makeGeometry(engine, meshName.empty() ? file.show.mesh : meshName);

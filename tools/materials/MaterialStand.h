@@ -18,10 +18,19 @@
 
 namespace filament::tools {
 
+/// What make() would otherwise create, unpacking code for 20 to 100 ms.
+struct StandMaterials {
+    Owned<Material> shown; ///< of MaterialFile::bytes, with the constants of its values
+    Owned<Material> slab;  ///< kSlabPackage, if MaterialShow::slab
+};
+
 class MaterialStand {
 public:
+    static constexpr const char* kSlabPackage = "gltf_lit_opaque";
+
+    /// `made`: becomes the stand's.
     static Result<MaterialStand> make(Engine& engine, MaterialFile const& file, MaterialValues const& values = {},
-                                      std::string const& mesh = {});
+                                      std::string const& mesh = {}, StandMaterials made = {});
 
     /// Changes the values of its parameters; constants cannot change.
     Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);

@@ -7,15 +7,6 @@
 namespace filament {
 namespace {
 
-std::string keyOf(GltfMaterialSettings const& settings) {
-    std::string key = settings.package;
-    for (MaterialConstant const& constant : settings.constants) {
-        key += '|' + constant.name + '=';
-        key += std::visit([](auto value) { return std::to_string(value); }, constant.value);
-    }
-    return key;
-}
-
 // The engine's own packages have these parameters: a failure is a defect of GltfMaterialSettings.
 void require(Result<void> const& result) {
     if (!result) log(Severity::Error, "{}", result.error().message);
@@ -33,19 +24,23 @@ std::optional<uint32_t> roughnessBound(GltfMaterialSettings const& settings, sha
 
 } // namespace
 
-size_t GltfMaterials::maxMaps() const {
+GltfMaterialChoice GltfMaterials::choiceOf(Engine::Impl const& engine) {
     const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::LitScreen));
-    return mEngine.stream->info().limits.maxTextureUnits - ofEngine; // a device has at least 16 in all
+    return { .arithmetic = engine.options.exactShaders ? shader::Arithmetic::Exact : shader::Arithmetic::Plain,
+             .maxMaps = engine.stream->info().limits.maxTextureUnits - ofEngine }; // a device has at least 16 in all
 }
 
 Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
-    Material& shared = mMaterials[keyOf(settings)];
+    const std::string key = materialKey(settings);
+    Material& shared = mMaterials[key];
     if (!shared) {
+        const auto ready = mReady.find(key);
+        FILAMENT_ASSERT(ready != mReady.end(), "readMaterials() unpacks what the primitives of a model are drawn with");
         mModel.materials.push_back({}); // reserve the entry before the object exists
-        auto created = mEngine.createMaterial(
-                { mEngine.enginePackage(settings.package), settings.constants, settings.package });
+        auto created = mEngine.addMaterial(std::move(ready->second));
         if (!created) log(Severity::Error, "{}", created.error().message);
-        FILAMENT_ASSERT(created.ok(), "the glTF materials have the constants that GltfMaterialSettings names");
+        FILAMENT_ASSERT(created.ok(), "settingsOf() leaves out maps that do not fit");
+        mReady.erase(ready);
         shared = mModel.materials.back() = *created;
         scene::Material& state = mEngine.materials.get(shared);
         state.roughnessBound = roughnessBound(settings, state.package);
@@ -54,7 +49,7 @@ Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
 }
 
 MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale) {
-    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale, maxMaps());
+    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale, mMaxMaps);
     for (std::string const& map : settings.leftOut) {
         log(Severity::Warning,
             "material '{}': its {} map is left out, because {} samples no more than {} textures a stage", material.name,

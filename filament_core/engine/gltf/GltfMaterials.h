@@ -5,6 +5,7 @@
 
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/engine/gltf/ReadMaterials.h"
 
 #include <map>
 #include <string>
@@ -13,20 +14,25 @@ namespace filament {
 
 class GltfMaterials {
 public:
-    /// `textures[i]` is images[i] of the model after uploading.
-    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures)
-            : mEngine(engine), mModel(model), mTextures(textures) {}
+    /// `textures[i]` is images[i] of the model after uploading. `ready`: of the model, by readMaterials().
+    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures,
+                  GltfReadyMaterials ready)
+            : mEngine(engine), mModel(model), mTextures(textures), mReady(std::move(ready)),
+              mMaxMaps(choiceOf(engine).maxMaps) {}
+
+    static GltfMaterialChoice choiceOf(Engine::Impl const& engine);
 
     /// `scale`: metres in the file's scene per metre of the mesh; it scales the thickness of volumes.
     MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
 
 private:
-    size_t maxMaps() const;
     Material materialFor(GltfMaterialSettings const& settings);
 
     Engine::Impl& mEngine;
     Model::Impl& mModel;
     std::vector<Texture> const& mTextures;
+    GltfReadyMaterials mReady; ///< that no instance has yet
+    size_t mMaxMaps;
     std::map<std::string, Material> mMaterials; ///< by package and constants
 };
 

@@ -8,6 +8,7 @@
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
+#include "filament_core/scene/VertexPositions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +27,9 @@ class ModelUpload::Builder {
 public:
     Builder(Engine::Impl& engine, ReadModel model)
             : mEngine(engine), mData(std::move(model.data)), mLight(std::move(model.light)),
-              mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
-              mMaterials(mEngine, *mModel, mModel->textures) {
+              mPositions(std::move(model.positions)), mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
+              mMaterials(mEngine, *mModel, mModel->textures, std::move(model.materials)) {
+        mModel->bounds = model.bounds;
         mModel->name = mData.name;
         mModel->warnings = mData.warnings;
         mModel->animations = std::move(mData.animations);
@@ -63,13 +65,20 @@ private:
 
     size_t uploadImage(assets::Image& image) {
         mModel->textures.push_back({}); // reserve the entry before the object exists
+        const Bytes texels = shared(image.data);
         mModel->textures.back() = mEngine.createTexture({ .format = image.format,
                                                           .width = image.width,
                                                           .height = image.height,
                                                           .levels = image.levels,
-                                                          .pixels = image.data,
-                                                          .name = mData.name });
-        return std::exchange(image.data, {}).size();
+                                                          .pixels = *texels,
+                                                          .name = mData.name },
+                                                        texels);
+        return texels->size();
+    }
+
+    using Bytes = std::shared_ptr<const std::vector<std::byte>>;
+    static Bytes shared(std::vector<std::byte>& bytes) {
+        return std::make_shared<const std::vector<std::byte>>(std::exchange(bytes, {}));
     }
 
     size_t uploadEnvironment() {
@@ -83,25 +92,26 @@ private:
 
     size_t uploadMesh(assets::MeshData& mesh) {
         size_t bytes = 0;
+        std::vector<scene::MinMax> const& positions = mPositions[mMeshes.size()];
         std::vector<Part>& parts = mMeshes.emplace_back();
         for (PrimitiveData& primitive : mesh.primitives) {
+            bytes += primitive.indices.size() + primitive.vertices.size();
             // In the order of the meshes, which determines the order of draws.
             if (!materialOf(primitive.material).transmission.isSolid())
                 instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
-            parts.push_back({ upload(primitive, mesh.name), &primitive, meshFromPositions(primitive),
-                              primitive.positionScale != 1 || primitive.positionOffset != float3(0),
-                              primitive.isSkinned });
+            parts.push_back(
+                    { upload(primitive, positions[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
+                      primitive.positionScale != 1 || primitive.positionOffset != float3(0), primitive.isSkinned });
             if (!primitive.morphTargets.empty()) parts.back().targetNames = mesh.targetNames;
-            bytes += std::exchange(primitive.indices, {}).size(); // the vertices are needed for bounds
-            bytes += primitive.vertices.size();
         }
         return bytes;
     }
 
-    RenderableDesc upload(PrimitiveData const& primitive, std::string const& name) {
+    RenderableDesc upload(PrimitiveData& primitive, scene::MinMax const& positions, std::string const& name) {
+        const Bytes ofVertices = shared(primitive.vertices), ofIndices = shared(primitive.indices);
         VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
                                    .stride = primitive.layout.buffers[0].stride,
-                                   .data = primitive.vertices,
+                                   .data = *ofVertices,
                                    .name = name };
         for (uint32_t i = 0; i < primitive.layout.attributeCount; ++i) {
             backend::VertexAttribute const& attribute = primitive.layout.attributes[i];
@@ -110,11 +120,12 @@ private:
         }
         mModel->vertexBuffers.push_back({});
         mModel->indexBuffers.push_back({});
-        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices);
+        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices, ofVertices, positions);
         mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
                                                                   .format = primitive.indexFormat,
-                                                                  .data = primitive.indices,
-                                                                  .name = name });
+                                                                  .data = *ofIndices,
+                                                                  .name = name },
+                                                                ofIndices);
         return { .vertices = mModel->vertexBuffers.back(),
                  .indices = mModel->indexBuffers.back(),
                  .primitive = primitive.topology,
@@ -175,7 +186,6 @@ private:
 
     /// Positions scaled to a unit cube get a node of their own that restores their size.
     void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
-        assets::growBounds(mModel->bounds, *part.primitive, worldFromNode);
         uint32_t at = node;
         if (part.isScaled) {
             at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
@@ -194,10 +204,7 @@ private:
         }
     }
 
-    assets::MaterialData const& materialOf(uint32_t index) const {
-        static const assets::MaterialData defaultMaterial{ .name = "glTF default" };
-        return index == kNone ? defaultMaterial : mData.materials[index];
-    }
+    assets::MaterialData const& materialOf(uint32_t index) const { return filament::materialOf(mData, index); }
 
     /// One per material, with and without vertex colours; if the material has a volume, also one per scale.
     MaterialInstance instanceFor(uint32_t index, bool hasColor, double4x4 const& worldFromNode) {
@@ -249,6 +256,7 @@ private:
     Engine::Impl& mEngine;
     ModelData mData;
     std::optional<assets::EnvironmentData> mLight;
+    std::vector<std::vector<scene::MinMax>> mPositions; // by mesh of the file and primitive
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
     std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
@@ -382,23 +390,40 @@ assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& 
 
 namespace {
 
-Result<ReadModel> withLight(Result<assets::ModelData> data, jobs::JobSystem& jobs) {
-    if (!data) return data.error();
-    ReadModel model{ std::move(*data), {} };
+/// What an upload would otherwise compute between frames.
+void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, GltfMaterialChoice const& choice) {
     if (model.data.imageBasedLight) model.light = assets::environmentFromCube(model.data.imageBasedLight->light, jobs);
+    model.materials = readMaterials(model.data, choice, jobs);
+    model.bounds = assets::boundsOf(model.data);
+    std::vector<assets::MeshData> const& meshes = model.data.meshes;
+    model.positions.resize(meshes.size());
+    jobs::parallelFor<"bounds">(jobs, meshes.size(), 8, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            for (PrimitiveData const& primitive : meshes[i].primitives)
+                model.positions[i].push_back(scene::boundsOf(primitive.layout, primitive.vertices));
+    });
+}
+
+Result<ReadModel> prepared(Result<assets::ModelData> data, jobs::JobSystem& jobs, assets::GltfOptions const& options,
+                           GltfMaterialChoice const& choice) {
+    if (!data) return data.error();
+    ReadModel model;
+    model.data = std::move(*data);
+    if (options.cancellation && options.cancellation->isRequested()) return model; // nobody takes it
+    prepareUpload(model, jobs, choice);
     return model;
 }
 
 } // namespace
 
 Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,
-                            assets::GltfOptions const& options) {
-    return withLight(assets::loadGltf(path, jobs, options), jobs);
+                            assets::GltfOptions const& options, GltfMaterialChoice const& choice) {
+    return prepared(assets::loadGltf(path, jobs, options), jobs, options, choice);
 }
 
-Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs,
-                            assets::GltfOptions const& options) {
-    return withLight(assets::loadGltfFromMemory(file, {}, jobs, options), jobs);
+Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs, assets::GltfOptions const& options,
+                            GltfMaterialChoice const& choice) {
+    return prepared(assets::loadGltfFromMemory(file, {}, jobs, options), jobs, options, choice);
 }
 
 } // namespace engine
@@ -420,15 +445,18 @@ Result<Model> upload(Engine::Impl& engine, Result<engine::ReadModel> read) {
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
     const PublicCall call(engine, "loadGltf(Engine, path)", path.native());
     return orOutOfMemory("glTF", path.native(), [&] {
-        return upload(engine.impl(), engine::readModel(path, engine.impl().jobs, engine::gltfOptions(options)));
+        Engine::Impl& impl = engine.impl();
+        return upload(impl,
+                      engine::readModel(path, impl.jobs, engine::gltfOptions(options), GltfMaterials::choiceOf(impl)));
     });
 }
 
 Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions const& options) {
     const PublicCall call(engine, "loadGltf(Engine, GltfMemory)", model.name);
     return orOutOfMemory("glTF", model.name, [&] {
-        return upload(engine.impl(),
-                      engine::readModel(model.file, engine.impl().jobs, engine::gltfOptions(model, options)));
+        Engine::Impl& impl = engine.impl();
+        return upload(impl, engine::readModel(model.file, impl.jobs, engine::gltfOptions(model, options),
+                                              GltfMaterials::choiceOf(impl)));
     });
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A glTF file becomes a Model in two halves: readModel() decodes it, ModelUpload creates the engine's objects.
 ///   Thread  readModel(): any, beside frames. ModelUpload: the app thread.
+///   Cost    ModelUpload copies no texels and no vertices, unpacks no material and visits no vertex: readModel() did.
 ///   Fails   readModel(): errors of GltfLoader.h. ModelUpload: std::bad_alloc, after which it can only be destroyed.
 #pragma once
 
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/engine/gltf/ReadMaterials.h"
+#include "filament_core/scene/Deformations.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -19,6 +22,10 @@ namespace filament::engine {
 struct ReadModel {
     assets::ModelData data;
     std::optional<assets::EnvironmentData> light; ///< the image-based light of `data`, baked
+    GltfReadyMaterials materials;
+    Box bounds; ///< assets::boundsOf(data)
+    /// What scene::boundsOf() says of the vertices, by mesh and primitive.
+    std::vector<std::vector<scene::MinMax>> positions;
 };
 
 /// Of the loader, with `progress` of the options.
@@ -26,9 +33,11 @@ assets::GltfOptions gltfOptions(GltfLoadOptions const& options);
 /// The same for a model in memory: what its URIs name comes from the caller.
 assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& options);
 
+/// `choice`: of the engine that will draw it.
 Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,
-                            assets::GltfOptions const& options);
-Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs, assets::GltfOptions const& options);
+                            assets::GltfOptions const& options, GltfMaterialChoice const& choice);
+Result<ReadModel> readModel(std::span<const std::byte> file, jobs::JobSystem& jobs, assets::GltfOptions const& options,
+                            GltfMaterialChoice const& choice);
 
 class ModelUpload {
 public:
@@ -36,7 +45,7 @@ public:
     ~ModelUpload(); ///< destroys what was created, unless finish() was called
 
     size_t stepCount() const;
-    /// Steps 0, 1, 2, ...: an image, a mesh, and the rest, each. Returns the bytes that it copied.
+    /// Steps 0, 1, 2, ...: an image, a mesh, and the rest, each. Returns the bytes that it gave to the device.
     size_t step(size_t index);
     /// After all steps.
     std::unique_ptr<Model::Impl> finish();

@@ -53,27 +53,36 @@ Result<std::vector<ConstantValue>> resolveConstants(shader::MaterialPackage cons
 
 } // namespace
 
-Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
+Result<shader::MaterialPackage> unpackMaterial(MaterialDesc const& desc) {
     auto package = shader::readPackage(desc.package);
     if (!package) {
         return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
     }
-    const bool isEngines = isTrusted(desc.package);
-    if (!isEngines) {
-        if (Result<void> checked = checkSpirv(*package); !checked) {
-            return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
-        }
+    if (isTrusted(desc.package)) return package;
+    if (Result<void> checked = checkSpirv(*package); !checked) {
+        return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
     }
-    auto constants = resolveConstants(*package, desc.constants);
+    return package;
+}
+
+Result<scene::Material> specialiseMaterial(shader::MaterialPackage package, MaterialDesc const& desc) {
+    auto constants = resolveConstants(package, desc.constants);
     if (!constants) return constants.error();
     scene::Material material;
-    material.name = desc.name.empty() ? package->name : desc.name;
-    material.package = std::move(*package);
-    if (isEngines && material.package.name.starts_with("gltf_")) material.optionalAttributes = kOptionalInGltf;
+    material.name = desc.name.empty() ? package.name : desc.name;
+    material.package = std::move(package);
+    if (isTrusted(desc.package) && material.package.name.starts_with("gltf_"))
+        material.optionalAttributes = kOptionalInGltf;
     material.constants = std::move(*constants);
     shader::removeUnusedTextures(material.package, material.constants);
     material.description = describeMaterial(material);
     return material;
+}
+
+Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
+    Result<shader::MaterialPackage> package = unpackMaterial(desc);
+    if (!package) return package.error();
+    return specialiseMaterial(std::move(*package), desc);
 }
 
 Result<void> checkSamplers(scene::Material const& material, uint32_t units, std::string_view device) {

@@ -18,20 +18,24 @@ using engine::PublicCall;
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = engine::loadMaterial(desc);
     if (!loaded) return loaded.error();
-    const bool isFlat = loaded->package.interpolation == shader::Interpolation::Flat;
+    return addMaterial(std::move(*loaded));
+}
+
+Result<Material> Engine::Impl::addMaterial(scene::Material loaded) {
+    const bool isFlat = loaded.package.interpolation == shader::Interpolation::Flat;
     if (isFlat && !stream->info().features.lastVertexProvokes) {
         return fail(ErrorCode::Unsupported,
                     "material '{}': interpolation : flat uses the last vertex of a triangle, but {} supports only the "
                     "first (it lacks VK_EXT_provoking_vertex); use interpolation : smooth",
-                    loaded->name, device.device);
+                    loaded.name, device.device);
     }
-    const Result<void> fits = engine::checkSamplers(*loaded, stream->info().limits.maxTextureUnits, device.device);
+    const Result<void> fits = engine::checkSamplers(loaded, stream->info().limits.maxTextureUnits, device.device);
     if (!fits) return fits.error();
-    loaded->id = materialNumbers.take();
+    const uint32_t id = loaded.id = materialNumbers.take();
     try {
-        return materials.add(std::move(*loaded));
+        return materials.add(std::move(loaded));
     } catch (...) {
-        materialNumbers.giveBack(loaded->id);
+        materialNumbers.giveBack(id);
         throw;
     }
 }

@@ -158,6 +158,23 @@ TEST(CommandBuffer, RecordAdoptedKeepsTheSpanThatAllocateGave) {
     EXPECT_EQ(command->bytes.data(), bytes.data());
 }
 
+TEST(CommandBuffer, KeepsGivenPayloadsWithoutACopyUntilReset) {
+    const auto payload = std::make_shared<const std::vector<std::byte>>(numbered(100'000, 3));
+    CommandBuffer frame;
+    {
+        CommandBuffer pending;
+        pending.keep(payload);
+        pending.recordAdopted(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = *payload });
+        frame.append(std::move(pending));
+    } // with the frame now
+    CommandBuffer moved(std::move(frame));
+    EXPECT_EQ(payload.use_count(), 2);
+    EXPECT_LT(moved.bytesReserved(), payload->size() + 64 * 1024);
+    EXPECT_THAT(listen(moved).payloads, testing::ElementsAre(*payload));
+    moved.reset();
+    EXPECT_EQ(payload.use_count(), 1);
+}
+
 TEST(CommandBuffer, AppendJoinsBuffersInOrderAndEmptiesTheTail) {
     CommandBuffer head, tail, empty;
     head.record(CmdPushGroup{ "head" });

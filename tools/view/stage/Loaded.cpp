@@ -3,6 +3,8 @@
 
 #include "base/Suggest.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/materials/LoadMaterial.h"
+#include "shaders/package/EngineMaterials.h"
 #include "shaders/package/ParameterLayout.h"
 #include "tools/materials/PictureFile.h"
 
@@ -42,9 +44,41 @@ LoadState stateOf(LoadStatus const& status) {
     };
 }
 
-Result<LoadedMaterial> onStand(Engine& engine, tools::MaterialFile file) {
-    auto shared = std::make_shared<const tools::MaterialFile>(std::move(file));
-    Result<tools::MaterialStand> stand = tools::MaterialStand::make(engine, *shared);
+/// On a thread of its own: compiles and unpacks.
+Result<ReadMaterial> readMaterial(std::filesystem::path const& path) {
+    Result<tools::MaterialFile> file = tools::compileMaterialFile(path);
+    if (!file) return file.error();
+    Result<std::vector<MaterialConstant>> constants = tools::materialConstants(file->package, file->show.values);
+    if (!constants) return constants.error();
+    Result<scene::Material> shown = engine::loadMaterial({ file->bytes, std::move(*constants), file->name });
+    if (!shown) return shown.error();
+    ReadMaterial read{ std::move(*file), std::move(*shown), {} };
+    if (!read.file.show.slab) return read;
+    Result<scene::Material> slab =
+            engine::loadMaterial({ shader::engineMaterial(tools::MaterialStand::kSlabPackage), {}, {} });
+    if (!slab) return slab.error();
+    read.slab = std::move(*slab);
+    return read;
+}
+
+Result<Owned<Material>> addTo(Engine& engine, scene::Material material) {
+    const Result<Material> added = engine.impl().addMaterial(std::move(material));
+    if (!added) return added.error();
+    return engine.own(*added);
+}
+
+Result<LoadedMaterial> onStand(Engine& engine, ReadMaterial read) {
+    tools::StandMaterials materials;
+    Result<Owned<Material>> shown = addTo(engine, std::move(read.shown));
+    if (!shown) return shown.error();
+    materials.shown = std::move(*shown);
+    if (read.slab) {
+        Result<Owned<Material>> slab = addTo(engine, std::move(*read.slab));
+        if (!slab) return slab.error();
+        materials.slab = std::move(*slab);
+    }
+    auto shared = std::make_shared<const tools::MaterialFile>(std::move(read.file));
+    Result<tools::MaterialStand> stand = tools::MaterialStand::make(engine, *shared, {}, {}, std::move(materials));
     if (!stand) return stand.error();
     LoadedMaterial loaded{ .file = shared, .stand = std::move(*stand), .values = {}, .textures = {} };
     for (shader::Parameter const& parameter : shared->package.parameters) {
@@ -94,7 +128,7 @@ Box LoadedModel::bounds() const {
 ModelLoad::ModelLoad(Engine& engine, DocumentModel const& model)
         : mFile(model.file),
           mWork(tools::isMaterialFile(model.file)
-                        ? decltype(mWork)(Compile([file = model.file] { return tools::compileMaterialFile(file); }))
+                        ? decltype(mWork)(Compile([file = model.file] { return readMaterial(file); }))
                         : decltype(mWork)(loadGltfAsync(engine, model.file, model.options))) {}
 
 LoadState ModelLoad::poll(size_t sliceBytes) {
@@ -113,9 +147,9 @@ Result<LoadedModel> ModelLoad::take(Engine& engine) {
         if (!model) return model.error();
         return LoadedModel{ .file = mFile, .content = std::move(*model) };
     }
-    Result<tools::MaterialFile> file = std::get<Compile>(mWork).take();
-    if (!file) return file.error();
-    Result<LoadedMaterial> material = onStand(engine, std::move(*file));
+    Result<ReadMaterial> read = std::get<Compile>(mWork).take();
+    if (!read) return read.error();
+    Result<LoadedMaterial> material = onStand(engine, std::move(*read));
     if (!material) return material.error();
     return LoadedModel{ .file = mFile, .content = std::move(*material) };
 }

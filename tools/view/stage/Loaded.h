@@ -57,6 +57,13 @@ struct LoadState {
     bool isFinished = false;
 };
 
+/// A material file, and what of it needs no engine.
+struct ReadMaterial {
+    tools::MaterialFile file;
+    scene::Material shown;
+    std::optional<scene::Material> slab;
+};
+
 class ModelLoad {
 public:
     using Value = LoadedModel;
@@ -67,7 +74,7 @@ public:
     void abandon(Abandoned& abandoned);
 
 private:
-    using Compile = Background<Result<tools::MaterialFile>>;
+    using Compile = Background<Result<ReadMaterial>>;
     std::filesystem::path mFile;
     std::variant<LoadTicket<Model>, Compile> mWork;
 };

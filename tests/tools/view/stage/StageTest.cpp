@@ -471,9 +471,6 @@ double threadMilliseconds() {
     return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
 }
 
-/// The engine unpacks the code of a material that it does not know yet in one piece, 20 to 40 ms; the helmet has so many.
-constexpr size_t kNewMaterials = 2;
-
 TEST(StageLoads, LeaveTheAppThreadItsTime) {
     if (tools::assetDir().empty())
         GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
@@ -496,8 +493,7 @@ TEST(StageLoads, LeaveTheAppThreadItsTime) {
     EXPECT_EQ(stage->shownFile(), model);
     std::ranges::sort(slices, std::greater<>());
     std::printf("%zu slices; the longest took %.2f, %.2f, %.2f ms\n", slices.size(), slices[0], slices[1], slices[2]);
-    ASSERT_GT(slices.size(), kNewMaterials);
-    EXPECT_LT(slices[kNewMaterials], 16);
+    EXPECT_LT(slices[0], 16);
 }
 
 } // namespace

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// readMaterials: the engine's materials for a glTF model, unpacked and specialised beside frames.
+///   In      a model as the loader made it, and what of the engine decides (GltfMaterialChoice).
+///   Out     by materialKey(): each material that the primitives of the model are drawn with, in any of its variants.
+///           GltfMaterials takes them from there.
+///   Thread  any; with jobs. Each package is unpacked once.
+///   Memory  the code of all variants for both APIs: about 3 MB a material.
+///   Fails   std::bad_alloc.
+///   Cost    20 to 40 ms a package, 1 to 5 ms a material.
+#pragma once
+
+#include "filament_core/assets/gltf/ModelData.h"
+#include "filament_core/engine/gltf/GltfMaterialSettings.h"
+#include "filament_core/scene/Materials.h"
+#include "jobsystem/JobSystem.h"
+#include "shaders/package/EngineMaterials.h"
+
+#include <map>
+#include <string>
+
+namespace filament {
+
+/// What of an engine decides which material a glTF material becomes. Constant while the engine lives.
+struct GltfMaterialChoice {
+    shader::Arithmetic arithmetic = shader::Arithmetic::Exact;
+    size_t maxMaps = SIZE_MAX; ///< see settingsOf()
+};
+
+/// Equal for settings that share a material: the package and its constants.
+std::string materialKey(GltfMaterialSettings const& settings);
+
+/// What createMaterial() takes for such settings.
+MaterialDesc materialDesc(GltfMaterialSettings const& settings, shader::Arithmetic arithmetic);
+
+/// glTF 2.0, section 3.9.6: of primitives without one.
+assets::MaterialData const& materialOf(assets::ModelData const& model, uint32_t index);
+
+using GltfReadyMaterials = std::map<std::string, scene::Material>;
+
+GltfReadyMaterials readMaterials(assets::ModelData const& model, GltfMaterialChoice const& choice,
+                                 jobs::JobSystem& jobs);
+
+} // namespace filament
