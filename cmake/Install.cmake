@@ -3,12 +3,16 @@
 #   development  headers, archives, CMake and pkg-config files
 #   jobsystem    the job system alone, usable without the others
 #   tools        matc, matinfo, cmgen, imgdiff, filament-render, filament-view, filament-replay, filament-reference
+#   python       the Python module, in the folder of Debian's packages (FILAMENT_PYTHON)
 #   docs         licence, documentation, samples
 # The target `uninstall` removes what this build folder installed last.
 include(CMakePackageConfigHelpers)
 set(FILAMENT_COMPONENTS development jobsystem tools docs)
 if(BUILD_SHARED_LIBS)
     list(PREPEND FILAMENT_COMPONENTS runtime)
+endif()
+if(FILAMENT_PYTHON)
+    list(APPEND FILAMENT_COMPONENTS python)
 endif()
 set(FILAMENT_TOOLS matc matinfo cmgen imgdiff filament-render filament-view filament-replay filament-reference)
 set(FILAMENT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/filament_core)
@@ -72,6 +76,14 @@ endif()
 # ---- tools
 install(TARGETS ${FILAMENT_TOOLS} EXPORT filament_coreToolsTargets RUNTIME COMPONENT tools)
 install(EXPORT filament_coreToolsTargets NAMESPACE filament:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT tools)
+
+# ---- the Python module: below the prefix where Debian's Python looks
+if(FILAMENT_PYTHON)
+    set(FILAMENT_PYTHON_INSTALL_DIR lib/python3/dist-packages CACHE STRING "Where the Python module is installed")
+    install(TARGETS python_module LIBRARY DESTINATION ${FILAMENT_PYTHON_INSTALL_DIR}/filament_core COMPONENT python)
+    install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/filament_core DESTINATION ${FILAMENT_PYTHON_INSTALL_DIR} COMPONENT python
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
+endif()
 
 # ---- documents
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)

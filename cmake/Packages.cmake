@@ -63,6 +63,16 @@ Compiles materials (matc, matinfo), bakes environments (cmgen), draws models
 (filament-render), shows them in a window (filament-view), draws saved frames
 again (filament-replay), traces the true picture of models
 (filament-reference), and compares pictures (imgdiff).")
+if(FILAMENT_PYTHON)
+    math(EXPR next_minor "${Python_VERSION_MINOR} + 1") # the extension is of one version of Python
+    filament_package(python python3-filament-core python SHLIBDEPS RECOMMENDS "${drivers}" SUGGESTS python3-matplotlib
+        DEPENDS "python3 (>= 3.${Python_VERSION_MINOR})" "python3 (<< 3.${next_minor})" "python3-numpy (>= 1:1.22)"
+        SUMMARY "Physically based renderer for Vulkan and OpenGL ES - Python 3"
+        TEXT "${about}
+.
+The module filament_core: pictures as NumPy arrays, comparisons of pictures
+with FLIP, and the reports of the conformance and accuracy programs.")
+endif()
 filament_package(docs libfilament-core-doc doc
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - documents"
     TEXT "${about}

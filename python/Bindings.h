@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Bindings: the parts of the extension module, one file each, in the order in which Module.cpp adds them.
+#pragma once
+
+#include "python/Arrays.h"
+#include "python/Owner.h"
+
+#include <filament/Animator.h>
+#include <filament/Gltf.h>
+#include <filament/ModelCopy.h>
+#include <filament/Renderer.h>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+#include <string>
+
+namespace filament::python {
+
+using ModelObject = Held<Model>;
+using EnvironmentObject = Held<Environment>;
+using SceneObject = Held<Scene>;
+using RendererObject = Held<Renderer>;
+using TextureObject = Held<Owned<Texture>>;
+
+struct OwnedMaterial {
+    Owned<Material> material;
+    MaterialDescription description; ///< as it was loaded
+};
+using MaterialObject = Held<OwnedMaterial>;
+
+struct OwnedInstance {
+    Owned<MaterialInstance> instance;
+    MaterialDescription description; ///< of its material
+};
+using InstanceObject = Held<OwnedInstance>;
+
+struct OwnedMesh {
+    Owned<VertexBuffer> vertices;
+    Owned<IndexBuffer> indices;
+    uint32_t vertexCount = 0, triangleCount = 0;
+};
+using MeshObject = Held<OwnedMesh>;
+
+/// The engine as Python sees it. Nothing else of an engine refers to this object, only to its owner.
+struct EngineObject {
+    std::shared_ptr<Owner> owner;
+};
+
+/// The view of a picture, and what it refers to.
+struct ViewObject {
+    View view;
+    std::shared_ptr<TextureObject> dirt; ///< of Effects::bloom; null: none
+};
+
+using EngineClass = py::class_<EngineObject>;
+
+void bindView(py::module_& module);
+EngineClass bindEngine(py::module_& module);
+void bindMaterials(py::module_& module, EngineClass& engine);
+void bindMeshes(py::module_& module, EngineClass& engine);
+void bindScene(py::module_& module);
+void bindRenderer(py::module_& module);
+void bindCompare(py::module_& module);
+
+/// A value of a parameter of this type from a bool, a number, or a (nested) sequence of numbers.
+ParameterValue parameterOf(ParameterDescription const& parameter, py::handle value);
+/// Of samplers by name: filter "nearest", "bilinear" or "trilinear"; wrap "repeat", "mirror" or "clamp".
+Sampler samplerOf(std::string const& filter, std::string const& wrap, int anisotropy);
+
+} // namespace filament::python

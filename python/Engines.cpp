@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine, and what it loads.
+#include "python/Bindings.h"
+
+#include <filament/Environment.h>
+#include <filament/EnvironmentFormat.h>
+#include <filament/Version.h>
+
+namespace filament::python {
+namespace {
+
+constexpr int kMaxWorkers = 256;
+
+Backend backendOf(std::string const& name) {
+    for (const Backend backend : { Backend::Vulkan, Backend::Gles, Backend::Null })
+        if (name == toString(backend)) return backend;
+    raiseInvalid("backend: '{}' is not {}, {} or {}", name, toString(Backend::Vulkan), toString(Backend::Gles),
+                 toString(Backend::Null));
+}
+
+EngineObject makeEngine(std::string const& backend, std::string const& requireDevice, int64_t workers,
+                        bool exactShaders, bool validation, std::optional<std::filesystem::path> const& cacheDirectory,
+                        bool cachePrograms) {
+    EngineOptions options{ .backend = backendOf(backend), .requireDevice = requireDevice };
+    if (workers < -1 || workers > kMaxWorkers)
+        raiseInvalid("workers: {} is not from -1 (one for each other core) to {}", workers, kMaxWorkers);
+    options.workers = static_cast<int>(workers);
+    options.exactShaders = exactShaders;
+    options.validation = validation;
+    if (cacheDirectory) options.cacheDirectory = *cacheDirectory;
+    options.cachePrograms = cachePrograms;
+    return { Owner::create(options) };
+}
+
+py::dict dictOf(DeviceDescription const& device) {
+    py::dict dict;
+    dict["backend"] = toString(device.backend);
+    dict["device"] = device.device;
+    dict["driver"] = device.driver;
+    dict["max_texture_size"] = device.maxTextureSize;
+    dict["max_samples"] = device.maxSamples;
+    return dict;
+}
+
+py::list devices() {
+    py::list list;
+    for (DeviceDescription const& device : released([] { return listDevices(); })) list.append(dictOf(device));
+    return list;
+}
+
+py::dict statisticsOf(EngineObject const& self) {
+    const Owner::Call call(*self.owner);
+    const EngineStatistics statistics = call.engine().statistics();
+    py::dict dict;
+    dict["draws"] = statistics.draws;
+    dict["pipelines_created"] = statistics.pipelinesCreated;
+    dict["programs_created"] = statistics.programsCreated;
+    dict["programs_from_cache"] = statistics.programsFromCache;
+    dict["commands"] = statistics.commands;
+    dict["device_bytes"] = statistics.deviceBytes;
+    return dict;
+}
+
+/// The value of a keyword, by one of the fromName() functions.
+template <class T>
+T named(std::optional<T> const& known, const char* keyword, std::string const& value, const char* valid) {
+    if (!known) raiseInvalid("{}: '{}' is not {}", keyword, value, valid);
+    return *known;
+}
+
+std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem::path const& path,
+                                       std::string const& positions, std::string const& tangents, bool deformable,
+                                       std::string const& files) {
+    GltfLoadOptions options{ .deformable = deformable };
+    options.positions =
+            named(positionStorageFromName(positions), "positions", positions, "asAuthored, half or unorm16");
+    options.tangents = named(tangentStorageFromName(tangents), "tangents", tangents, "snorm16, snorm8 or float");
+    if (files != "folder" && files != "anywhere") raiseInvalid("files: '{}' is not folder or anywhere", files);
+    options.filesFromAnywhere = files == "anywhere";
+    const Owner::Call call(*self.owner);
+    Result<Model> model = released([&] { return loadGltf(call.engine(), path, options); });
+    return std::make_shared<ModelObject>(self.owner, valueOf(std::move(model)));
+}
+
+std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesystem::path const& path,
+                                           int64_t faceSize, std::string const& format,
+                                           std::string const& roughnessMapping, int64_t samples) {
+    const bool isPower = faceSize >= 16 && faceSize <= 2048 && (faceSize & (faceSize - 1)) == 0;
+    if (!isPower) raiseInvalid("face_size: {} is no power of two from 16 to 2048", faceSize);
+    if (samples < 1 || samples > 65536) raiseInvalid("samples: {} is not from 1 to 65536", samples);
+    EnvironmentLoadOptions options{ .faceSize = static_cast<uint32_t>(faceSize) };
+    options.format = named(environmentFormatFromName(format), "format", format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM");
+    options.roughnessMapping = named(roughnessMappingFromName(roughnessMapping), "roughness_mapping", roughnessMapping,
+                                     "quadratic, logarithmic or linear");
+    options.samples = static_cast<uint32_t>(samples);
+    const Owner::Call call(*self.owner);
+    Result<Environment> sky = released([&] { return loadEnvironment(call.engine(), path, options); });
+    return std::make_shared<EnvironmentObject>(self.owner, valueOf(std::move(sky)));
+}
+
+std::shared_ptr<TextureObject> makeTexture(EngineObject const& self, Image const& image, std::string const& name) {
+    const Owner::Call call(*self.owner);
+    const uint32_t most = self.owner->device().maxTextureSize;
+    if (image.width > most || image.height > most)
+        raiseInvalid("a texture of {} x {} texels: the device takes {} a side", image.width, image.height, most);
+    Engine& engine = call.engine();
+    Owned<Texture> texture = engine.own(released([&] { return engine.create(textureOf(image, name)); }));
+    if (!texture.get()) {
+        self.owner->raiseErrors();
+        raise({ ErrorCode::OutOfMemory, "there is no memory for the texture" });
+    }
+    return std::make_shared<TextureObject>(self.owner, std::move(texture));
+}
+
+std::shared_ptr<TextureObject> textureOfArray(EngineObject const& self, py::object const& pixels, bool srgb,
+                                              std::string const& name) {
+    Image image = pictureOf(pixels, "pixels").image();
+    if (srgb && image.format == Format::RGBA8) image.format = Format::RGBA8Srgb;
+    return makeTexture(self, image, name);
+}
+
+std::shared_ptr<TextureObject> loadTexture(EngineObject const& self, std::filesystem::path const& path,
+                                           std::string const& content) {
+    if (content != "color" && content != "data") raiseInvalid("content: '{}' is not color or data", content);
+    const ImageLoadOptions options{ .content = content == "color" ? ImageContent::Color : ImageContent::Data };
+    Result<Image> image = released([&] { return loadImage(path, options); });
+    return makeTexture(self, valueOf(std::move(image)), path.filename().string());
+}
+
+py::list animationsOf(ModelObject const& self) {
+    const Owner::Call call(*self.owner());
+    py::list list;
+    for (uint32_t i = 0; i < self->animationCount(); ++i)
+        list.append(py::make_tuple(self->animationName(i), self->animationSeconds(i)));
+    return list;
+}
+
+void bindLoaded(py::module_& module) {
+    py::class_<ModelObject, std::shared_ptr<ModelObject>>(
+            module, "Model", "A loaded glTF model: Scene.add() makes copies of it. From Engine.load_model().")
+            .def_property_readonly(
+                    "name", [](ModelObject const& self) { return self->name(); }, "The name of the file.")
+            .def_property_readonly(
+                    "bounds", [](ModelObject const& self) { return arrayOf(self->bounds()); },
+                    "[[min], [max]] in metres, in the rest pose; None if there is nothing to see.")
+            .def_property_readonly(
+                    "variants", [](ModelObject const& self) { return self->variantNames(); },
+                    "The names of KHR_materials_variants.")
+            .def_property_readonly("animations", &animationsOf, "The name and the length in seconds of each animation.")
+            .def_property_readonly(
+                    "has_environment", [](ModelObject const& self) { return self->environment() != nullptr; },
+                    "Whether the file brings an image-based light, for Scene.set_environment().")
+            .def_property_readonly(
+                    "warnings", [](ModelObject const& self) { return self->warnings(); },
+                    "What was not supported, or repaired, one line each.");
+    py::class_<EnvironmentObject, std::shared_ptr<EnvironmentObject>>(
+            module, "Environment",
+            "A loaded environment, for Scene.set_environment(). From Engine.load_environment().");
+    py::class_<TextureObject, std::shared_ptr<TextureObject>>(
+            module, "Texture", "A picture on the device, for parameters of materials. From Engine.texture().");
+}
+
+void bindLoading(EngineClass& engine) {
+    engine.def("load_model", &loadModel, py::arg("path"), py::kw_only(), py::arg("positions") = "asAuthored",
+               py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("files") = "folder",
+               "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents and "
+               "model.files.")
+            .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
+                 py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
+                 "Loads an equirectangular .hdr or .exr, or a baked .fenv, as light and background.")
+            .def("texture", &textureOfArray, py::arg("pixels"), py::kw_only(), py::arg("srgb") = true,
+                 py::arg("name") = "",
+                 "A texture with all mip levels from a picture: uint8 codes of sRGB (srgb=False: data), or floats.")
+            .def("load_texture", &loadTexture, py::arg("path"), py::kw_only(), py::arg("content") = "color",
+                 "A texture from a PNG, JPEG, HDR or EXR file; content is color or data (normals, roughness).");
+}
+
+} // namespace
+
+EngineClass bindEngine(py::module_& module) {
+    module.attr("__version__") = versionText();
+    module.def("list_devices", &devices, "Every device that Engine() could use now, as dictionaries.");
+    EngineClass engine(
+            module, "Engine",
+            "One device and everything made from it. It belongs to the thread that creates it. A context manager: "
+            "leaving it closes the engine.");
+    bindLoaded(module);
+    engine.def(py::init(&makeEngine), py::arg("backend") = "vulkan", py::kw_only(), py::arg("require_device") = "",
+               py::arg("workers") = -1, py::arg("exact_shaders") = true, py::arg("validation") = false,
+               py::arg("cache_directory") = py::none(), py::arg("cache_programs") = false)
+            .def_property_readonly(
+                    "device", [](EngineObject const& self) { return dictOf(self.owner->device()); },
+                    "backend, device, driver, max_texture_size and max_samples.")
+            .def_property_readonly(
+                    "closed", [](EngineObject const& self) { return !self.owner->isOpen(); },
+                    "Whether close() was called.")
+            .def(
+                    "close", [](EngineObject const& self) { self.owner->close(); },
+                    "Ends the engine and everything made from it. Using that raises ClosedError from now on.")
+            .def("__enter__", [](py::object const& self) { return self; })
+            .def("__exit__", [](EngineObject const& self, py::args const&) { self.owner->close(); })
+            .def(
+                    "use_on_this_thread", [](EngineObject const& self) { self.owner->useOnThisThread(); },
+                    "The calling thread becomes the engine's. ThreadError while a call is at work on another one.")
+            .def(
+                    "take_errors",
+                    [](EngineObject const& self) {
+                        const Owner::Call call(*self.owner);
+                        return call.engine().takeErrors();
+                    },
+                    "The errors of the device since the last call. Renderer.render() raises them by itself.")
+            .def(
+                    "wait_idle",
+                    [](EngineObject const& self) {
+                        const Owner::Call call(*self.owner);
+                        released([&] { call.engine().waitIdle(); });
+                    },
+                    "Waits until everything submitted has run.")
+            .def("statistics", &statisticsOf, "Running totals: draws, pipelines, programs, commands, memory.");
+    bindLoading(engine);
+    return engine;
+}
+
+} // namespace filament::python

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering to arrays, and what frames needed.
+#include "python/Bindings.h"
+
+#include <optional>
+
+namespace filament::python {
+namespace {
+
+constexpr int64_t kMaxFrames = 1'000'000;
+
+/// A renderer and the images that it draws into.
+struct Drawing {
+    Renderer renderer;
+    Owned<SwapChain> images{};
+    uint2 size{ 0 };
+    Format format = Format::RGBA8;
+};
+using DrawingObject = Held<Drawing>;
+
+std::shared_ptr<DrawingObject> makeRenderer(EngineObject const& engine, bool passTimers) {
+    const Owner::Call call(*engine.owner);
+    return std::make_shared<DrawingObject>(engine.owner,
+                                           Drawing{ Renderer(call.engine(), { .passTimers = passTimers }) });
+}
+
+void prepareImages(Engine& engine, Owner const& owner, Drawing& drawing, uint2 size, Format format) {
+    const uint32_t most = owner.device().maxTextureSize;
+    if (size.x > most || size.y > most)
+        raiseInvalid("size: {} x {} pixels, but the device draws at most {} a side", size.x, size.y, most);
+    if (drawing.images.get() && drawing.size == size && drawing.format == format) return;
+    drawing.images = engine.own(engine.create(SwapChainDesc{ .size = size, .imageCount = 1, .format = format }));
+    drawing.size = size;
+    drawing.format = format;
+}
+
+/// Raises the errors of the device, and KeyboardInterrupt.
+void checkFrame(Owner& owner) {
+    owner.raiseErrors();
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+View viewOf(ViewObject const& view, Owner const& owner) {
+    View copy = view.view;
+    if (view.dirt) {
+        requireSame(owner, *view.dirt, "bloom_dirt");
+        copy.effects.bloom.dirt = (*view.dirt)->get();
+    }
+    return copy;
+}
+
+py::array render(DrawingObject const& self, SceneObject const& scene, ViewObject const& view, std::string const& output,
+                 int64_t frames) {
+    if (output != "display" && output != "light") raiseInvalid("output: '{}' is not display or light", output);
+    if (frames < 1 || frames > kMaxFrames) raiseInvalid("frames: {} is not from 1 to {}", frames, kMaxFrames);
+    Owner& owner = *self.owner();
+    const Owner::Call call(owner);
+    requireSame(owner, scene, "scene");
+    const View settings = viewOf(view, owner);
+    Drawing& drawing = *self;
+    const Scene& content = *scene;
+    const Format format = output == "light" ? Format::RGBA16F : Format::RGBA8;
+    prepareImages(call.engine(), owner, drawing, settings.size, format);
+    if (!drawing.images.get()) checkFrame(owner);
+    if (!drawing.images.get()) raise({ ErrorCode::OutOfMemory, "there is no memory for the picture" });
+    for (int64_t frame = 0; frame < frames; ++frame) {
+        released([&] { drawing.renderer.render(content, settings, drawing.images); });
+        checkFrame(owner);
+    }
+    const PixelTicket ticket = drawing.renderer.readPixels(drawing.images);
+    if (!ticket) raise({ ErrorCode::OutOfMemory, "there is no memory for the pixels" });
+    Result<Image> image = released([&] { return drawing.renderer.waitPixels(ticket); });
+    checkFrame(owner); // says more than the missing pixels do
+    const Image pixels = valueOf(std::move(image));
+    const size_t bytes = size_t{ pixels.width } * pixels.height * (format == Format::RGBA8 ? 4 : 8);
+    if (pixels.format != format || pixels.pixels.size() != bytes)
+        raise({ ErrorCode::DeviceLost, "the device gave no pixels" });
+    return arrayOf(pixels);
+}
+
+py::list decisionsOf(DrawingObject const& self) {
+    const Owner::Call call(*self.owner());
+    py::list list;
+    for (EffectDecision const& decision : self->renderer.decisions()) {
+        py::dict dict;
+        dict["name"] = decision.name;
+        dict["state"] = toString(decision.state);
+        dict["reason"] = decision.reason;
+        dict["gpu_milliseconds"] = decision.gpuMilliseconds;
+        dict["attachment_bytes"] = decision.attachmentBytes;
+        list.append(dict);
+    }
+    return list;
+}
+
+py::dict statisticsOf(DrawingObject const& self) {
+    const Owner::Call call(*self.owner());
+    const FrameStatistics statistics = self->renderer.statistics();
+    py::dict dict;
+    dict["frame"] = statistics.frame;
+    dict["renderables"] = statistics.renderables;
+    dict["visible"] = statistics.visible;
+    dict["culled"] = statistics.culled;
+    dict["draws"] = statistics.draws;
+    dict["triangles"] = statistics.triangles;
+    dict["lights"] = statistics.lights;
+    dict["passes_run"] = statistics.passesRun;
+    dict["passes_culled"] = statistics.passesCulled;
+    return dict;
+}
+
+py::list timingsOf(DrawingObject const& self) {
+    const Owner::Call call(*self.owner());
+    py::list list;
+    for (FrameTimings const& timings : self->renderer.takeTimings()) {
+        py::dict passes;
+        for (PassTiming const& pass : timings.passes) passes[py::str(pass.name)] = pass.gpuMilliseconds;
+        py::dict dict;
+        dict["frame"] = timings.frame;
+        dict["prepare_milliseconds"] = timings.prepareMilliseconds;
+        dict["record_milliseconds"] = timings.recordMilliseconds;
+        dict["replay_milliseconds"] = timings.replayMilliseconds;
+        dict["gpu_milliseconds"] = timings.gpuMilliseconds;
+        dict["passes"] = passes;
+        list.append(dict);
+    }
+    return list;
+}
+
+} // namespace
+
+void bindRenderer(py::module_& module) {
+    py::class_<DrawingObject, std::shared_ptr<DrawingObject>>(
+            module, "Renderer", "Draws scenes to arrays. Keeps what effects gather over frames.")
+            .def(py::init(&makeRenderer), py::arg("engine"), py::kw_only(), py::arg("pass_timers") = false)
+            .def("render", &render, py::arg("scene").none(false), py::arg("view").none(false), py::kw_only(),
+                 py::arg("output") = "display", py::arg("frames") = 1,
+                 "Draws so many frames of the view and returns the last: an array (height, width, 4), row 0 on top. "
+                 "output='display': uint8 codes, tone mapped; 'light': float32, linear Rec. 709 times the exposure. "
+                 "Other "
+                 "threads of Python run meanwhile.")
+            .def("decisions", &decisionsOf,
+                 "What the last frame needed, what it did not, and why: effects first, then passes.")
+            .def(
+                    "explain",
+                    [](DrawingObject const& self) {
+                        const Owner::Call call(*self.owner());
+                        return self->renderer.explain();
+                    },
+                    "decisions() as a table, and the frame graph in words.")
+            .def(
+                    "graphviz",
+                    [](DrawingObject const& self) {
+                        const Owner::Call call(*self.owner());
+                        return self->renderer.graphviz();
+                    },
+                    "The frame graph of the last frame for graphviz.")
+            .def("statistics", &statisticsOf, "Counts of the last frame: renderables, draws, triangles, passes.")
+            .def("take_timings", &timingsOf,
+                 "Times of the frames since the last call, oldest first. Those of the device need pass_timers.");
+}
+
+} // namespace filament::python

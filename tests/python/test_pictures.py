@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures have the values that follow from their definition, and the same bits on both APIs."""
+import math
+import pathlib
+import tempfile
+
+from support import BACKENDS, WINDMILL, fc, flat_view, np, placed, quad, unittest, unlit
+
+
+def codes_of(linear):
+    """IEC 61966-2-1, rounded to 8 bits."""
+    encoded = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * np.power(linear, 1 / 2.4) - 0.055)
+    return np.round(np.clip(encoded, 0, 1) * 255).astype(np.uint8)
+
+
+class ClosedForms(unittest.TestCase):
+    def setUp(self):
+        self.engine = fc.Engine("gles")
+        self.addCleanup(self.engine.close)
+        self.scene = fc.Scene(self.engine)
+        self.renderer = fc.Renderer(self.engine)
+
+    def test_light_is_what_an_unlit_material_says(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (0.25, 0.5, 3)))
+        picture = self.renderer.render(self.scene, flat_view(), output="light")
+        self.assertEqual((picture.dtype, picture.shape), (np.float32, (64, 64, 4)))
+        self.assertTrue((picture == np.array([0.25, 0.5, 3, 1], np.float32)).all())
+
+    def test_display_values_are_codes_of_srgb(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (0.25, 0.5, 3)))
+        picture = self.renderer.render(self.scene, flat_view())
+        self.assertEqual((picture.dtype, picture.shape), (np.uint8, (64, 64, 4)))
+        self.assertEqual(picture[0, 0, :3].tolist(), codes_of(np.array([0.25, 0.5, 3])).tolist())
+        self.assertTrue((picture == picture[0, 0]).all())
+
+    def test_the_background_is_the_clear_color(self):
+        view = flat_view(8, 4)
+        view.clear_color = 0.5, 0.25, 0.125, 1
+        picture = self.renderer.render(self.scene, view, output="light")
+        self.assertEqual(picture.shape, (4, 8, 4))
+        self.assertEqual(picture[3, 7, :3].tolist(), [0.5, 0.25, 0.125])
+
+    def test_row_0_is_on_top_and_column_0_on_the_left(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)), transform=placed(-0.5, 0.5, scale=0.5))
+        picture = self.renderer.render(self.scene, flat_view(), output="light")[..., 0]
+        expected = np.zeros((64, 64))
+        expected[:32, :32] = 1
+        self.assertTrue((picture == expected).all())
+
+    def test_a_parallel_lens_shows_metres(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)), transform=placed(scale=0.5))
+        for metres, side in ((2, 32), (4, 16), (8, 8)):
+            picture = self.renderer.render(self.scene, flat_view(metres=metres), output="light")
+            self.assertEqual(int(picture[..., 0].sum()), side * side)
+
+    def test_a_perspective_lens_shows_its_field_of_view(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)))
+        view = flat_view()
+        view.look_at((0, 0, 4), (0, 0, 0), fov_degrees=math.degrees(2 * math.atan(0.5)))  # 4 metres high at 4 metres
+        picture = self.renderer.render(self.scene, view, output="light")
+        self.assertEqual(int(picture[..., 0].sum()), 32 * 32)
+
+    def test_a_matte_surface_reflects_a_share_of_its_sun(self):
+        matte = self.engine.built_in_material("lit").instance()
+        matte.set("baseColor", (0.5, 0.25, 1))
+        matte.set("roughness", 1)
+        matte.set("reflectance", 0)
+        self.scene.add_mesh(quad(self.engine), matte)
+        slope = math.cos(math.radians(60))
+        self.scene.add_sun((0, math.sin(math.radians(60)), -slope), 100_000, casts_shadows=False)
+        view = flat_view()
+        view.exposure(16, 1 / 125, 100)
+        ev100 = math.log2(16 * 16 * 125)
+        self.assertAlmostEqual(view.exposure_factor * 1.2 * 2 ** ev100, 1, places=5)
+        picture = self.renderer.render(self.scene, view, output="light")
+        lambert = np.array([0.5, 0.25, 1]) / math.pi * 100_000 * slope * view.exposure_factor
+        np.testing.assert_allclose(picture[32, 32, :3], lambert, rtol=2e-3)
+
+    def test_a_texture_is_shown_texel_by_texel(self):
+        codes = np.random.default_rng(1).integers(0, 256, (16, 32, 4), dtype=np.uint8)
+        codes[..., 3] = 255
+        material = self.engine.built_in_material("unlitTextured").instance()
+        material.set_texture("baseColorMap", self.engine.texture(codes), filter="nearest", wrap="clamp")
+        self.scene.add_mesh(quad(self.engine), material, transform=np.diag([2.0, 1.0, 1.0, 1.0]))
+        picture = self.renderer.render(self.scene, flat_view(32, 16))
+        self.assertTrue(fc.compare(codes, picture).identical)
+
+    def test_hidden_and_removed_shapes_are_not_drawn(self):
+        shape = self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)))
+        for change in (lambda: shape.set_visible(False), lambda: shape.set_transform(placed(x=10)), shape.remove):
+            shape.set_visible(True)
+            shape.set_transform(None)
+            self.assertEqual(self.renderer.render(self.scene, flat_view(), output="light")[..., 0].min(), 1)
+            change()
+            self.assertEqual(self.renderer.render(self.scene, flat_view(), output="light")[..., 0].max(), 0)
+        self.assertEqual(self.scene.counts["renderables"], 0)
+
+    def test_pictures_are_arrays_of_their_own(self):
+        self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)))
+        first = self.renderer.render(self.scene, flat_view())
+        kept = first.copy()
+        second = self.renderer.render(self.scene, flat_view(metres=8))
+        self.assertTrue((first == kept).all() and not (first == second).all())
+        first[:] = 0  # writable
+        self.assertTrue(first.flags.owndata or first.base is not None)
+
+
+class BothApis(unittest.TestCase):
+    """One scene, one view: what Vulkan and OpenGL ES draw."""
+
+    def picture(self, backend, output, change=lambda view: None, roughness=0.3):
+        with tempfile.TemporaryDirectory() as folder, fc.Engine(backend) as engine:
+            height, width = np.mgrid[0:32, 0:64]
+            sky = np.dstack([height / 8.0, width / 40.0, np.full(height.shape, 0.7)]).astype(np.float32)
+            fc.save_picture(pathlib.Path(folder) / "sky.exr", sky)
+            scene = fc.Scene(engine)
+            scene.set_environment(engine.load_environment(pathlib.Path(folder) / "sky.exr", face_size=16, samples=16))
+            lit = engine.built_in_material("lit").instance()
+            lit.set("baseColor", (0.9, 0.4, 0.1))
+            lit.set("roughness", roughness)
+            scene.add_mesh(engine.sphere(0.5), lit, transform=placed(y=0.5))
+            scene.add_mesh(engine.plane(4, 4), lit)
+            scene.add(engine.load_model(WINDMILL), fit=True, transform=placed(x=-0.8, y=0.5))
+            scene.add_sun((-1, -2, -1), 50_000)
+            scene.add_spot_light((1, 2, 1), (-1, -2, -1), 5000, outer_degrees=30)
+            scene.add_point_light((0.5, 0.3, 0.8), 200, range=3)
+            view = fc.View((160, 90))
+            view.look_at((0.9, 1.1, 2.4), (0, 0.3, 0))
+            change(view)
+            return fc.Renderer(engine).render(scene, view, output=output, frames=3)
+
+    def test_have_the_same_bits(self):
+        def effects(view):
+            view["ao"] = "gtao"
+            view["bloom"] = True
+            view["antiAliasing"] = "taa"
+            view["fog.density"] = 0.02
+            view["fog"] = True
+
+        for output in ("display", "light"):
+            pictures = [self.picture(backend, output, effects) for backend in BACKENDS]
+            self.assertTrue(fc.compare(*pictures).identical, fc.compare(*pictures))
+            self.assertGreater(pictures[0][..., :3].std(), 0.01)
+
+    def test_options_change_the_picture(self):
+        plain = self.picture("gles", "light")
+        for name, value in (("ao", "sao"), ("shadows", "off"), ("specularVisibility", "uncorrelated")):
+            changed = self.picture("gles", "light", lambda view, name=name, value=value: view.set(name, value))
+            self.assertFalse(fc.compare(plain, changed).identical, name)
+        self.assertFalse(fc.compare(plain, self.picture("gles", "light", roughness=0.31)).identical)
+        self.assertTrue(fc.compare(plain, self.picture("gles", "light")).identical)
+
+
+if __name__ == "__main__":
+    unittest.main()
