@@ -72,6 +72,13 @@ if(FILAMENT_PYTHON)
 .
 The module filament_core: pictures as NumPy arrays, comparisons of pictures
 with FLIP, and the reports of the conformance and accuracy programs.")
+    # what dh_python3 writes: byte code is made when the package is installed, and does not outlive it
+    file(WRITE ${CMAKE_BINARY_DIR}/package/python/postinst
+        "#!/bin/sh\nset -e\nif command -v py3compile >/dev/null 2>&1; then\n\tpy3compile -p python3-filament-core\nfi\n")
+    file(WRITE ${CMAKE_BINARY_DIR}/package/python/prerm
+        "#!/bin/sh\nset -e\nif command -v py3clean >/dev/null 2>&1; then\n\tpy3clean -p python3-filament-core\nfi\n")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+        ${CMAKE_BINARY_DIR}/package/python/postinst ${CMAKE_BINARY_DIR}/package/python/prerm)
 endif()
 filament_package(docs libfilament-core-doc doc
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - documents"
