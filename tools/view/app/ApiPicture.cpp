@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/ApiPicture.h"
 
+#include "tools/view/app/Defects.h"
+
 #include <fmt/format.h>
 
 namespace filament::view {
@@ -10,10 +12,13 @@ ApiPicture::ApiPicture(std::unique_ptr<Stage> stage) : mStage(std::move(stage)) 
     mName = fmt::format("{}: {}", toString(device.backend), device.device);
 }
 
-Result<std::unique_ptr<PictureSource>> ApiPicture::create(Backend backend, EngineOptions const& options) {
+Result<std::unique_ptr<PictureSource>> ApiPicture::create(Backend backend, EngineOptions const& options,
+                                                          std::string_view defect) {
     EngineOptions headless = options;
     headless.backend = backend;
     headless.display = {};
+    headless.traceJobs = false;
+    headless.debug = { .capture = injected(defect) };
     auto stage = Stage::create({ .engine = headless });
     if (!stage) return stage.error();
     return std::unique_ptr<PictureSource>(new ApiPicture(std::move(*stage)));

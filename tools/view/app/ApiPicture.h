@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ApiPicture: the document on an engine of its own, without a window.
+/// ApiPicture: the document on an engine of its own, without a window; with a defect in its commands, if one is asked for.
 ///   Thread  the main thread.
 ///   Fails   create(): as Engine::create().
 #pragma once
@@ -8,6 +8,7 @@
 #include "tools/view/stage/Stage.h"
 
 #include <memory>
+#include <string_view>
 
 namespace filament::view {
 
@@ -17,7 +18,9 @@ inline Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? 
 class ApiPicture final : public PictureSource {
 public:
     /// `options`: of the viewer's engine; the display means nothing.
-    static Result<std::unique_ptr<PictureSource>> create(Backend backend, EngineOptions const& options);
+    /// `defect`: of defectsFor(); empty: none.
+    static Result<std::unique_ptr<PictureSource>> create(Backend backend, EngineOptions const& options,
+                                                         std::string_view defect = {});
 
     void follow(Document const& document, uint64_t number) override;
     std::optional<NumberedPicture> const& picture() const override { return mPicture; }

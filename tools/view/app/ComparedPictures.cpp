@@ -2,6 +2,7 @@
 #include "tools/view/app/ComparedPictures.h"
 
 #include "tools/view/app/ApiPicture.h"
+#include "tools/view/app/Defects.h"
 #include "tools/view/app/TracedPicture.h"
 #include "tools/view/compare/Pixels.h"
 
@@ -15,6 +16,12 @@ namespace {
 
 constexpr float kGrabPixels = 8; ///< beside the line of a wipe
 constexpr ImU32 kLineColor = IM_COL32(255, 158, 26, 255);
+const ImVec4 kInjectedColor{ 1, 0.45f, 0.3f, 1 };
+
+/// Of a map whose largest difference, in 1/255, is to be white; at least 16 times.
+float amplificationFor(uint32_t largestDifference) {
+    return std::max(16.0f, 255.0f / static_cast<float>(std::max(largestDifference, 1u)));
+}
 
 } // namespace
 
@@ -25,7 +32,7 @@ const char* toString(CompareMode mode) {
     case CompareMode::Wipe:
         return "wipe";
     case CompareMode::Difference:
-        return "difference x16";
+        return "difference";
     case CompareMode::Flip:
         return "FLIP";
     }
@@ -37,17 +44,19 @@ CompareMode nextMode(CompareMode mode) {
 }
 
 bool ComparedPictures::openSource(EngineOptions const& options) {
-    if (mOther && mOpenedWith == with) return true;
+    const std::string wanted = with == CompareWith::OtherApi ? defect : std::string{};
+    if (mOther && mOpenedWith == with && mOpenedDefect == wanted) return true;
     mOther.reset();
     mResult.reset();
     if (mComparing) mAbandoned.add(*mComparing);
     mComparing.reset();
     mOpenedWith = with;
+    mOpenedDefect = wanted;
     if (with == CompareWith::PathTracer) {
         mOther = std::make_unique<TracedPicture>();
         return true;
     }
-    auto other = ApiPicture::create(otherThan(options.backend), options);
+    auto other = ApiPicture::create(otherThan(options.backend), options, wanted);
     if (other)
         mOther = std::move(*other);
     else
@@ -72,6 +81,12 @@ bool ComparedPictures::follow(Document const& document, Stage& stage, SwapChain 
     const bool hasNews = takeCompared();
     compareNewest();
     return hasNews;
+}
+
+Image const* ComparedPictures::tracedPicture() const {
+    if (mode == CompareMode::Off || !mOther || mOpenedWith != CompareWith::PathTracer) return nullptr;
+    std::optional<NumberedPicture> const& picture = mOther->picture();
+    return picture && picture->number == mNumber ? &picture->image : nullptr;
 }
 
 /// The scene alone: the interface is drawn over it later.
@@ -130,7 +145,8 @@ ComparedPictures::Compared ComparedPictures::compareAll(OwnPicture const& own, I
     Compared compared{ .result = *result };
     if (mode == CompareMode::Wipe) compared.overlay = other;
     if (mode == CompareMode::Difference)
-        if (Result<Image> map = differenceMap(*picture, other); map) compared.overlay = std::move(*map);
+        if (Result<Image> map = differenceMap(*picture, other, amplificationFor(result->largestDifference)); map)
+            compared.overlay = std::move(*map);
     if (mode == CompareMode::Flip)
         if (Result<FlipMap> map = flipMap(*picture, other); map) compared.overlay = std::move(map->image);
     return compared;
@@ -189,7 +205,11 @@ void ComparedPictures::drawNumber(uint2 offset, uint2 size) const {
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("compared", nullptr, kFlags)) {
-        ImGui::Text("%s | %s", toString(mode), mOther ? mOther->name().c_str() : "starting");
+        const std::string factor = mode == CompareMode::Difference
+                                           ? fmt::format(" x{:.0f}", amplificationFor(mResult->largestDifference))
+                                           : "";
+        ImGui::Text("%s%s | %s", toString(mode), factor.c_str(), mOther ? mOther->name().c_str() : "starting");
+        if (isDefective()) ImGui::TextColored(kInjectedColor, "DEFECT INJECTED: %s", whatOf(mOpenedDefect).c_str());
         if (mResult && mResultNumber == mNumber)
             ImGui::Text("%s of the pixels are identical", mResult->percentage().c_str());
         else

@@ -33,6 +33,7 @@ class ComparedPictures {
 public:
     CompareMode mode = CompareMode::Off;
     CompareWith with = CompareWith::OtherApi;
+    std::string defect{};      ///< of defectsFor(), in the commands of the other API; empty: none
     float wipePosition = 0.5f; ///< of the width: the other API's picture is to the right
 
     /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine. Whether there is news.
@@ -51,6 +52,12 @@ public:
         const bool isCurrent = mResult && mResultNumber == mNumber && mResultMode == mode && mIsFinal;
         return mode != CompareMode::Off && (!isCurrent || mComparing);
     }
+    /// The other picture is drawn with `defect`.
+    bool isDefective() const { return mOther && !mOpenedDefect.empty(); }
+    /// What the picture is compared with: "gles: llvmpipe"; empty: nothing yet.
+    std::string otherName() const { return mOther ? mOther->name() : std::string{}; }
+    /// The path tracer's newest picture of the document; null: none.
+    Image const* tracedPicture() const;
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
 
 private:
@@ -75,6 +82,7 @@ private:
 
     std::unique_ptr<PictureSource> mOther;
     CompareWith mOpenedWith = CompareWith::OtherApi;
+    std::string mOpenedDefect{};
     Document mDocument{};
     uint64_t mNumber = 0; ///< of the document
     PixelTicket mPending{};

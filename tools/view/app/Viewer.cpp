@@ -76,7 +76,8 @@ EngineOptions Viewer::engineOptions(Backend backend) const {
              .workers = mOptions.workers,
              .display = mTarget.display,
              .validation = mOptions.validation,
-             .exactShaders = mOptions.exactShaders };
+             .exactShaders = mOptions.exactShaders,
+             .traceJobs = mRecordsJobs };
 }
 
 Result<void> Viewer::openStage(Backend backend) {
@@ -98,6 +99,7 @@ Result<void> Viewer::openStage(Backend backend) {
 }
 
 void Viewer::closeStage() {
+    mInstruments.closeEngine(mPanels);
     mCompared.close(mUiRenderer ? &*mUiRenderer : nullptr);
     mPictures.close();
     mReadsFrame = false;
@@ -384,7 +386,24 @@ void Viewer::followRequests() {
     followFileDialog();
 }
 
+/// Between frames, since an action may end what the last one shows.
+void Viewer::followActions() {
+    for (const Action action : std::exchange(mPanels.requests.actions, {})) perform(action);
+}
+
+/// The engine is opened again with a trace of its jobs, or without: what is compared goes on.
+void Viewer::followRecording() {
+    if (mRecordsJobs == mPanels.state.recordsJobs) return;
+    mRecordsJobs = mPanels.state.recordsJobs;
+    const CompareMode mode = mCompared.mode;
+    setBackend(mStage->engine().device().backend);
+    mCompared.mode = mode;
+}
+
 bool Viewer::step(double seconds) {
+    followActions();
+    followRecording();
+    if (mInstruments.poll(mPanels, *mStage)) mFramesToDraw = std::max(mFramesToDraw, 1u);
     if (mHands.advance(seconds, mDocument.view.camera)) touch();
     play(seconds);
     pollLoads();
@@ -453,6 +472,7 @@ void Viewer::draw(double seconds) {
     if (mInput.beginFrame()) touch(); // the rest of the events
     mUi.newFrame(mTarget.pixels, static_cast<float>(seconds));
     placePicture();
+    mInstruments.beforePanels(mPanels, mDocument, *mStage, mCompared);
     mCompared.draw(*mUiRenderer, mStage->engine(), mOffset, mDocument.view.size);
     mNumerics.draw(mOffset, mDocument.view.size);
     mPanels.requests.inspectsPixel = false;
@@ -467,8 +487,9 @@ void Viewer::draw(double seconds) {
     drawOutline();
     mStage->render(mChain, extras());
     mNumerics.follow(*mStage, mChain, mOffset);
-    if (mCompared.follow(mDocument, *mStage, mChain, mOffset, engineOptions(mStage->engine().device().backend)))
-        touch();
+    const EngineOptions options = engineOptions(mStage->engine().device().backend);
+    if (mCompared.follow(mDocument, *mStage, mChain, mOffset, options)) touch();
+    mInstruments.afterFrame(mPanels, mDocument, mCompared, options);
     mUiRenderer->render(*ImGui::GetDrawData(), mChain, mTarget.pixels);
     mStage->renderer().present(mChain);
     mPanels.collect(*mStage);

@@ -14,6 +14,7 @@
 #include "tools/view/app/FrameSaver.h"
 #include "tools/view/app/GizmoHands.h"
 #include "tools/view/app/History.h"
+#include "tools/view/app/Instruments.h"
 #include "tools/view/app/NumericsCounter.h"
 #include "tools/view/app/PathFrames.h"
 #include "tools/view/app/PictureSaver.h"
@@ -104,6 +105,8 @@ private:
     void followRequests();
     void placePicture(); ///< between the panels
     FrameExtras extras() const;
+    void followActions();
+    void followRecording();
     void draw(double seconds);
     void drawOutline();
     void hideSelection();
@@ -136,6 +139,7 @@ private:
     PixelInspector mInspector;
     FrameSaver mSaver;
     PathRecorder mRecorder;
+    Instruments mInstruments;
     CameraHands mHands;
     GizmoHands mGizmo;
     DebugDraw mOutline;
@@ -148,6 +152,7 @@ private:
     uint64_t mPresents = 0;   ///< asked for, of this engine
     bool mReadsFrame = false; ///< that is to be saved
     bool mIsClosed = false, mIsFullScreen = false, mWasLoading = false;
+    bool mRecordsJobs = false; ///< the engine does
 };
 
 } // namespace filament::view

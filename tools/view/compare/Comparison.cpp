@@ -75,6 +75,19 @@ Result<PictureComparison> compare(Image const& a, Image const& b) {
     return PictureComparison{ counts->pixels, counts->identical, counts->maxDifference, firstDifferent(a, b) };
 }
 
+Result<double> rmsError(Image const& a, Image const& b) {
+    if (Result<void> good = checkPair(a, b); !good) return good.error();
+    double sum = 0;
+    for (size_t i = 0; i < pixelCount(a); ++i) {
+        const std::array<float, 4> first = pixelAt(a, i), second = pixelAt(b, i);
+        for (size_t c = 0; c < 3; ++c) {
+            const auto difference = static_cast<double>(amplified(first[c], second[c], 1));
+            sum += difference * difference;
+        }
+    }
+    return std::sqrt(sum / (3 * static_cast<double>(pixelCount(a))));
+}
+
 Result<Image> differenceMap(Image const& a, Image const& b, float amplification) {
     if (Result<void> good = checkPair(a, b); !good) return good.error();
     if (!(amplification > 0) || !std::isfinite(amplification))

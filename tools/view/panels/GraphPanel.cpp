@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/view/panels/DemandRows.h"
 #include "tools/view/panels/GraphModel.h"
 #include "tools/view/panels/PanelFrame.h"
 #include "tools/view/panels/PanelText.h"
@@ -102,8 +103,10 @@ void drawGraph(FrameGraphModel const& graph) {
 void drawGraphPanel(PanelFrame& frame) {
     const std::vector<EffectDecision> decisions = frame.stage.renderer().decisions();
     const FrameGraphModel graph = graphOf(frame.stage.renderer().graphviz(), decisions);
-    quietText(fmt::format("{} passes, {} arrows; warm colours take most of the frame", graph.boxes.size(),
-                          graph.arrows.size()));
+    const DemandTotals totals = totalsOf(decisions);
+    const std::string time = millisecondsText(totals.milliseconds);
+    quietText(fmt::format("{} of {} passes ran, {}{}{} drawn to; warm colours take most of the frame", totals.ran,
+                          graph.boxes.size(), time, time.empty() ? "" : ", ", bytesText(totals.attachmentBytes)));
     if (ImGui::BeginChild("graph", { 0, 0 }, true, ImGuiWindowFlags_HorizontalScrollbar)) drawGraph(graph);
     ImGui::EndChild();
 }

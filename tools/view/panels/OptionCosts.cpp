@@ -14,14 +14,14 @@ QualityCost const* costOfValue(QualityEffect const& effect, std::string_view val
     return found == effect.values.end() ? nullptr : &*found;
 }
 
+} // namespace
+
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);
     if (values.size() % 2) return *middle;
     return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
-
-} // namespace
 
 std::optional<ValueCost> tabledCost(QualityCosts const& costs, Backend backend, std::string_view option,
                                     std::string_view current, std::string_view value, double frameMilliseconds) {

@@ -17,6 +17,7 @@ struct PanelFrame {
     Stage& stage;
     PanelState& state;
     PanelRequests& requests;
+    PanelInputs const& inputs;
     std::vector<SceneNode> const& nodes;
     std::vector<Option> const& options;
     FrameHistory const& history;
@@ -34,9 +35,13 @@ void drawAnimationPanel(PanelFrame& frame);
 void drawPathPanel(PanelFrame& frame);
 void drawCameraPanel(PanelFrame& frame);
 void drawOptionPanel(PanelFrame& frame);
+void drawCostPanel(PanelFrame& frame);
+void drawComparePanel(PanelFrame& frame);
 void drawDemandPanel(PanelFrame& frame);
 void drawGraphPanel(PanelFrame& frame);
 void drawTimelinePanel(PanelFrame& frame);
+/// Lanes of threads: the part of the timeline panel while jobs are recorded.
+void drawJobTimeline(PanelFrame& frame);
 void drawStatisticsPanel(PanelFrame& frame);
 void drawPixelPanel(PanelFrame& frame);
 void drawMessagePanel(PanelFrame& frame);
@@ -48,7 +53,8 @@ void editOption(PanelFrame& frame, Option const& option, std::string_view value)
 
 // ---- widgets that several panels have
 
-inline const ImVec4 kQuietColor{ 0.6f, 0.6f, 0.6f, 1 }, kEditedColor{ 1, 0.8f, 0.4f, 1 };
+inline const ImVec4 kQuietColor{ 0.6f, 0.6f, 0.6f, 1 }, kEditedColor{ 1, 0.8f, 0.4f, 1 },
+        kDefectColor{ 1, 0.45f, 0.3f, 1 };
 
 void quietText(std::string const& text);
 /// One line of text to filter by.

@@ -19,6 +19,7 @@ constexpr std::array kLeftTabs{ PanelTab{ "Scene", drawScenePanel },      PanelT
                                 PanelTab{ "Lights", drawLightPanel },     PanelTab{ "Sky", drawEnvironmentPanel },
                                 PanelTab{ "Motion", drawAnimationPanel }, PanelTab{ "Path", drawPathPanel } };
 constexpr std::array kRightTabs{ PanelTab{ "Camera", drawCameraPanel },     PanelTab{ "Options", drawOptionPanel },
+                                 PanelTab{ "Costs", drawCostPanel },        PanelTab{ "Compare", drawComparePanel },
                                  PanelTab{ "Demand", drawDemandPanel },     PanelTab{ "Graph", drawGraphPanel },
                                  PanelTab{ "Timeline", drawTimelinePanel }, PanelTab{ "Numbers", drawStatisticsPanel },
                                  PanelTab{ "Pixel", drawPixelPanel },       PanelTab{ "Log", drawMessagePanel } };
@@ -72,8 +73,8 @@ void Panels::draw(Document& document, Stage& stage) {
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);
-    PanelFrame frame{ document, stage,    state,         requests, mNodes, mOptions,
-                      mHistory, mChanges, mMaterialCost, latency,  pixel };
+    PanelFrame frame{ document, stage,    state,    requests,      inputs,  mNodes,
+                      mOptions, mHistory, mChanges, mMaterialCost, latency, pixel };
     drawTabs("left", mLayout.left, kLeftTabs, frame);
     drawTabs("right", mLayout.right, kRightTabs, frame);
     drawLoadProgress(frame, mLayout.picture);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
-/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, demand, graph, timeline,
-/// statistics, pixel, log. Every panel is a thin function over a model of plain functions; the models have tests of their own.
+/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, costs, comparison,
+/// demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of plain functions; the models
+/// have tests of their own.
 ///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
 ///            render, and panels.collect(stage).
 ///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured by the
@@ -13,9 +14,11 @@
 
 #include "tools/view/compare/PixelReport.h"
 #include "tools/view/document/Document.h"
+#include "tools/view/panels/CostPlot.h"
 #include "tools/view/panels/FileDialog.h"
 #include "tools/view/panels/FrameHistory.h"
 #include "tools/view/panels/GraphModel.h"
+#include "tools/view/panels/JobLanes.h"
 #include "tools/view/panels/LatencyMeter.h"
 #include "tools/view/panels/MaterialCost.h"
 #include "tools/view/panels/OptionCosts.h"
@@ -23,6 +26,7 @@
 #include "tools/view/panels/PanelLayout.h"
 #include "tools/view/panels/PathModel.h"
 #include "tools/view/panels/SceneTree.h"
+#include "tools/view/panels/Shortcuts.h"
 
 #include <filament/Renderer.h>
 
@@ -62,9 +66,12 @@ struct PanelState {
     PathState path{};
     RecordingState recording{};
     FileDialog fileDialog{};
-    FrameKind pictureKind = FrameKind::Png; ///< of saved pictures; not Video
-    std::string opensPanel{};               ///< one of panelNames(): comes to the front of its column; then empty again
-    std::vector<std::string> messages{};    ///< the newest last; what the program adds, and edits that were refused
+    FrameKind pictureKind = FrameKind::Png;       ///< of saved pictures; not Video
+    std::string injectedDefect{}, defectFilter{}; ///< of PanelInputs::defects, into the other API; empty: none
+    std::optional<TimeWindow> jobWindow{};        ///< of the timeline that is looked at; none: the newest frames
+    bool recordsJobs = false, holdsJobs = false;  ///< the timeline shows jobs, and stays as it is
+    std::string opensPanel{};            ///< one of panelNames(): comes to the front of its column; then empty again
+    std::vector<std::string> messages{}; ///< the newest last; what the program adds, and edits that were refused
 
     void addMessage(std::string message); ///< keeps the last 50
 };
@@ -79,6 +86,24 @@ struct PanelRequests {
     bool recordsPath = false, stopsRecording = false; ///< PanelState::path, as PanelState::recording says
     bool inspectsPixel = false; ///< the pixel panel is seen: Panels::pixel is to follow the pointer
     bool togglesPixelLock = false;
+    bool measuresCosts = false, cancelsCosts = false;
+    bool readsJobs = false; ///< the timeline is seen, and shows what has been recorded
+    std::vector<Action> actions{};
+};
+
+/// A mistake that may be injected into the other API's commands.
+struct OfferedDefect {
+    std::string name{}, what{}; ///< "roughness", "roughness + 1 %"
+};
+
+/// What the program knows that a stage does not; it sets it before draw().
+struct PanelInputs {
+    CostPlot costs{};
+    bool isCostOfOther = false; ///< the costs are of another scene, camera or size than those of the document
+    JobLanes jobs{};
+    std::vector<OfferedDefect> defects{};
+    std::string compareMode{}, comparedWith{}, identical{}; ///< "wipe", "gles: llvmpipe", "100.0000 %"; empty: none
+    bool isDefectActive = false;                            ///< the picture that is compared has it
 };
 
 class Panels {
@@ -92,7 +117,8 @@ public:
     PanelState state{};
     PanelRequests requests{};
     LatencyMeter latency{}; ///< the program feeds it; the statistics panel shows it
-    PixelReport pixel{}; ///< what the program found: the pixel panel shows it
+    PixelReport pixel{};    ///< what the program found: the pixel panel shows it
+    PanelInputs inputs{};
     PanelLayout const& layout() const { return mLayout; }
     FrameHistory const& history() const { return mHistory; }
     ChangeMeter const& changes() const { return mChanges; }

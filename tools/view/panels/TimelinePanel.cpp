@@ -46,21 +46,33 @@ void drawLanes(Timeline const& timeline) {
     ImGui::Dummy({ names + width, height * static_cast<float>(kLanes.size()) });
 }
 
-} // namespace
-
-void drawTimelinePanel(PanelFrame& frame) {
+/// What is known of every frame without a trace.
+void drawFrameLanes(PanelFrame const& frame) {
     const Timeline timeline = timelineOf(frame.history.timings());
     if (timeline.bars.empty()) return quietText("no frame has been timed");
     quietText(fmt::format("{} frames, {}", frame.history.timings().size(), millisecondsText(timeline.milliseconds)));
     drawLanes(timeline);
+    ImGui::PushStyleColor(ImGuiCol_Text, kQuietColor);
+    ImGui::TextWrapped("The device's passes and the workers' load are lengths, from where their frame began.");
+    ImGui::PopStyleColor();
+}
+
+} // namespace
+
+void drawTimelinePanel(PanelFrame& frame) {
+    ImGui::Checkbox("record jobs", &frame.state.recordsJobs);
+    tooltip("what every thread does, job by job: opens the engine again, with a trace.\nWithout it nothing is "
+            "recorded, and jobs "
+            "cost nothing more.");
+    if (frame.state.recordsJobs)
+        drawJobTimeline(frame);
+    else
+        drawFrameLanes(frame);
     ImGui::Separator();
     for (const FrameNumber number :
          { FrameNumber::FrameMilliseconds, FrameNumber::LatencyMilliseconds, FrameNumber::PrepareMilliseconds,
            FrameNumber::RecordMilliseconds, FrameNumber::ReplayMilliseconds })
         quietText(fmt::format("{:8} {}", nameOf(number), millisecondsText(frame.history.latest(number))));
-    ImGui::PushStyleColor(ImGuiCol_Text, kQuietColor);
-    ImGui::TextWrapped("The device's passes and the workers' load are lengths, from where their frame began.");
-    ImGui::PopStyleColor();
 }
 
 } // namespace filament::view

@@ -5,6 +5,8 @@
 #include "tests/tools/view/app/TestScene.h"
 #include "tools/view/app/Viewer.h"
 
+#include <gtest/gtest.h>
+
 #include <chrono>
 #include <memory>
 #include <string>
@@ -16,9 +18,9 @@ inline constexpr uint2 kPictureSize{ 640, 360 };
 struct Headless {
     std::unique_ptr<Viewer> viewer;
 
-    explicit Headless(Backend backend) : Headless(testOptions(backend)) {}
-    explicit Headless(ViewerOptions const& options) {
-        auto made = Viewer::create(options, showcaseDocument(kPictureSize), { .pixels = kPictureSize });
+    explicit Headless(Backend backend, uint2 size = kPictureSize) : Headless(testOptions(backend), size) {}
+    explicit Headless(ViewerOptions const& options, uint2 size = kPictureSize) {
+        auto made = Viewer::create(options, showcaseDocument(size), { .pixels = size });
         if (!made) ADD_FAILURE() << made.error().message;
         if (made) viewer = std::move(*made);
     }
@@ -29,6 +31,13 @@ struct Headless {
             viewer->step(0.01);
         if (std::chrono::steady_clock::now() < end) return;
         ADD_FAILURE() << when << ": still busy after a minute; loading: " << viewer->stage().progress().what;
+    }
+    /// Steps until it is so, at most that long.
+    template <class Condition>
+    bool stepUntil(Condition&& isSo, std::chrono::seconds most = std::chrono::seconds(60)) {
+        const auto end = std::chrono::steady_clock::now() + most;
+        while (!isSo() && std::chrono::steady_clock::now() < end) viewer->step(0.01);
+        return isSo();
     }
     Image picture(std::string const& when = "picture") {
         settle(when);

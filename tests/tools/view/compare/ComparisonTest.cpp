@@ -99,6 +99,17 @@ TEST(Comparison, RefusesPicturesThatAreNotAlike) {
     EXPECT_THAT(flipMap(ten, ten).error().message, HasSubstr("8 bits"));
 }
 
+TEST(RmsError, IsTheRootOfTheMeanSquareOfThreeComponents) {
+    for (const Format format : kFormats)
+        EXPECT_EQ(*rmsError(randomPicture(format, 9, 5, 6), randomPicture(format, 9, 5, 6)), 0);
+    EXPECT_NEAR(*rmsError(grey(7, 3, 51), grey(7, 3, 102)), 0.2, 1e-7);
+    Image one = grey(4, 1, 0);
+    one.pixels[4] = std::byte{ 255 }; // red of the second of four pixels
+    one.pixels[3] = std::byte{ 255 }; // alpha is not looked at
+    EXPECT_NEAR(*rmsError(grey(4, 1, 0), one), std::sqrt(1.0 / 12), 1e-7);
+    EXPECT_FALSE(rmsError(grey(4, 1, 0), grey(1, 4, 0)));
+}
+
 TEST(DifferenceMap, IsTheAmplifiedDifferenceClamped) {
     for (int difference = 0; difference < 256; ++difference) {
         const Image a = grey(1, 1, 0), b = grey(1, 1, static_cast<uint8_t>(difference));

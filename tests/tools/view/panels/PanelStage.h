@@ -8,6 +8,8 @@
 #include "tools/view/ui/UiContext.h"
 #include "tools/view/ui/UiRenderer.h"
 
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -48,6 +50,13 @@ inline std::filesystem::path writePanelModel() {
     const std::filesystem::path path = folderOfThisTest() / "sail.gltf";
     std::ofstream(path) << kModel;
     return path;
+}
+
+/// How many are exactly so.
+inline size_t pixelsOf(Image const& image, std::array<uint8_t, 4> color) {
+    size_t count = 0;
+    for (size_t i = 0; i < image.pixels.size(); i += 4) count += std::memcmp(&image.pixels[i], color.data(), 4) == 0;
+    return count;
 }
 
 class PanelStage {

@@ -13,6 +13,7 @@ namespace filament {
 namespace {
 
 using test::PanelStage;
+using test::pixelsOf;
 using view::Document;
 
 /// With FILAMENT_PANEL_PICTURES the pictures are kept there, to be looked at.
@@ -32,12 +33,6 @@ size_t coloursOf(Image const& image, uint2 least, uint2 most) {
         }
     }
     return colours.size();
-}
-
-size_t pixelsOf(Image const& image, std::array<uint8_t, 4> color) {
-    size_t count = 0;
-    for (size_t i = 0; i < image.pixels.size(); i += 4) count += std::memcmp(&image.pixels[i], color.data(), 4) == 0;
-    return count;
 }
 
 /// What panels show that no two runs share: times. Everything else is the same on both APIs.
