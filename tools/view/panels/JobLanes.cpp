@@ -87,11 +87,17 @@ std::vector<JobBar> visibleBars(JobLane const& lane, TimeWindow const& window, d
     return bars;
 }
 
+bool isWait(JobBar const& bar) {
+    return bar.kind == JobSpan::Kind::Phase && std::string_view(bar.name).starts_with("wait");
+}
+
 double busyShare(JobLane const& lane, TimeWindow const& window) {
     if (!(window.seconds() > 0)) return 0;
     double busy = 0;
-    for (JobBar const& bar : lane.bars)
-        if (bar.row == 0) busy += std::max(0.0, std::min(bar.end, window.end) - std::max(bar.begin, window.begin));
+    for (JobBar const& bar : lane.bars) {
+        if (bar.row != 0 || isWait(bar)) continue;
+        busy += std::max(0.0, std::min(bar.end, window.end) - std::max(bar.begin, window.begin));
+    }
     return std::min(busy / window.seconds(), 1.0);
 }
 

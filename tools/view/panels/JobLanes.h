@@ -52,7 +52,9 @@ JobLanes layOutJobs(std::span<const JobTrack> tracks);
 /// within that time, only the first is there: a pixel shows one of them.
 std::vector<JobBar> visibleBars(JobLane const& lane, TimeWindow const& window, double leastSeconds);
 
-/// The share of the window in which the thread did something, in [0, 1]: its row 0. Phases count as well.
+/// A phase in which the thread waits for another one.
+bool isWait(JobBar const& bar);
+/// The share of the window in which the thread did something, in [0, 1]: its row 0 without waits.
 double busyShare(JobLane const& lane, TimeWindow const& window);
 
 /// From the beginning of the `frames`-th last frame that has phases to the last end. None has: `whole`.

@@ -18,8 +18,9 @@ constexpr float kLeastPixels = 1.5f; // of a bar
 constexpr double kWheelZoom = 0.8;   // for a notch
 constexpr uint32_t kHues = 12;
 
-/// The same name has the same colour; stolen jobs are lighter.
+/// The same name has the same colour; stolen jobs are lighter, waits are dark.
 ImU32 colorOfJob(JobBar const& bar) {
+    if (isWait(bar)) return IM_COL32(55, 55, 55, 255);
     uint32_t hash = 2166136261u; // FNV-1a
     for (const char c : std::string_view(bar.name)) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
     const float hue = static_cast<float>(hash % kHues) / kHues;

@@ -98,6 +98,8 @@ TEST(JobLanes, TheShareOfWorkIsThatOfTheWindow) {
     EXPECT_DOUBLE_EQ(busyShare(lanes.lanes[0], { 0, 4 }), 0.75);
     EXPECT_DOUBLE_EQ(busyShare(lanes.lanes[0], { 1, 3.5 }), 0.6);
     EXPECT_EQ(busyShare(lanes.lanes[0], { 2, 2 }), 0);
+    const JobLanes waits = lanesOf({ span("prepare frame", 0, 1, 1), span("wait for driver", 1, 4, 1) });
+    EXPECT_DOUBLE_EQ(busyShare(waits.lanes[0], { 0, 4 }), 0.25) << "who waits does nothing";
 }
 
 TEST(JobLanes, TheNewestFramesBeginWithTheirFirstPhase) {
