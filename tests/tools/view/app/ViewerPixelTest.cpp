@@ -127,5 +127,22 @@ TEST_P(ViewerPixelTest, TheNumericsViewCountsItsMarks) {
     EXPECT_FALSE(headless.viewer->numerics().counts().has_value());
 }
 
+/// The renderer that was asked for pixels and for a pick ends then.
+TEST(ViewerPixels, AFrameMayBeSavedWhilePixelsAreOnTheirWay) {
+    Headless headless(Backend::Vulkan);
+    if (!headless.viewer) return;
+    headless.settle();
+    headless.viewer->document().view.debugView = DebugView::Numerics;
+    headless.viewer->perform(Action::Compare);
+    headless.click({ 320, 200 });
+    for (int i = 0; i < 1000 && !headless.viewer->numerics().isWaiting(); ++i) headless.viewer->step(0.01);
+    EXPECT_TRUE(headless.viewer->numerics().isWaiting());
+    headless.viewer->perform(Action::SaveFrame);
+    headless.settle();
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::Contains(HasSubstr("filament-replay draws it again")));
+    EXPECT_EQ(headless.viewer->compared().result()->percentage(), "100.0000 %");
+    EXPECT_TRUE(headless.viewer->numerics().counts().has_value());
+}
+
 } // namespace
 } // namespace filament::view
