@@ -56,9 +56,9 @@ void InspectedEngine::startPicture() {
     Engine& engine = mStage->engine();
     if (mSize != mDocument.view.size) {
         mSize = mDocument.view.size;
-        mChain = engine.own(engine.create(SwapChainDesc{ .size = mSize, .imageCount = 1, .name = "inspected" }));
-        mLightChain = engine.own(engine.create(SwapChainDesc{
-                .size = mSize, .imageCount = 1, .format = Format::RGBA16F, .name = "inspected normals" }));
+        mChain = engine.own(engine.create(SwapChainDesc{ .size = mSize, .imageCount = 1, .name = "displayed" }));
+        mLightChain = engine.own(engine.create(
+                SwapChainDesc{ .size = mSize, .imageCount = 1, .format = Format::RGBA16F, .name = "normals" }));
     }
     mStage->forgetFrames(); // as the other engine draws it
     mCapture->arm({});
