@@ -2,9 +2,11 @@
 // Handles in the viewer: events drag each kind, the document changes and nothing else, and one drag is one step of undo.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace filament::view {

@@ -2,6 +2,7 @@
 // Numbers of the picture in the viewer: the pixel panel has what both APIs have, and the numerics view counts its marks.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace filament::view {
