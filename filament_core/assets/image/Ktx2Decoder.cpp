@@ -64,6 +64,9 @@ private:
     }
 
     Result<void> chooseFormat() {
+        if (mFile.description.isPremultiplied)
+            return fail(ErrorCode::Unsupported,
+                        "image '{}' has colours that are multiplied by alpha; export it with straight alpha", mName);
         const uint8_t model = mFile.description.model;
         const bool isLz = mFile.compression == Ktx2Compression::BasisLz;
         if (isLz != (model == Ktx2Description::kEtc1s) ||

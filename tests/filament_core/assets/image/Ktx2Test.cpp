@@ -358,6 +358,8 @@ TEST(Ktx2, FilesThatAreNotReadSayWhyAndWhatHelps) {
     EXPECT_THAT(message({ .format = 13 }),
                 HasSubstr("has VkFormat 13 and colour model 1, which are not read; export it as UASTC"));
     EXPECT_THAT(message({ .format = 0, .model = 167 }), HasSubstr("VkFormat 0 and colour model 167"));
+    EXPECT_THAT(message({ .flags = 1 }),
+                HasSubstr("has colours that are multiplied by alpha; export it with straight alpha"));
     EXPECT_THAT(message({ .width = 0 }), HasSubstr("it is 0 texels wide"));
     EXPECT_THAT(message({ .height = 0 }), HasSubstr("has one dimension; export it as a two-dimensional texture"));
     EXPECT_THAT(message({ .depth = 2 }), HasSubstr("has three dimensions"));
