@@ -133,9 +133,9 @@ void drawCostPanel(PanelFrame& frame) {
     ImGui::PushTextWrapPos(0);
     quietText(fmt::format("{}, {}", costs.device, costs.clock));
     quietText(fmt::format("error: RMS as displayed, from {}", costs.reference));
-    ImGui::PopTextWrapPos();
     drawPlot(frame, front);
     quietText("milliseconds of a frame; upwards: the error. Green: as it is now.");
+    ImGui::PopTextWrapPos();
     drawBestList(frame, front);
 }
 
