@@ -59,6 +59,7 @@ void addClass(py::module_& module, ErrorClass const& kind) {
 }
 
 [[noreturn]] void raiseKind(Kind kind, std::string_view message, std::string_view code) {
+    PyErr_Clear(); // what made a check fail
     // Paths in messages need not be UTF-8.
     const auto textOf = [](std::string_view text) {
         PyObject* made = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");

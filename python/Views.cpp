@@ -137,10 +137,8 @@ void lookAt(ViewObject& self, py::object const& eye, py::object const& at, doubl
             double nearMeters) {
     const double3 from = double3Of(eye, "eye"), to = double3Of(at, "at");
     if (from == to) raiseInvalid("eye and at are the same point; look at another one");
-    Lens lens = self.view.camera.lens;
-    lens.verticalFovDegrees = static_cast<float>(numberIn(fovDegrees, "fov_degrees", 0.01, 179));
-    lens.nearMeters = static_cast<float>(numberIn(nearMeters, "near", 1e-6, 1e6));
-    lens.parallelMeters = 0;
+    const Lens lens{ .verticalFovDegrees = static_cast<float>(numberIn(fovDegrees, "fov_degrees", 0.01, 179)),
+                     .nearMeters = static_cast<float>(numberIn(nearMeters, "near", 1e-6, 1e6)) };
     self.view.camera = Camera::lookAt(from, to, lens, self.view.camera.exposure, double3(directionOf(up, "up")));
 }
 
