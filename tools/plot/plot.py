@@ -7,6 +7,7 @@
   plot.py jobs    TRACE.json -o OUT   timeline of the threads: a Chrome trace-event file from --trace-jobs
   plot.py materials FILE.json -o OUT  cost of the terms of a material: material_bench --json
   plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture per effect, and frames; --format
+  plot.py accuracy-page DIR -o OUT.html   the page of such results: DIR has results.json and *.fragment.html, and lies beside OUT
 
 OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.
 Needs matplotlib (Debian: python3-matplotlib, which belongs to /usr/bin/python3).
@@ -22,6 +23,7 @@ except ImportError:
 matplotlib.use("Agg")  # no display
 import matplotlib.pyplot as plt
 
+import accuracy_page
 import accuracy_plot
 import bench_plot
 import jobs_plot
@@ -67,6 +69,9 @@ def parse_arguments(words):
     accuracy.add_argument("input", type=pathlib.Path, metavar="FILE.json")
     accuracy.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="DIR")
     accuracy.add_argument("--format", choices=[suffix[1:] for suffix in FORMATS], default="svg")
+    page = commands.add_parser("accuracy-page", help="error and time of every effect, as a page")
+    page.add_argument("input", type=pathlib.Path, metavar="DIR")
+    page.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="OUT.html")
     return parser.parse_args(words)
 
 
@@ -97,6 +102,8 @@ def main(words):
             apply_style()
             if arguments.command == "accuracy":
                 draw_folder(arguments)
+            elif arguments.command == "accuracy-page":
+                arguments.output.write_text(accuracy_page.page(arguments.input), encoding="utf-8")
             else:
                 save(draw(arguments), arguments.output)
     except BadInput as error:

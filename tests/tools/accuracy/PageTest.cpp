@@ -48,8 +48,8 @@ class ReportPictures : public testing::Test {
 protected:
     void SetUp() override {
         fs::remove_all(mFolder);
-        write(mOut / "plots/frames.svg", "<svg>frames</svg>");
-        write(mOut / "plots/fresnel.svg", "<svg>fresnel</svg>");
+        write(mOut / "other/frames.svg", "<svg>frames</svg>");
+        write(mOut / "other.fragment.html", R"(<section id="o"><h2>Other</h2><img src="other/frames.svg"></section>)");
         write(mOut / "comparison/chart-engine.png", "a picture");
         write(mOut / "comparison.fragment.html", R"(<p><img alt="a" src="comparison/chart-engine.png"></p>)");
     }
@@ -67,13 +67,14 @@ TEST_F(ReportPictures, LieInAFolderOfThePagesNameUnderTheNamesThatThePageShows) 
     const Result<void> written = report("fresnel");
     ASSERT_TRUE(written) << written.error().message;
     const std::string html = textOf(mPage);
-    for (auto const& [name, content] : { std::pair{ "frames.svg", "<svg>frames</svg>" },
-                                         { "fresnel.svg", "<svg>fresnel</svg>" },
-                                         { "chart-engine.png", "a picture" } }) {
+    for (auto const& [name, content] :
+         { std::pair{ "frames.svg", "<svg>frames</svg>" }, { "chart-engine.png", "a picture" } }) {
         EXPECT_THAT(html, HasSubstr(std::string("src=\"costs/") + name + '"'));
         EXPECT_EQ(textOf(mFolder / "docs/costs" / name), content);
     }
-    EXPECT_EQ(filesIn(mFolder / "docs/costs").size(), 3u);
+    EXPECT_THAT(filesIn(mFolder / "docs/costs"), ElementsAre("00-comparison.fragment.html", "01-other.fragment.html",
+                                                             "chart-engine.png", "frames.svg", "results.json"));
+    EXPECT_LT(html.find("chart-engine.png"), html.find("<h2>Other</h2>"));
     EXPECT_EQ(html.find("base64"), std::string::npos);
 }
 
@@ -81,27 +82,30 @@ TEST_F(ReportPictures, OfAnEarlierReportAreRemovedAndNothingElseIs) {
     ASSERT_TRUE(report("fresnel"));
     write(mFolder / "docs/costs/mine.png", "not of the report");
     write(mOut / "comparison.fragment.html", "<p>no picture</p>");
-    ASSERT_TRUE(report("no-plot"));
-    EXPECT_THAT(filesIn(mFolder / "docs/costs"), ElementsAre("frames.svg", "mine.png"));
+    fs::remove(mOut / "other.fragment.html");
+    ASSERT_TRUE(report("fresnel"));
+    EXPECT_THAT(filesIn(mFolder / "docs/costs"),
+                ElementsAre("00-comparison.fragment.html", "mine.png", "results.json"));
 }
 
 TEST_F(ReportPictures, MayLieWhereTheyAreShown) {
     const Result<void> written = writeReport(
-            resultsOf("fresnel"), { .out = mOut, .page = mOut / "plots.html", .include = {}, .plots = false });
+            resultsOf("fresnel"), { .out = mOut, .page = mOut / "other.html", .include = {}, .plots = false });
     ASSERT_TRUE(written) << written.error().message;
-    EXPECT_EQ(textOf(mOut / "plots/fresnel.svg"), "<svg>fresnel</svg>");
+    EXPECT_EQ(textOf(mOut / "other/frames.svg"), "<svg>frames</svg>");
+    EXPECT_THAT(textOf(mOut / "other.html"), HasSubstr("src=\"other/frames.svg\""));
 }
 
 TEST_F(ReportPictures, OfOneNameOrNoneAtAllAreAnErrorThatNamesThem) {
-    write(mOut / "other/frames.svg", "<svg>another</svg>");
-    write(mOut / "other.fragment.html", R"(<img src="other/frames.svg">)");
+    write(mOut / "second/frames.svg", "<svg>another</svg>");
+    write(mOut / "second.fragment.html", R"(<img src="second/frames.svg">)");
     Result<void> written = report("fresnel");
     ASSERT_FALSE(written);
-    EXPECT_THAT(written.error().message, HasSubstr("other/frames.svg: two pictures of one page need different names"));
-    write(mOut / "other.fragment.html", R"(<img src="other/missing.png">)");
+    EXPECT_THAT(written.error().message, HasSubstr("second/frames.svg: two pictures of one page need different names"));
+    write(mOut / "second.fragment.html", R"(<img src="second/missing.png">)");
     written = report("fresnel");
     ASSERT_FALSE(written);
-    EXPECT_THAT(written.error().message, HasSubstr("other/missing.png"));
+    EXPECT_THAT(written.error().message, HasSubstr("second/missing.png"));
 }
 
 } // namespace

@@ -177,10 +177,16 @@ TEST(EffectReport, TheTableOfNumbersHasALineForEachValueAndBackend) {
 }
 
 TEST(EffectReport, ThePageNamesMachineCommitAndTheCommandOfEveryRow) {
-    const std::string html =
-            htmlOf(exampleResults(), { { "n", "plots/n.svg" } }, { "<section>from elsewhere</section>" });
-    for (const char* wanted : { "a machine", "abc1234", "run it", "driver 1", "asset:x.hdr", "from elsewhere", "12.3 %",
-                                "src=\"plots/n.svg\"" })
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::path(testing::TempDir()) / "report-text", page = folder / "page.html";
+    const Result<void> written =
+            writeReport(exampleResults(), { .out = folder, .page = page, .include = {}, .plots = false });
+    ASSERT_TRUE(written) << written.error().message;
+    std::ifstream file(page);
+    const std::string html(std::istreambuf_iterator<char>(file), {});
+    fs::remove_all(folder);
+    for (const char* wanted : { "a machine", "abc1234", "filament-accuracy --effect n", "driver 1", "asset:x.hdr",
+                                "12.3 %", "data-row=\"1\"" })
         EXPECT_THAT(html, HasSubstr(wanted));
     EXPECT_THAT(html, AllOf(HasSubstr("a &lt; b &amp; c"), Not(HasSubstr("a < b & c"))));
 }

@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -15,6 +16,7 @@ FOLDER = pathlib.Path(__file__).resolve().parents[3] / "tools" / "plot"
 sys.path.insert(0, str(FOLDER))
 sys.dont_write_bytecode = True
 
+import accuracy_page  # noqa: E402
 import jobs_plot  # noqa: E402
 import plot  # noqa: E402
 
@@ -293,6 +295,64 @@ class Nesting(unittest.TestCase):
         app = jobs_plot.Track("app", 1, [jobs_plot.Event("prepare", 3, 4, frame=2), jobs_plot.Event("prepare", 1, 2, frame=1),
                                          jobs_plot.Event("job", 0, 1)])
         self.assertEqual(jobs_plot.frame_starts([driver, app]), [(1, 1), (3, 2)])
+
+
+class AccuracyPage(unittest.TestCase):
+    """The page of the accuracy data."""
+
+    def folder(self, data, **fragments):
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "page"
+        folder.mkdir()
+        (folder / "results.json").write_text(json.dumps(data), encoding="utf-8")
+        for name, text in fragments.items():
+            (folder / f"{name}.fragment.html").write_text(text, encoding="utf-8")
+        return folder
+
+    @staticmethod
+    def data():
+        value = {"set": ["a=1"], "ownMax": 0.5, "ownFlip": 0.1, "error": 0.2, "milliseconds": {"vulkan": 10, "gles": 12},
+                 "millisecondsInterval": {"vulkan": [9, 11], "gles": [11, 13]},
+                 "ratio": {"vulkan": 1, "gles": 1}, "interval": {"vulkan": [1, 1], "gles": [1, 1]}}
+        slow = {**value, "ratio": {"vulkan": 5, "gles": 2}, "interval": {"vulkan": [4, 6], "gles": [0.5, 3]}}
+        return {"program": "filament-accuracy", "version": 1, "machine": "m", "driver": {"vulkan": "d"}, "commit": "c",
+                "date": "2026-01-01", "frame": "frame", "size": [4, 3], "rounds": 2, "skipped": [], "effects": [
+                    {"name": "e", "title": "An <effect>", "question": "?", "reference": "r", "referenceError": 0, "scene": "s",
+                     "command": "run", "cost": "frame", "frame": "frame", "standard": "plain", "best": "fine",
+                     "values": [{**value, "value": "plain", "ownError": 0.25}, {**slow, "value": "fine", "ownError": 0}]}]}
+
+    def test_every_value_is_a_row_and_a_marker_of_each_api(self):
+        html = accuracy_page.page(self.folder(self.data()))
+        self.assertEqual(html.count('<tr class="standard" data-row="1"'), 1)
+        for row in ("1", "2"):
+            self.assertEqual(html.count(f'<g class="mark" data-row="{row}"'), 2)
+        self.assertIn("An &lt;effect&gt;", html)
+        self.assertIn("fine: 0, × 5 (10 ms), Vulkan", html)
+        self.assertIn("× 5.00 Vulkan</td>", html)  # whose interval does not include 1, unlike the other's
+
+    def test_markers_stay_in_the_figure(self):
+        html = accuracy_page.page(self.folder(self.data()))
+        for x, y in re.findall(r'<rect x="([^"]+)" y="([^"]+)"', html):
+            self.assertTrue(accuracy_page.LEFT <= float(x) <= accuracy_page.WIDTH - 16, x)
+            self.assertTrue(0 <= float(y) <= accuracy_page.HEIGHT - accuracy_page.BOTTOM, y)
+
+    def test_fragments_have_their_pictures_beside_their_tables(self):
+        text = '<section id="f"><h2>F</h2><figure><img src="a.png"></figure><table><tr></tr></table></section>'
+        html = accuracy_page.page(self.folder(self.data(), one=text))
+        self.assertIn('<div class="pictures"><figure><img src="page/a.png"></figure></div><div class="wide"><table>', html)
+        self.assertIn('<a href="#f">F</a>', html)
+
+    def test_other_data_are_refused(self):
+        for wrong in ({}, {**self.data(), "version": 2}):
+            with self.assertRaisesRegex(accuracy_page.BadInput, "not version 1"):
+                accuracy_page.page(self.folder(wrong))
+        wrong = self.data()
+        wrong["effects"][0]["standard"] = "none"
+        with self.assertRaisesRegex(accuracy_page.BadInput, "'none' is not among its values"):
+            accuracy_page.page(self.folder(wrong))
+
+    def test_the_committed_page_is_that_of_its_data(self):
+        docs = FOLDER.parents[1] / "docs"
+        self.assertEqual((docs / "accuracy.html").read_text(encoding="utf-8"), accuracy_page.page(docs / "accuracy"))
 
 
 if __name__ == "__main__":
