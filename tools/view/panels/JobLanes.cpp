@@ -17,7 +17,7 @@ uint32_t rankOf(std::string_view name) {
 }
 
 /// "worker 2" before "worker 10".
-bool comesBefore(JobLane const& a, JobLane const& b) {
+bool liesAbove(JobLane const& a, JobLane const& b) {
     const auto key = [](JobLane const& lane) {
         return std::tuple(rankOf(lane.name), lane.name.size(), std::string_view(lane.name));
     };
@@ -65,7 +65,7 @@ JobLanes layOutJobs(std::span<const JobTrack> tracks) {
             last = std::max(last, span.endSeconds);
         }
     }
-    std::ranges::stable_sort(result.lanes, comesBefore);
+    std::ranges::stable_sort(result.lanes, liesAbove);
     if (!result.lanes.empty()) result.whole = { first, last };
     return result;
 }
