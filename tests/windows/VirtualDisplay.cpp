@@ -32,9 +32,12 @@ std::string readLine(int descriptor) {
     return line;
 }
 
-void waitUntilShown(Display* display, unsigned long window) {
+/// Other events of the window are dropped: those of earlier changes of its size, say.
+void waitFor(int type, Display* display, unsigned long window) {
     XEvent event;
-    XWindowEvent(display, window, StructureNotifyMask, &event);
+    do {
+        XWindowEvent(display, window, StructureNotifyMask, &event);
+    } while (event.type != type);
 }
 
 } // namespace
@@ -85,13 +88,13 @@ void VirtualDisplay::resize(unsigned long window, uint2 size) {
 void VirtualDisplay::hide(unsigned long window) {
     XSelectInput(mDisplay, window, StructureNotifyMask); // of a window that another connection opened, too
     XUnmapWindow(mDisplay, window);
-    waitUntilShown(mDisplay, window);
+    waitFor(UnmapNotify, mDisplay, window);
 }
 
 void VirtualDisplay::show(unsigned long window) {
     XSelectInput(mDisplay, window, StructureNotifyMask);
     XMapWindow(mDisplay, window);
-    waitUntilShown(mDisplay, window);
+    waitFor(MapNotify, mDisplay, window);
 }
 
 std::vector<uint8_t> VirtualDisplay::pixels(unsigned long window, uint2 size) const {

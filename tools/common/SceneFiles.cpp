@@ -17,11 +17,15 @@ Result<showcase::Files> chooseFiles(SceneOptions const& options) {
     const std::filesystem::path environment = options.environment == "none" ? "" : options.environment;
     const bool isDark = options.environment.empty() && !options.sun;
     if (!options.model.empty() && !isDark) return showcase::Files{ options.model, environment };
-    showProgress("making the showcase");
     jobs::JobSystem jobs;
+    if (!options.model.empty()) {
+        const Result<std::filesystem::path> sky = showcase::writeSky(options.out, jobs);
+        if (!sky) return sky.error();
+        return showcase::Files{ options.model, *sky };
+    }
+    showProgress("making the showcase");
     Result<showcase::Files> files = showcase::writeFiles(options.out, jobs);
     if (files && !options.environment.empty()) files->environment = environment;
-    if (files && !options.model.empty()) files->model = options.model;
     return files;
 }
 

@@ -261,4 +261,14 @@ Result<Files> writeFiles(std::filesystem::path const& folder, jobs::JobSystem& j
     return files;
 }
 
+Result<std::filesystem::path> writeSky(std::filesystem::path const& folder, jobs::JobSystem& jobs) {
+    const std::filesystem::path file = folder / fmt::format("showcase-sky-{}.hdr", kSkyVersion);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) return file;
+    const Result<assets::HdrImage> sky = makeSky(jobs);
+    if (!sky) return sky.error();
+    if (Result<void> written = assets::writeHdr(file, *sky); !written) return written.error();
+    return file;
+}
+
 } // namespace filament::showcase

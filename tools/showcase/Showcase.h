@@ -27,4 +27,11 @@ struct Files {
 /// Writes both into `folder`, which is created if missing; existing files are replaced.
 Result<Files> writeFiles(std::filesystem::path const& folder, jobs::JobSystem& jobs);
 
+/// Of what makeSky() computes; grows with every change of it.
+inline constexpr uint32_t kSkyVersion = 1;
+
+/// The sky alone, for models of users: "showcase-sky-1.hdr" with its version, 0.1 s. A file that is there already is
+/// kept: it is written as a whole.
+Result<std::filesystem::path> writeSky(std::filesystem::path const& folder, jobs::JobSystem& jobs);
+
 } // namespace filament::showcase

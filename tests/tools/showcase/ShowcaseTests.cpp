@@ -97,6 +97,18 @@ TEST_F(ShowcaseFiles, TheSkyFitsTheDefaultExposureAndHasNoDisc) {
     EXPECT_GT(brightest, 0.2f);  // a clear sky near the sun has some 10 kcd/m^2
 }
 
+TEST_F(ShowcaseFiles, TheSkyForModelsOfUsersIsThatOfTheShowcaseAndMadeOnce) {
+    jobs::JobSystem jobs;
+    const Result<Files> files = writeFiles(mFolder, jobs);
+    const Result<std::filesystem::path> sky = writeSky(mFolder, jobs);
+    ASSERT_TRUE(files.ok() && sky.ok());
+    const auto made = assets::readFileBytes(*sky);
+    EXPECT_TRUE(*made == *assets::readFileBytes(files->environment));
+    ASSERT_TRUE(assets::replaceFile(*sky, {}).ok());
+    EXPECT_EQ(writeSky(mFolder, jobs).value(), *sky);
+    EXPECT_EQ(std::filesystem::file_size(*sky), 0u) << "what is there is kept";
+}
+
 TEST_F(ShowcaseFiles, AFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
     jobs::JobSystem jobs({ .workers = 0 });
     ASSERT_TRUE(assets::replaceFile(mFolder / "file", {}).ok());

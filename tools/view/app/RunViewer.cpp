@@ -14,9 +14,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <future>
+#include <optional>
 
 namespace filament::view {
 namespace {
@@ -91,14 +94,17 @@ public:
         while (!mViewer.isClosed() && !isDone() && !tools::isInterrupted()) {
             for (InputEvent const& event : mWindow.takeEvents(mViewer.idleSeconds())) mViewer.handle(event);
             const Clock::time_point now = Clock::now();
-            if (mOptions.frames > 0) mViewer.redraw();
+            if (mOptions.frames > 0 && !mViewer.isLoading()) mViewer.redraw();
             openPanels();
             mViewer.step(std::chrono::duration<double>(now - last).count());
             last = now;
             followFullScreen();
             printMessages();
-            noteFirstFrame();
+            noteFrames();
         }
+        if (mViewer.isClosed()) return; // its stage may be gone
+        mViewer.stage().engine().waitIdle();
+        noteFrames();
     }
 
 private:
@@ -129,19 +135,35 @@ private:
         for (std::string const& message : mViewer.takeMessages()) tools::printWarning(message);
     }
 
-    void noteFirstFrame() {
-        if (mHasFirstFrame || mViewer.completeFrames() == 0) return;
-        if (mViewer.stage().engine().statistics().presents == 0) return;
-        mHasFirstFrame = true;
-        std::printf("first complete frame in the window after %.3f s\n", secondsSince(mBegin));
-        std::fflush(stdout);
+    /// When a frame came into the window, at most a step late.
+    void noteFrames() {
+        for (Milestone& each : mMilestones) {
+            if (!each.presents && each.frames(mViewer) > 0) each.presents = mViewer.askedPresents();
+            if (!each.presents || each.isNoted) continue;
+            if (mViewer.stage().engine().statistics().presents < *each.presents) continue;
+            each.isNoted = true;
+            std::printf("%s in the window after %.3f s (%.3f s of all processors)\n", each.what, secondsSince(mBegin),
+                        static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+            std::fflush(stdout);
+        }
     }
 
     ViewerOptions const& mOptions;
     Window& mWindow;
     Viewer& mViewer;
     const Clock::time_point mBegin;
-    bool mIsFullScreen = false, mHasFirstFrame = false, mHasSelected = false;
+    struct Milestone {
+        const char* what;
+        uint32_t (*frames)(Viewer const&);
+        std::optional<uint64_t> presents{}; ///< of the engine, once it is in the window
+        bool isNoted = false;
+    };
+    std::array<Milestone, 3> mMilestones{
+        Milestone{ "first frame", [](Viewer const& viewer) { return static_cast<uint32_t>(viewer.askedPresents()); } },
+        Milestone{ "first frame with the model", [](Viewer const& viewer) { return viewer.modelFrames(); } },
+        Milestone{ "first complete frame", [](Viewer const& viewer) { return viewer.completeFrames(); } },
+    };
+    bool mIsFullScreen = false, mHasSelected = false;
     size_t mOpened = 0; ///< of ViewerOptions::openPanels
 };
 

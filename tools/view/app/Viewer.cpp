@@ -17,7 +17,8 @@ namespace {
 constexpr uint32_t kFramesAfterChange = 3; ///< ImGui settles in two frames, picks and statistics arrive with the next
 constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has gathered its picture
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
-constexpr double kFovDegrees = 40; ///< of a camera that was parallel
+constexpr double kProgressSeconds = 0.25; ///< between frames that show only how far loading has come
+constexpr double kFovDegrees = 40;        ///< of a camera that was parallel
 constexpr DebugView kLastDebugView = DebugView::WireframeAlone;
 
 constexpr float4 kBetweenPanels{ 0.06f, 0.06f, 0.06f, 1 }; ///< of the window; panels lie over it
@@ -324,8 +325,8 @@ void Viewer::perform(Action action) {
 // ---------------------------------------------------------------------------------------------- time
 
 double Viewer::idleSeconds() const {
-    const bool moves = mFramesToDraw > 0 || mHands.isMoving() || mDocument.playback.isPlaying || isLoading() || mPick ||
-                       mCompared.isWaiting() || mNumerics.isWaiting() ||
+    const bool moves = (mFramesToDraw > 0 && !isHidden()) || mHands.isMoving() || mDocument.playback.isPlaying ||
+                       isLoading() || mPick || mCompared.isWaiting() || mNumerics.isWaiting() ||
                        (mPanels.requests.inspectsPixel && mInspector.isWaiting());
     const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
     PanelState const& state = mPanels.state;
@@ -349,7 +350,11 @@ void Viewer::pollLoads() {
     for (std::string& message : mStage->takeMessages()) note(std::move(message));
     for (std::string& message : mCompared.takeMessages()) note(std::move(message));
     const bool isLoadingNow = isLoading();
-    if (std::exchange(mWasLoading, isLoadingNow) || isLoadingNow) touch();
+    if (std::exchange(mWasLoading, isLoadingNow) && !isLoadingNow) touch();
+    if (isLoadingNow && secondsNow() >= mNextProgress) {
+        mNextProgress = secondsNow() + kProgressSeconds;
+        mFramesToDraw = std::max(mFramesToDraw, 1u);
+    }
     if (std::exchange(mGeneration, mStage->generation()) != mStage->generation()) touch();
 }
 
@@ -401,6 +406,7 @@ void Viewer::followRecording() {
 }
 
 bool Viewer::step(double seconds) {
+    const double begin = threadSeconds();
     followActions();
     followRecording();
     if (mInstruments.poll(mPanels, *mStage)) mFramesToDraw = std::max(mFramesToDraw, 1u);
@@ -412,12 +418,19 @@ bool Viewer::step(double seconds) {
     pollLatency();
     pollInspector();
     if (mNumerics.poll(*mStage)) touch();
-    const bool isHidden = mTarget.pixels.x == 0 || mTarget.pixels.y == 0;
+    const double polled = threadSeconds();
+    const bool hasDrawn = drawIfDue(seconds);
+    mStepTime = { .other = polled - begin, .drawing = hasDrawn ? threadSeconds() - polled : 0 };
+    return hasDrawn;
+}
+
+bool Viewer::drawIfDue(double seconds) {
     const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.state.fileDialog.isReading();
-    if (!hasWork || isHidden || !mStage->renderer().mayPresent(mChain)) return false;
+    if (!hasWork || isHidden() || !mStage->renderer().mayPresent(mChain)) return false;
     if (mFramesToDraw > 0) --mFramesToDraw;
     draw(seconds);
     if (!isLoading()) ++mCompleteFrames;
+    if (mStage->shownFile() == mDocument.model.file) ++mModelFrames;
     return true;
 }
 

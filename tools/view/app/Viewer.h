@@ -2,7 +2,9 @@
 /// Viewer: one window: the document that it shows, the stage that draws it, hands on its camera, and the panels over it.
 ///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain, and
 ///            tests act by events.
-///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads.
+///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads. While files load and
+///            nothing else happens it draws their progress four times a second: the device may be the processor that
+///            loads them.
 ///   Picture  Document::view.size is what the panels leave free of the window; events count pixels of the window.
 ///   Waits    for nothing: if the window lags behind, step() comes back without drawing.
 ///   Thread   the main thread.
@@ -20,6 +22,7 @@
 #include "tools/view/app/PictureSaver.h"
 #include "tools/view/app/PixelInspector.h"
 #include "tools/view/app/RecentFiles.h"
+#include "tools/view/app/StepTime.h"
 #include "tools/view/app/UiInput.h"
 #include "tools/view/app/ViewerOptions.h"
 #include "tools/view/panels/Panels.h"
@@ -55,6 +58,7 @@ public:
     void handle(InputEvent const& event);
     /// Lets time pass, and draws a frame if something has changed. Whether it did.
     bool step(double seconds);
+    StepTime const& lastStep() const { return mStepTime; }
     /// How long nothing changes unless somebody acts: a caller may wait for events so long.
     double idleSeconds() const;
 
@@ -77,8 +81,11 @@ public:
     /// Lines for people since the last call: failed loads, misuse of files, errors of the device.
     std::vector<std::string> takeMessages() { return std::exchange(mMessages, {}); }
     uint32_t completeFrames() const { return mCompleteFrames; } ///< drawn while nothing was loading
+    uint32_t modelFrames() const { return mModelFrames; }       ///< drawn with the model of the document
     /// From an input until its frame was in the window, in milliseconds.
     Percentiles latency() const { return mPanels.latency.milliseconds(); }
+    /// Frames of this engine that were sent to the window; EngineStatistics::presents says how many are there.
+    uint64_t askedPresents() const { return mPresents; }
     /// The last frame as the window has it, with the panels. Waits for it.
     Result<Image> screenshot();
 
@@ -94,6 +101,7 @@ private:
     void copy(std::string const& text, const char* what);
     void paste();
     void note(std::string message);
+    bool isHidden() const { return mTarget.pixels.x == 0 || mTarget.pixels.y == 0; }
     void touch(); ///< something has changed: frames are to be drawn
     void play(double seconds);
     void pollLoads();
@@ -107,6 +115,7 @@ private:
     FrameExtras extras() const;
     void followActions();
     void followRecording();
+    bool drawIfDue(double seconds);
     void draw(double seconds);
     void drawOutline();
     void hideSelection();
@@ -146,7 +155,9 @@ private:
     PickTicket mPick{};
     uint64_t mGeneration = 0;
     std::vector<std::string> mMessages;
-    uint32_t mFramesToDraw = 0, mCompleteFrames = 0;
+    uint32_t mFramesToDraw = 0, mCompleteFrames = 0, mModelFrames = 0;
+    double mNextProgress = 0; ///< when the progress of loads is drawn again, by secondsNow()
+    StepTime mStepTime;
     uint2 mOffset{ 0 };       ///< of the picture in the window
     uint2 mChainPixels{ 0 };  ///< of the swap chain
     uint64_t mPresents = 0;   ///< asked for, of this engine

@@ -13,6 +13,7 @@
 
 namespace filament::view {
 
+inline constexpr int kEscape = 256; ///< of GLFW
 inline constexpr uint2 kPictureSize{ 640, 360 };
 
 struct Headless {

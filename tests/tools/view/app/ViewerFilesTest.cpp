@@ -22,7 +22,7 @@ double threadSeconds() {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-constexpr int kF12 = 301, kEnter = 257, kEscape = 256; // of GLFW
+constexpr int kF12 = 301, kEnter = 257; // of GLFW
 
 class ViewerFiles : public testing::TestWithParam<Backend> {
 protected:

@@ -12,7 +12,7 @@
 namespace filament::view {
 namespace {
 
-constexpr int kEscape = 256, kLeftControl = 341;
+constexpr int kLeftControl = 341;
 
 /// With FILAMENT_VIEW_PICTURES the pictures are kept there, to be looked at.
 void keep(Image const& image, std::string const& name) {

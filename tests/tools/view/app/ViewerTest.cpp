@@ -89,6 +89,7 @@ TEST_P(ViewerTest, PicturesFollowTheSizeOfTheWindow) {
     }
     headless.viewer->handle(ResizeEvent{ uint2(0), 1 }); // minimised
     EXPECT_FALSE(headless.viewer->step(0.1));
+    EXPECT_GT(headless.viewer->idleSeconds(), 0.1) << "nobody sees what changes";
     headless.viewer->handle(ResizeEvent{ kPictureSize, 2 }); // a dense display
     EXPECT_EQ(headless.picture().width, kPictureSize.x);
     EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());

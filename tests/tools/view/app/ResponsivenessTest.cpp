@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nobody waits while files load: what a step of the viewer costs its thread, frames aside.
+#include "filament_core/assets/environment/AnalyticSky.h"
+#include "filament_core/assets/image/ImageWriter.h"
+#include "tests/tools/view/app/TestScene.h"
+#include "tools/paths/Paths.h"
+#include "tools/view/app/Viewer.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+namespace filament::view {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestStep = 0.016; ///< seconds: a refresh of most displays
+
+/// A cache of its own, so that skies are baked here and now. Devices that are there already keep theirs.
+struct OwnCache {
+    OwnCache() {
+        const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "responsiveness-cache";
+        std::filesystem::remove_all(folder);
+        setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    }
+    ~OwnCache() { unsetenv("XDG_CACHE_HOME"); }
+};
+
+/// 4096 x 2048: a smaller sky with every pixel four times.
+std::filesystem::path largeSky() {
+    jobs::JobSystem jobs({ .workers = 1 });
+    const Result<assets::HdrImage> small = assets::makeAnalyticSky({ .sunDisc = false }, jobs);
+    EXPECT_TRUE(small.ok());
+    assets::HdrImage large{ .width = 4096, .height = 2048, .pixels = std::vector<float3>(size_t{ 4096 } * 2048) };
+    for (uint32_t y = 0; y < large.height; ++y)
+        for (uint32_t x = 0; x < large.width; ++x)
+            large.at(x, y) = small->at(x * small->width / large.width, y * small->height / large.height);
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "responsiveness-sky.hdr";
+    EXPECT_TRUE(assets::writeHdr(file, large).ok());
+    return file;
+}
+
+struct Steps {
+    std::vector<double> seconds; ///< ascending
+    double longest() const { return seconds.empty() ? 0 : seconds.back(); }
+    double quantile(double share) const {
+        return seconds.empty() ? 0 : seconds[static_cast<size_t>(share * static_cast<double>(seconds.size() - 1))];
+    }
+};
+
+/// Steps until everything is there and was drawn.
+Steps load(Viewer& viewer) {
+    Steps steps;
+    const Clock::time_point end = Clock::now() + std::chrono::minutes(5);
+    const auto step = [&] {
+        viewer.step(0.01);
+        steps.seconds.push_back(viewer.lastStep().other);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // the workers' turn
+    };
+    step();
+    while ((viewer.isLoading() || viewer.idleSeconds() < 0.1) && Clock::now() < end) step();
+    EXPECT_FALSE(viewer.isLoading());
+    std::ranges::sort(steps.seconds);
+    return steps;
+}
+
+void expectQuick(Steps const& steps, std::string const& what) {
+    const auto milliseconds = [](double seconds) { return fmt::format("{:.2f} ms", 1000 * seconds); };
+    const std::string line = fmt::format("{}: {} steps, p99 {}, longest {}", what, steps.seconds.size(),
+                                         milliseconds(steps.quantile(0.99)), milliseconds(steps.longest()));
+    std::printf("[          ] %s\n", line.c_str());
+    EXPECT_LT(steps.longest(), kLongestStep) << line;
+}
+
+class ResponsivenessTest : public testing::TestWithParam<Backend> {
+protected:
+    void SetUp() override {
+        ViewerOptions options = testOptions(GetParam());
+        options.validation = false; // checks are not what users wait for
+        auto made = Viewer::create(options, showcaseDocument({ 320, 180 }), { .pixels = { 320, 180 } });
+        ASSERT_TRUE(made.ok()) << made.error().message;
+        mViewer = std::move(*made);
+    }
+    void expectNoMessages() {
+        for (std::string const& message : mViewer->takeMessages()) ADD_FAILURE() << message;
+    }
+
+    std::unique_ptr<Viewer> mViewer;
+};
+
+INSTANTIATE_TEST_SUITE_P(Apis, ResponsivenessTest, testing::Values(Backend::Vulkan, Backend::Gles),
+                         [](auto const& info) { return std::string(toString(info.param)); });
+
+TEST_P(ResponsivenessTest, NoStepIsLongWhileAModelAndALargeSkyLoad) {
+    if (!mViewer) return;
+    expectQuick(load(*mViewer), "the showcase");
+    const OwnCache cache;
+    mViewer->handle(DropEvent{ { largeSky() } });
+    expectQuick(load(*mViewer), "a sky of 4096 x 2048");
+    mViewer->perform(Action::Reload);
+    expectQuick(load(*mViewer), "both again");
+    expectNoMessages();
+}
+
+TEST_P(ResponsivenessTest, NoStepIsLongWhileAMaterialIsCompiled) {
+    if (!mViewer) return;
+    load(*mViewer);
+    const std::filesystem::path file = tools::sourceDir() / "samples/materials/blend_add.mat";
+    ASSERT_TRUE(std::filesystem::exists(file));
+    mViewer->handle(DropEvent{ { file } });
+    expectQuick(load(*mViewer), "a material");
+    EXPECT_EQ(mViewer->stage().shownFile(), file);
+    expectNoMessages();
+}
+
+TEST_P(ResponsivenessTest, NoStepIsLongWhileModelsOfUsersLoad) {
+    if (!mViewer) return;
+    if (tools::assetDir().empty())
+        GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
+    load(*mViewer);
+    const std::filesystem::path models = tools::assetDir() / "models";
+    for (const char* name : { "LittlestTokyo/LittlestTokyo.glb", "FlightHelmet/FlightHelmet.gltf" }) {
+        mViewer->handle(DropEvent{ { models / name } });
+        expectQuick(load(*mViewer), name);
+        EXPECT_EQ(mViewer->stage().shownFile(), models / name);
+    }
+    mViewer->takeMessages(); // warnings of the models
+}
+
+} // namespace
+} // namespace filament::view
