@@ -95,6 +95,10 @@ void Owner::end() {
     released([&] { engine.reset(); });
 }
 
+void Owner::checkExit() {
+    if (gExits) raiseClosedError("the engine was closed: the interpreter exits");
+}
+
 void Owner::raiseErrors() {
     const std::vector<std::string> errors = mEngine->takeErrors();
     if (!errors.empty()) raise({ ErrorCode::DeviceLost, fmt::format("{}", fmt::join(errors, "; ")) });

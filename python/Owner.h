@@ -63,6 +63,8 @@ public:
     /// Destroys what is held, then the engine. Does nothing the second time.
     void close();
     void useOnThisThread();
+    /// Raises ClosedError if the interpreter waits for this call, to exit: between the steps of long work.
+    static void checkExit();
     /// Raises DeviceError with the errors of the device, if there are any.
     void raiseErrors();
     /// Of the device; known without a call.

@@ -34,8 +34,9 @@ void prepareImages(Engine& engine, Owner const& owner, Drawing& drawing, uint2 s
     drawing.format = format;
 }
 
-/// Raises the errors of the device, and KeyboardInterrupt.
+/// Raises the errors of the device, KeyboardInterrupt, and what ends the work of daemon threads.
 void checkFrame(Owner& owner) {
+    Owner::checkExit();
     owner.raiseErrors();
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }

@@ -237,6 +237,13 @@ class Exits(unittest.TestCase):
                        "        drawn.set()\n"
                        "threading.Thread(target=work, daemon=True).start()\ndrawn.wait()\n")
 
+    def test_while_a_daemon_thread_draws_without_end(self):
+        self.ends_well("begins = threading.Event()\ndef work():\n"
+                       "    engine = fc.Engine('gles'); scene = scene_of(engine); renderer = fc.Renderer(engine)\n"
+                       "    renderer.render(scene, view()); begins.set()\n"
+                       "    try: renderer.render(scene, view(), frames=1_000_000)\n    except fc.ClosedError: pass\n"
+                       "threading.Thread(target=work, daemon=True).start()\nbegins.wait(); time.sleep(0.01)\n")
+
     def test_with_engines_of_several_threads(self):
         self.ends_well("kept = []\ndef work(): kept.append(fc.Engine('gles')); kept.append(scene_of(kept[-1]))\n"
                        "thread = threading.Thread(target=work); thread.start(); thread.join()\n")
