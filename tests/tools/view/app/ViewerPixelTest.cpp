@@ -19,13 +19,14 @@ INSTANTIATE_TEST_SUITE_P(Apis, ViewerPixelTest, testing::Values(Backend::Vulkan,
 struct PixelViewer : Headless {
     explicit PixelViewer(Backend backend) : Headless(backend) {
         if (!viewer) return;
-        viewer->handle(ResizeEvent{ { 1000, 400 }, 1 }); // columns on both sides
+        viewer->handle(ResizeEvent{ { 1000 + static_cast<uint32_t>(kLeftColumn + kRightColumn), 400 }, 1 });
         settle();
         viewer->panels().state.opensPanel = "Pixel";
         viewer->redraw();
     }
+    /// Of the picture, which has 1000 x 400 of them.
     PixelReport const& at(float2 pixel) {
-        viewer->handle(MouseMoveEvent{ pixel });
+        viewer->handle(MouseMoveEvent{ pixel + viewer->panels().layout().picture.position });
         settle();
         return viewer->inspector().report();
     }
