@@ -108,7 +108,13 @@ public:
     }
 
 private:
-    bool isDone() const { return mOptions.frames > 0 && mViewer.completeFrames() >= mOptions.frames; }
+    /// The last frame shows what the comparison has found.
+    bool isDone() {
+        if (mOptions.frames == 0) return false;
+        const bool isComparing = mOptions.compare != CompareMode::Off && mViewer.compared().isWaiting();
+        if (isComparing) mLeastFrames = mViewer.completeFrames() + 2;
+        return !isComparing && mViewer.completeFrames() >= std::max(mOptions.frames, mLeastFrames);
+    }
 
     /// One at a time: the panels say when it is in front. A node is selected once the model is there.
     void openPanels() {
@@ -164,7 +170,8 @@ private:
         Milestone{ "first complete frame", [](Viewer const& viewer) { return viewer.completeFrames(); } },
     };
     bool mIsFullScreen = false, mHasSelected = false;
-    size_t mOpened = 0; ///< of ViewerOptions::openPanels
+    size_t mOpened = 0;        ///< of ViewerOptions::openPanels
+    uint32_t mLeastFrames = 0; ///< as ViewerOptions::frames
 };
 
 Result<void> show(ViewerOptions const& options) {

@@ -60,6 +60,7 @@ Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget con
         (void)mRecent.add(options.model); // a list that cannot be written is no reason to say so
     mPanels.state.fileDialog.recent = mRecent.files();
     mPanels.state.showsPanels = options.panels;
+    mCompared.mode = options.compare;
     mGizmo.scale = static_cast<double>(mUi.scale());
 }
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace filament::view {
 namespace {
@@ -15,7 +17,8 @@ namespace {
 using tools::invalidOption;
 
 struct Words {
-    std::string backend = "vulkan", presentMode = "fifo", frames = "0", workers, screenshot, document, panels = "on";
+    std::string backend = "vulkan", presentMode = "fifo", frames = "0", workers, screenshot, document, panels = "on",
+                compare = "off";
     std::string cameraPath, framesTo, frameFormat = "png", framesPerSecond = "30", video;
 };
 
@@ -35,6 +38,9 @@ void declare(CLI::App& app, Words& words, ViewerOptions& options) {
     app.add_option("--fps", words.framesPerSecond, "frames a second of the camera path")->default_str("30");
     app.add_option("--panels", words.panels, "on (default) or off; Tab changes it while it runs")->default_str("on");
     app.add_option("--panel", options.openPanels, "NAME, as on its tab: open it at the start; repeatable");
+    app.add_option("--compare", words.compare,
+                   "off (default), wipe, difference or flip: with the other API; C changes it while it runs")
+            ->default_str("off");
     app.add_option("--select", options.select, "NODE: select this node of the model, once it is loaded");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_flag("--validation", options.validation, "check every command, and enable the validation layers");
@@ -51,6 +57,14 @@ Result<void> convertChoices(Words const& words, ViewerOptions& options) {
         options.presentMode = PresentMode::Immediate;
     else if (words.presentMode != "fifo")
         return invalidOption("--present", words.presentMode, "fifo, mailbox or immediate");
+    constexpr std::array<std::pair<std::string_view, CompareMode>, 4> kModes{ { { "off", CompareMode::Off },
+                                                                                { "wipe", CompareMode::Wipe },
+                                                                                { "difference",
+                                                                                  CompareMode::Difference },
+                                                                                { "flip", CompareMode::Flip } } };
+    const auto mode = std::ranges::find(kModes, words.compare, &std::pair<std::string_view, CompareMode>::first);
+    if (mode == kModes.end()) return invalidOption("--compare", words.compare, "off, wipe, difference or flip");
+    options.compare = mode->second;
     for (std::string const& name : options.openPanels)
         if (const std::vector<std::string_view> known = panelNames(); std::ranges::find(known, name) == known.end())
             return invalidOption("--panel", name, fmt::format("one of {}", fmt::join(known, ", ")).c_str());

@@ -5,6 +5,7 @@
 
 #include "base/Result.h"
 #include "tools/common/SceneOptions.h"
+#include "tools/view/app/ComparedPictures.h"
 #include "tools/view/app/PathFrames.h"
 
 #include <filament/Backend.h>
@@ -29,8 +30,9 @@ struct ViewerOptions : tools::SceneOptions {
     bool drawsPath() const { return !series.folder.empty() || !series.video.empty(); }
     std::filesystem::path recentFiles; ///< RecentFiles.h; empty: none are kept
     bool panels = true;
-    std::vector<std::string> openPanels; ///< of panelNames(): each comes to the front of its column
-    std::string select;                  ///< a node of the model by its name; empty: none
+    std::vector<std::string> openPanels;    ///< of panelNames(): each comes to the front of its column
+    CompareMode compare = CompareMode::Off; ///< with the other API, from the start; the last frame waits for it
+    std::string select;                     ///< a node of the model by its name; empty: none
     bool validation = false;
     int workers = -1; ///< as EngineOptions::workers
 };

@@ -14,9 +14,9 @@ Result<std::optional<ViewerOptions>> parse(std::vector<const char*> words) {
 
 TEST(ViewerOptions, TakesTheWordsOfScripts) {
     const auto options =
-            parse({ "model.glb", "--backend", "gles",    "--size",   "640x360", "--frames",  "3", "--screenshot",
-                    "shot.png",  "--present", "mailbox", "--panels", "off",     "--workers", "0", "--panel",
-                    "Motion",    "--panel",   "Log",     "--select", "torus" });
+            parse({ "model.glb", "--backend", "gles",    "--size",   "640x360", "--frames",  "3",   "--screenshot",
+                    "shot.png",  "--present", "mailbox", "--panels", "off",     "--workers", "0",   "--panel",
+                    "Motion",    "--panel",   "Log",     "--select", "torus",   "--compare", "flip" });
     ASSERT_TRUE(options.ok()) << options.error().message;
     ViewerOptions const& found = **options;
     EXPECT_EQ(found.model, "model.glb");
@@ -29,6 +29,7 @@ TEST(ViewerOptions, TakesTheWordsOfScripts) {
     EXPECT_EQ(found.workers, 0);
     EXPECT_EQ(found.openPanels, (std::vector<std::string>{ "Motion", "Log" }));
     EXPECT_EQ(found.select, "torus");
+    EXPECT_EQ(found.compare, CompareMode::Flip);
 }
 
 TEST(ViewerOptions, TakesTheWordsOfCameraPaths) {
@@ -52,6 +53,7 @@ TEST(ViewerOptions, NamesWhatIsWrong) {
         { { "--present", "soon" }, "--present" },
         { { "--frames", "-1" }, "--frames" },
         { { "--panels", "maybe" }, "--panels" },
+        { { "--compare", "twice" }, "--compare" },
         { { "--workers", "many" }, "--workers" },
         { { "--screenshot", "a.png" }, "--frames" },
         { { "--frames", "1", "--screenshot", "a.gif" }, ".png" },
