@@ -6,7 +6,7 @@
 
   cpp        bodies of functions that know what Context.h declares; lines of #include stay outside. Errors name the document.
   material   compiled by matc, without warnings
-  json, sh   parsed
+  json, sh, python   parsed; tests/python/test_manual.py runs the Python of docs/python.md
   cmake      run, with commands of projects that do nothing
 Blocks without a language are output or pseudocode. Those of tutorials are run by test_tutorials.py.
 """
@@ -19,7 +19,7 @@ import sys
 import tempfile
 
 BLOCK = re.compile(r"^```([\w-]*)[^\n]*\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-KNOWN = {"", "cpp", "material", "json", "sh", "cmake"}
+KNOWN = {"", "cpp", "material", "json", "sh", "cmake", "python"}
 
 
 def blocks(root):
@@ -89,6 +89,14 @@ def check_shell(name, line, text):
     return [f"{name}:{line}: {done.stderr.strip()}"] if done.returncode else []
 
 
+def check_python(name, line, text):
+    try:
+        compile(text, name, "exec")
+    except SyntaxError as error:
+        return [f"{name}:{line + error.lineno - 1}: {error.msg}"]
+    return []
+
+
 def check(options, folder):
     wrong, cpp, count = [], [], 0
     for name, line, language, text in blocks(options.root):
@@ -103,6 +111,8 @@ def check(options, folder):
             wrong += check_cmake(name, line, text, folder)
         elif language == "sh":
             wrong += check_shell(name, line, text)
+        elif language == "python":
+            wrong += check_python(name, line, text)
         elif language not in KNOWN:
             wrong.append(f"{name}:{line}: nothing checks code of the language '{language}'")
     wrong += check_cpp(options, cpp, folder)

@@ -38,6 +38,7 @@ class Code(unittest.TestCase):
         self.assert_wrong("```cpp\nint a;\nunknown();\n```\n", "docs/sub/a.md:5:")
         self.assert_wrong("```json\n[1\n```\n", "docs/sub/a.md:4:")
         self.assert_wrong("```sh\nif\n```\n", "docs/sub/a.md:4:")
+        self.assert_wrong("```python\na = 1\nif\n```\n", "docs/sub/a.md:5:")
         self.assert_wrong("```cmake\nadd_thing(\n```\n", "docs/sub/a.md:4:")
         self.assert_wrong("```material\nmaterial {}\n```\n", "docs/sub/a.md:4:")
 
