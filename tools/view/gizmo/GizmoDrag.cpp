@@ -83,6 +83,8 @@ double factorOf(GizmoDrag const& drag, double2 to) {
     return armOf(drag, to) / std::max(armOf(drag, drag.from), kLeastArm * handleMeters(drag.frame, drag.view));
 }
 
+bool isOfAxes(GizmoPart part) { return isAxis(part) || isPlane(part) || part == GizmoPart::Screen; }
+
 } // namespace
 
 GizmoSteps stepsOf(GizmoFrame const& frame, PictureView const& view) {
@@ -97,15 +99,14 @@ GizmoSteps stepsOf(GizmoFrame const& frame, PictureView const& view) {
 double snapped(double value, double step) { return step > 0 ? std::round(value / step) * step : value; }
 
 double4x4 worldChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
-    const bool hasWay = isAxis(drag.part) || isPlane(drag.part) || drag.part == GizmoPart::Screen;
+    const bool hasWay = isOfAxes(drag.part);
     if (hasWay && drag.mode == GizmoMode::Move) return glm::translate(double4x4(1.0), translationOf(drag, to, steps));
     if (hasWay && drag.mode == GizmoMode::Rotate) return rotationOf(drag, to, steps);
     return double4x4(1.0);
 }
 
 double3 scaleChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
-    const bool hasWay = isAxis(drag.part) || isPlane(drag.part) || drag.part == GizmoPart::Screen;
-    if (!hasWay || drag.mode != GizmoMode::Scale) return double3(1);
+    if (!isOfAxes(drag.part) || drag.mode != GizmoMode::Scale) return double3(1);
     const double factor =
             std::clamp(snapped(factorOf(drag, to), steps.scale), std::max(kLeastScale, steps.scale), kMostScale);
     double3 scale(factor);

@@ -3,7 +3,8 @@
 /// now: neither the way between the two nor time matters.
 ///   Move, rotate   what was grabbed stays under the pointer, on its line, plane or ring.
 ///   Scale          grows with the distance from the origin, in [kLeastScale, kMostScale].
-///   Snap           whole steps from where the drag began: GizmoSteps.
+///   Snap           whole steps (GizmoSteps) from where the drag began; of a light's direction, cones and range: whole
+///                  steps of the value itself.
 ///   Thread         any; pure functions.   Fails: never, for finite arguments.
 #pragma once
 

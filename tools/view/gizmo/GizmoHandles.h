@@ -61,7 +61,7 @@ struct Handle {
 
 /// What is grabbed first comes first.
 std::vector<Handle> handlesOf(GizmoMode mode, GizmoFrame const& frame, PictureView const& view);
-/// The nearest one: inside of an area, or at most kGrabPixels * `scale` beside a line. None: nothing is there.
+/// The nearest one: inside of an area, or at most kGrabPixels * `scale` beside it or a line. None: nothing is there.
 GizmoPart partAt(std::vector<Handle> const& handles, double2 pixel, double scale = 1);
 
 // ---- for other handles

@@ -24,7 +24,7 @@ concept HasRange = requires(L light) {
     light.rangeMeters;
 };
 
-/// The direction or the axis of a light, or null.
+/// The direction or the axis of a light.
 template <class L>
 auto* axisIn(L& light) {
     if constexpr (requires { light.axisWorld; })
@@ -127,26 +127,35 @@ double3 snappedDirection(double3 direction, double step) {
     return { std::cos(elevation) * std::sin(heading), std::sin(elevation), std::cos(elevation) * std::cos(heading) };
 }
 
-/// Everything of the light that has a place or a direction.
+/// Everything of the light that has a direction.
+void turn(AnyLight& any, double3x3 const& rotation) {
+    std::visit(
+            [&]<class L>(L& light) {
+                *axisIn(light) = float3(rotation * double3(*axisIn(light)));
+                if constexpr (requires { light.upWorld; }) light.upWorld = float3(rotation * double3(light.upWorld));
+            },
+            any);
+}
+
+/// And everything that has a place.
 void transform(AnyLight& any, double4x4 const& change) {
-    const double3x3 turn(change);
     std::visit(
             [&]<class L>(L& light) {
                 if constexpr (HasPosition<L>) light.positionWorld = double3(change * double4(light.positionWorld, 1));
-                *axisIn(light) = float3(turn * double3(*axisIn(light)));
-                if constexpr (requires { light.upWorld; }) light.upWorld = float3(turn * double3(light.upWorld));
             },
             any);
+    turn(any, double3x3(change));
 }
 
 void setAim(AnyLight& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps,
             double4x4 const& worldFromLight) {
     const double3 before = aimOf(any, worldFromLight);
     const bool isNearSide = isNear(drag, before);
-    const double3x3 turn = shortestRotation(onSphereOf(drag, drag.from, isNearSide), onSphereOf(drag, to, isNearSide));
-    const double3 aim = snappedDirection(turn * before, steps.radians);
-    const double3 local = glm::inverse(double3x3(worldFromLight)) * aim;
-    std::visit([&](auto& light) { *axisIn(light) = float3(glm::normalize(local)); }, any);
+    const double3x3 way = shortestRotation(onSphereOf(drag, drag.from, isNearSide), onSphereOf(drag, to, isNearSide));
+    const double3 aim = snappedDirection(way * before, steps.radians);
+    const double3x3 toWorld(worldFromLight), toLight = glm::inverse(toWorld);
+    turn(any, toLight * shortestRotation(before, aim) * toWorld);
+    std::visit([&](auto& light) { *axisIn(light) = float3(glm::normalize(toLight * aim)); }, any); // exactly
 }
 
 void setRange(AnyLight& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
@@ -174,9 +183,10 @@ void setCone(SpotLight& light, GizmoDrag const& drag, double2 to, GizmoSteps con
     };
     const auto angle = static_cast<float>(snapped(before + angleAt(to) - angleAt(drag.from), steps.radians / 3));
     if (isOuter)
-        light.outerConeRadians = std::clamp(angle, light.innerConeRadians + kLeastCone, kRightAngle);
+        light.outerConeRadians =
+                std::clamp(angle, std::min(light.innerConeRadians + kLeastCone, kRightAngle), kRightAngle);
     else
-        light.innerConeRadians = std::clamp(angle, 0.0f, light.outerConeRadians - kLeastCone);
+        light.innerConeRadians = std::clamp(angle, 0.0f, std::max(light.outerConeRadians - kLeastCone, 0.0f));
 }
 
 } // namespace

@@ -73,7 +73,7 @@ std::vector<double> ticksOf(double least, double most, uint32_t count);
 std::optional<size_t> nearestPoint(std::span<const MeasuredSetting> points, PlotScale const& scale, float2 at,
                                    float reach);
 
-/// "shadows=pcf5: 12.3 ms (+1.2 ms), error 0.52 % (-0.10 %)"; differences from the first point.
+/// Two lines: name, time and error; then the differences from the first point.
 std::string describe(std::span<const MeasuredSetting> points, size_t index);
 
 } // namespace filament::view

@@ -106,10 +106,10 @@ void FileDialog::enterTyped() {
         return goTo(typed);
     }
     if (isSaving(mPurpose)) {
-        const std::string ending = typed.extension().string();
         const std::span<const std::string_view> endings = endingsOf(mPurpose);
-        const bool fits = std::ranges::find(endings, ending) != endings.end();
-        return choose(fits ? typed : std::filesystem::path(typed.string() + std::string(endings.front())));
+        return choose(endsAsAsked(typed.string(), endings)
+                              ? typed
+                              : std::filesystem::path(typed.string() + std::string(endings.front())));
     }
     if (std::filesystem::is_regular_file(typed, ignored)) choose(typed);
 }
@@ -162,7 +162,7 @@ void FileDialog::drawEntries(std::vector<size_t> const& shown) {
             ImGui::PushID(static_cast<int>(row));
             if (ImGui::Selectable("##entry", row == mSelected, ImGuiSelectableFlags_AllowDoubleClick)) {
                 mSelected = row;
-                if (isSaving(mPurpose) && !entry.isFolder) mField = entry.name;
+                if (isSaving(mPurpose) && !entry.isFolder) mField = entry.name, mToReplace.clear();
                 if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) clicked = row;
             }
             if (row == mSelected && mHasMoved) ImGui::SetScrollHereY();
@@ -187,10 +187,10 @@ void FileDialog::drawEntries(std::vector<size_t> const& shown) {
 }
 
 /// Keeps the keyboard, so that keys do not reach the scene. True: its text has changed.
-bool FileDialog::drawField() {
+bool FileDialog::drawField(bool hasKeys) {
     if (mIsNew || !ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const bool goesUp = mField.empty() && isPressed(ImGuiKey_Backspace);
+    const bool goesUp = hasKeys && mField.empty() && isPressed(ImGuiKey_Backspace);
     const bool isChanged =
             ImGui::InputTextWithHint("##field", isSaving(mPurpose) ? "name" : "filter, or a path", &mField);
     if (goesUp) goTo(mFolder.parent_path());
@@ -221,15 +221,17 @@ void FileDialog::draw() {
         const std::vector<size_t> shown = matching(mList.entries, filter);
         drawPlace();
         drawRecent();
-        walk(shown);
-        if (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter)) enter(shown);
-        drawEntries(matching(mList.entries, filter)); // enter() may have left the folder
-        if (drawField()) mSelected = 0;
+        const bool hasKeys = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+        if (hasKeys) walk(shown);
+        if (hasKeys && (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter))) enter(shown);
+        if (hasKeys && isPressed(ImGuiKey_Escape)) close();
+        drawEntries(mList.entries.empty() ? std::vector<size_t>{} : shown); // enter() may have left the folder
+        if (drawField(hasKeys)) mSelected = 0, mToReplace.clear();
         drawButtons(shown);
         mIsNew = false;
     }
     ImGui::End();
-    if (!staysOpen || isPressed(ImGuiKey_Escape)) close();
+    if (!staysOpen) close();
 }
 
 } // namespace filament::view

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FileDialog: chooses a file to open, or a name to save to, in a window of the interface.
-///   Keys     typing filters (or writes the name to save to); up and down select; Enter opens the folder or takes the
-///            file; Backspace in an empty field goes to the folder above; Escape closes. A path that is typed is gone to.
-///   Folders  are read on a thread of their own: the interface never waits for a disk.
+///   Keys     typing filters; up and down select; Enter opens the folder or takes the file. While saving, what is typed is
+///            the name, and Enter takes it; Backspace in an empty field goes to the folder above; Escape closes. A path that is typed is gone to.
+///   Folders  are listed on a thread of their own. Whether one file is there is asked at once.
 ///   Use      open(), draw() once a frame, takeChosen().
 ///   Thread   that of ImGui's context. Copies are values: each goes its own way.
 ///   Life     the last copy waits for folders that are being read.
@@ -33,7 +33,7 @@ struct ChosenFile {
 
 class FileDialog {
 public:
-    /// `name`: of the file to save. It begins in the folder where the last one was chosen, or in the current one.
+    /// `name`: of the file to save. It begins in the folder that was shown last, or in the current one.
     void open(FilePurpose purpose, std::string name = {});
     void close() { mIsOpen = false; }
     bool isOpen() const { return mIsOpen; }
@@ -53,7 +53,7 @@ private:
     void drawPlace();
     void drawRecent();
     void drawEntries(std::vector<size_t> const& shown);
-    bool drawField();
+    bool drawField(bool hasKeys);
     void drawButtons(std::vector<size_t> const& shown);
     void walk(std::vector<size_t> const& shown);
     void enter(std::vector<size_t> const& shown); ///< what is selected or written

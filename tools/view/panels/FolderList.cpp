@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/FolderList.h"
 
+#include "base/Utf8.h"
 #include "tools/view/panels/PanelText.h"
 
 #include <algorithm>
@@ -12,12 +13,6 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
-
-bool endsAsAsked(std::string name, std::span<const std::string_view> endings) {
-    std::ranges::transform(name, name.begin(), lower);
-    return endings.empty() ||
-           std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
-}
 
 /// The digits from `at`, without leading zeros.
 std::string_view digitsFrom(std::string_view text, size_t at) {
@@ -58,20 +53,19 @@ std::optional<FolderEntry> entryOf(std::filesystem::directory_entry const& each,
     return entry;
 }
 
-/// How many bytes a character of UTF-8 has that begins here; 0: none does.
+/// How many bytes a character of UTF-8 has that begins here; 0: none does, or it is a control character.
 size_t bytesOfCharacter(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[0]);
-    if (first < 0x80) return first >= 0x20 && first != 0x7f ? 1 : 0;
-    const size_t bytes = first >= 0xf0 && first < 0xf5   ? 4
-                         : first >= 0xe0 && first < 0xf0 ? 3
-                         : first >= 0xc2 && first < 0xe0 ? 2
-                                                         : 0;
-    if (bytes == 0 || bytes > text.size()) return 0;
-    const auto isTail = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
-    return std::ranges::all_of(text.substr(1, bytes - 1), isTail) ? bytes : 0;
+    return first < 0x20 || first == 0x7f ? 0 : utf8Length(text);
 }
 
 } // namespace
+
+bool endsAsAsked(std::string name, std::span<const std::string_view> endings) {
+    std::ranges::transform(name, name.begin(), lower);
+    return endings.empty() ||
+           std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
+}
 
 bool comesBefore(FolderEntry const& a, FolderEntry const& b) {
     if (a.isFolder != b.isFolder) return a.isFolder;

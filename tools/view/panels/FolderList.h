@@ -32,6 +32,8 @@ struct FolderList {
 
 /// `endings`: lower case, with the dot: ".glb"; files are compared without regard to case. None: all files.
 FolderList listFolder(std::filesystem::path const& folder, std::span<const std::string_view> endings);
+/// Whether it has one of the endings, in any case; true without endings.
+bool endsAsAsked(std::string name, std::span<const std::string_view> endings);
 bool comesBefore(FolderEntry const& a, FolderEntry const& b);
 /// The places of entries whose names contain all words of the filter.
 std::vector<size_t> matching(std::vector<FolderEntry> const& entries, std::string_view filter);

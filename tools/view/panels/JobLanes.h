@@ -36,7 +36,7 @@ struct JobLane {
     std::string name{};
     std::vector<JobBar> bars{}; ///< by their beginnings
     uint32_t rows = 1;
-    uint64_t lost = 0;
+    uint64_t lost = 0; ///< spans for which there was no room
 };
 
 struct JobLanes {

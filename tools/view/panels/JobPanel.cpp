@@ -53,7 +53,8 @@ struct LanePlace {
 
 /// Draws one lane; returns its height.
 float drawLane(ImDrawList& list, LanePlace const& place, JobLane const& lane, float top) {
-    const std::string name = fmt::format("{:3.0f} % {}", busyShare(lane, place.window) * 100, lane.name);
+    const std::string lost = lane.lost > 0 ? fmt::format(", {} lost", lane.lost) : std::string();
+    const std::string name = fmt::format("{:3.0f} % {}{}", busyShare(lane, place.window) * 100, lane.name, lost);
     list.PushClipRect({ place.origin.x, top }, { place.origin.x + place.names - 4, top + place.row * 2 }, true);
     list.AddText({ place.origin.x, top }, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
     list.PopClipRect();

@@ -66,8 +66,9 @@ void addKey(CameraPath& path, PathState& state, Camera const& camera) {
     const bool isLast = before + 1 == keys.size();
     const double seconds =
             isLast ? keys[before].seconds + kKeySeconds : (keys[before].seconds + keys[before + 1].seconds) / 2;
-    const bool fits = seconds > keys[before].seconds && (isLast || seconds < keys[before + 1].seconds);
-    if (!fits) return; // no number lies between them
+    const bool fits = seconds - keys[before].seconds >= kLeastKeySeconds &&
+                      (isLast || keys[before + 1].seconds - seconds >= kLeastKeySeconds);
+    if (!fits) return;
     keys.insert(keys.begin() + static_cast<ptrdiff_t>(before) + 1, { .seconds = seconds, .camera = camera });
     state.key = before + 1;
 }

@@ -77,6 +77,9 @@ TEST(FolderList, NamesOfAnyBytesCanBeDrawn) {
     EXPECT_EQ(shownName("\xff\xc3"), "??");
     EXPECT_EQ(shownName("\xe2\x82"), "??") << "a character that is cut";
     EXPECT_EQ(shownName("\xe2\x82\xac"), "\xe2\x82\xac");
+    EXPECT_EQ(shownName("\xe0\x80\x80"), "???") << "longer than it must be";
+    EXPECT_EQ(shownName("\xed\xa0\x80"), "???") << "half of a surrogate pair";
+    EXPECT_EQ(shownName("\xf4\x90\x80\x80"), "????") << "beyond the last character";
 }
 
 /// A dialog, an interface and a keyboard.
