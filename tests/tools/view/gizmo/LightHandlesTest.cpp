@@ -40,7 +40,13 @@ bool isSeenFromTheEye(RandomGizmo const& random, double3 direction) {
 }
 
 std::vector<AnyLight> lightsOfEveryKind() {
-    return { SunLight{}, PointLight{ .rangeMeters = 2 }, SpotLight{ .rangeMeters = 3 }, RectLight{}, DiscLight{},
+    return { SunLight{},
+             PointLight{ .rangeMeters = 2 },
+             SpotLight{ .rangeMeters = 3 },
+             RectLight{},
+             DiscLight{},
+             SpotLight{ .innerConeRadians = 1.5703f, .outerConeRadians = 1.5707f },
+             SpotLight{ .innerConeRadians = 0, .outerConeRadians = 0.0005f },
              TubeLight{} };
 }
 
@@ -181,6 +187,20 @@ TEST(LightHandles, NoDragMakesALightThatADocumentRefuses) {
             const Result<void> checked = check(document);
             EXPECT_TRUE(checked.ok()) << checked.error().message;
         }
+    }
+}
+
+TEST(LightHandles, TheUpOfAnAimedAreaTurnsWithItsAim) {
+    Draw draw(8);
+    for (int round = 0; round < kRounds; ++round) {
+        const RandomGizmo random(draw);
+        const GizmoLight light{ .light = RectLight{} };
+        const GizmoDrag drag{ GizmoMode::Off, GizmoPart::Direction, frameOf(light, GizmoAxes::World), random.view,
+                              draw.picture() * 2000.0 };
+        const AnyLight dragged = draggedLight(drag, draw.picture() * 2000.0, {}, light);
+        auto const& area = std::get<RectLight>(dragged);
+        EXPECT_NEAR(glm::dot(area.directionWorld, area.upWorld), 0, 1e-5f);
+        EXPECT_NEAR(glm::length(area.upWorld), 1, 1e-5f);
     }
 }
 
