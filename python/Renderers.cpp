@@ -2,7 +2,9 @@
 // Rendering to arrays, and what frames needed.
 #include "python/Bindings.h"
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace filament::python {
 namespace {
@@ -114,8 +116,8 @@ py::list timingsOf(DrawingObject const& self) {
     const Owner::Call call(*self.owner());
     py::list list;
     for (FrameTimings const& timings : self->renderer.takeTimings()) {
-        py::dict passes;
-        for (PassTiming const& pass : timings.passes) passes[py::str(pass.name)] = pass.gpuMilliseconds;
+        std::map<std::string, double> passes; // those of the same name, such as the levels of bloom, together
+        for (PassTiming const& pass : timings.passes) passes[pass.name] += pass.gpuMilliseconds;
         py::dict dict;
         dict["frame"] = timings.frame;
         dict["prepare_milliseconds"] = timings.prepareMilliseconds;
@@ -158,7 +160,9 @@ void bindRenderer(py::module_& module) {
                     "The frame graph of the last frame for graphviz.")
             .def("statistics", &statisticsOf, "Counts of the last frame: renderables, draws, triangles, passes.")
             .def("take_timings", &timingsOf,
-                 "Times of the frames since the last call, oldest first. Those of the device need pass_timers.");
+                 "Times of the frames since the last call, oldest first. Those of the device need pass_timers; passes "
+                 "of the "
+                 "same name count together.");
 }
 
 } // namespace filament::python

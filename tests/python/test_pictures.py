@@ -151,5 +151,32 @@ class BothApis(unittest.TestCase):
         self.assertTrue(fc.compare(plain, self.picture("gles", "light")).identical)
 
 
+class Timings(unittest.TestCase):
+    def drawn(self, backend, **options):
+        engine = fc.Engine(backend)
+        self.addCleanup(engine.close)
+        scene = fc.Scene(engine)
+        scene.add_mesh(engine.sphere(0.5), engine.built_in_material("unlit").instance())
+        view = flat_view(64, 48)
+        view["bloom"] = True
+        renderer = fc.Renderer(engine, **options)
+        renderer.render(scene, view, frames=3)
+        return renderer.take_timings()
+
+    def test_of_passes_sum_up_to_that_of_the_frame(self):
+        for backend in BACKENDS:
+            frames = self.drawn(backend, pass_timers=True)
+            self.assertEqual(len(frames), 3)
+            for frame in frames:
+                self.assertIn("bloom down", frame["passes"])  # several passes have this name
+                self.assertAlmostEqual(sum(frame["passes"].values()), frame["gpu_milliseconds"], places=6)
+                self.assertGreater(frame["gpu_milliseconds"], 0)
+
+    def test_without_timers_have_none_of_the_device(self):
+        for backend in BACKENDS:
+            for frame in self.drawn(backend):
+                self.assertEqual((frame["passes"], frame["gpu_milliseconds"]), ({}, 0))
+
+
 if __name__ == "__main__":
     unittest.main()

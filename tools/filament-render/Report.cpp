@@ -47,17 +47,19 @@ struct PassTime {
     Spread gpu;
 };
 
-/// Every pass of the steady frames (of the first frame if there is no other), in the order of their first run.
+/// Every pass of the steady frames (of the first frame if there is no other), in the order of their first run. Passes of
+/// the same name, such as the levels of bloom, count together.
 std::vector<PassTime> passTimes(BackendRun const& run) {
     const std::span<const FrameTimings> frames = run.timings.size() > 1 ? steadyTimings(run) : std::span(run.timings);
     std::vector<std::string> order;
     std::map<std::string, std::vector<double>> values;
     for (FrameTimings const& frame : frames) {
+        std::map<std::string, double> sums;
         for (PassTiming const& pass : frame.passes) {
-            auto& list = values[pass.name];
-            if (list.empty()) order.push_back(pass.name);
-            list.push_back(pass.gpuMilliseconds);
+            if (std::ranges::find(order, pass.name) == order.end()) order.push_back(pass.name);
+            sums[pass.name] += pass.gpuMilliseconds;
         }
+        for (auto const& [name, milliseconds] : sums) values[name].push_back(milliseconds);
     }
     std::vector<PassTime> times;
     for (std::string const& name : order) times.push_back({ name, spreadOf(values[name]) });

@@ -167,6 +167,19 @@ TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
     }
 }
 
+TEST_F(CommandLine, TimesOfPassesSumUpToThatOfTheFrame) {
+    const Outcome outcome = run("triangle.gltf --size 96x54 --frames 2 --out timed --timing --set bloom=on");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    const auto report = nlohmann::json::parse(textOf(sFolder / "timed" / "report.json"));
+    for (const char* backend : { "vulkan", "gles" }) {
+        double sum = 0;
+        for (auto const& pass : report["backends"][backend]["passes"]) sum += pass["gpuMs"]["median"].get<double>();
+        const double frame = report["backends"][backend]["steady"]["gpuMs"]["median"];
+        EXPECT_NEAR(sum, frame, 1e-6) << backend << ": of the only steady frame, whose passes of bloom share names";
+        EXPECT_GT(frame, 0.0);
+    }
+}
+
 TEST_F(CommandLine, SteadyFramesWithShadowsTakeNothingFromTheHeap) {
     for (const std::string more : { "shadows=pcf3", "shadows=pcss --set shadowCascades=4", "shadows=vsm",
                                     "shadows=evsm --set sun.showsDisc=on", "debugView=atlas" }) {
