@@ -6,17 +6,14 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace filament::shader {
 
-/// Name and text: properties, types, attributes, filters, members, functions, helpers.
+/// Name and text: properties, lists, types, attributes, filters, members, members-of-vertices, members-of-shading,
+/// functions, helpers.
 std::vector<std::pair<std::string, std::string>> languageTables();
-
-/// The document with its tables replaced by the current ones. Marks without a table stay as they are.
-std::string withCurrentTables(std::string_view document);
 
 /// Sorted, each once: properties, their values, types, members, functions of the engine.
 std::vector<std::string> languageWords();

@@ -8,26 +8,14 @@
 #include "shaders/compiler/StateProperties.h"
 
 #include <algorithm>
-#include <array>
 
 namespace filament::shader {
 namespace {
 
-struct ListProperty {
-    std::string_view name;
-    Result<void> (*read)(JsonValue const& value, MaterialDefinition& out);
-};
-
-constexpr std::array kLists{
-    ListProperty{ "parameters", readParameters },       ListProperty{ "constants", readConstants },
-    ListProperty{ "requires", readRequires },           ListProperty{ "variables", readVariables },
-    ListProperty{ "variantFilter", readVariantFilter },
-};
-
 Error unknownProperty(std::string const& name, JsonValue const& value) {
     std::vector<std::string_view> known;
     for (StateProperty const& property : stateProperties()) known.push_back(property.name);
-    for (ListProperty const& property : kLists) known.push_back(property.name);
+    for (ListProperty const& property : listProperties()) known.push_back(property.name);
     return errorAt(value.at, fmt::format("there is no property '{}'{}", name, suggestion(name, known)));
 }
 
@@ -35,8 +23,9 @@ Result<void> readProperty(std::string const& name, JsonValue const& value, Mater
     const auto states = stateProperties();
     const auto state = std::ranges::find(states, name, &StateProperty::name);
     if (state != states.end()) return state->read(value, name, out);
-    const auto list = std::ranges::find(kLists, name, &ListProperty::name);
-    if (list != kLists.end()) return list->read(value, out);
+    const auto lists = listProperties();
+    const auto list = std::ranges::find(lists, name, &ListProperty::name);
+    if (list != lists.end()) return readList(value, *list, out);
     return unknownProperty(name, value);
 }
 

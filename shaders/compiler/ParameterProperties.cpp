@@ -146,9 +146,12 @@ Result<void> checkKeyword(JsonValue const& item, std::string_view what, std::str
 /// guide's budget counts it as two.
 bool isExternal(JsonValue const& type) { return equalIgnoringCase(type.text, "samplerExternal"); }
 
+constexpr std::string_view kParameterFields[] = { "type", "name", "precision", "format", "usedIf", "currentPixel" };
+constexpr std::string_view kConstantFields[] = { "type", "name", "default" };
+constexpr std::string_view kVariableFields[] = { "name", "precision" };
+
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format", "currentPixel", "usedIf" };
-    Result<NamedEntry> entry = readEntry(item, kFields, "parameter");
+    Result<NamedEntry> entry = readEntry(item, kParameterFields, "parameter");
     if (!entry) return entry.error();
     if (out.package.findParameter(entry->name)) {
         return errorAt(item.at, fmt::format("there are two parameters '{}'", entry->name));
@@ -192,13 +195,12 @@ Result<void> readDefault(JsonValue const& value, Constant& out) {
 }
 
 Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "type", "default" };
     static constexpr std::pair<std::string_view, ConstantType> kConstantTypes[] = {
         { "bool", ConstantType::Bool },
         { "int", ConstantType::Int },
         { "float", ConstantType::Float },
     };
-    Result<NamedEntry> entry = readEntry(item, kFields, "constant");
+    Result<NamedEntry> entry = readEntry(item, kConstantFields, "constant");
     if (!entry) return entry.error();
     if (out.package.findConstant(entry->name)) {
         return errorAt(item.at, fmt::format("there are two constants '{}'", entry->name));
@@ -213,12 +215,11 @@ Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
 
 /// A name, or { name, precision }.
 Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "precision" };
     Variable variable{ .at = item.at };
     Result<void> done;
     if (item.kind == JsonValue::Kind::Object) {
         JsonValue const* name = nullptr;
-        done = expectOnly(item, kFields, "variable");
+        done = expectOnly(item, kVariableFields, "variable");
         if (done) done = requireMember(item, "name", "variable", name);
         if (done) done = readIdentifier(*name, "variable", variable.name);
         if (JsonValue const* precision = findMember(item, "precision"); done && precision)
@@ -234,20 +235,6 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
         return errorAt(item.at, fmt::format("there are two variables '{}'", variable.name));
     }
     out.variables.push_back(std::move(variable));
-    return {};
-}
-
-using ReadItem = Result<void> (*)(JsonValue const&, MaterialDefinition&);
-
-Result<void> readEach(JsonValue const& value, std::string_view what, size_t limit, ReadItem read,
-                      MaterialDefinition& out) {
-    if (Result<void> isArray = expectKind(value, JsonValue::Kind::Array, what); !isArray) return isArray;
-    if (value.items.size() > limit) return errorAt(value.at, fmt::format("'{}' has more than {} entries", what, limit));
-    std::vector<Error> errors;
-    for (JsonValue const& item : value.items) {
-        if (Result<void> done = read(item, out); !done) errors.push_back(done.error());
-    }
-    if (!errors.empty()) return joined(errors);
     return {};
 }
 
@@ -325,26 +312,42 @@ Result<void> resolveUsedIf(MaterialDefinition& definition, size_t index) {
     return {};
 }
 
+constexpr ListProperty kLists[] = {
+    { "parameters", kParameterFields,
+      "a number, vector, matrix or texture, which instances set; `float[9]` is an array",
+      "`materialParams.NAME`; of samplers `materialParams_NAME`", kMaxParameterCount, readParameter },
+    { "constants", kConstantFields, "a `bool`, `int` or `float` that is set before a pipeline is made",
+      "`materialConstants_NAME`", kMaxConstantCount, readConstant },
+    { "requires",
+      {},
+      "an [attribute](#attributes) of the mesh",
+      "`getUV0()` and the like",
+      kMaxParameterCount,
+      readRequirement },
+    { "variables", kVariableFields, "a value that the vertex block gives to the fragment block; or its name alone",
+      "`material.NAME` in the vertex block, `variable_NAME` in the fragment block", kMaxVariables, readVariable },
+    { "variantFilter",
+      {},
+      "a [variant](#variants) that is left out, which makes the package smaller",
+      "",
+      kMaxParameterCount,
+      readFilter },
+};
+
 } // namespace
 
-Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "parameters", kMaxParameterCount, readParameter, out);
-}
+std::span<const ListProperty> listProperties() { return kLists; }
 
-Result<void> readConstants(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "constants", kMaxConstantCount, readConstant, out);
-}
-
-Result<void> readVariables(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "variables", kMaxVariables, readVariable, out);
-}
-
-Result<void> readRequires(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "requires", kMaxParameterCount, readRequirement, out);
-}
-
-Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "variantFilter", kMaxParameterCount, readFilter, out);
+Result<void> readList(JsonValue const& value, ListProperty const& property, MaterialDefinition& out) {
+    if (Result<void> isArray = expectKind(value, JsonValue::Kind::Array, property.name); !isArray) return isArray;
+    if (value.items.size() > property.limit)
+        return errorAt(value.at, fmt::format("'{}' has more than {} entries", property.name, property.limit));
+    std::vector<Error> errors;
+    for (JsonValue const& item : value.items) {
+        if (Result<void> done = property.readEntry(item, out); !done) errors.push_back(done.error());
+    }
+    if (!errors.empty()) return joined(errors);
+    return {};
 }
 
 std::vector<std::string_view> parameterTypeNames() {

@@ -133,6 +133,14 @@ struct Words<ClothDistribution> {
                                                          { "ashikhmin", ClothDistribution::Ashikhmin } };
 };
 
+template <>
+struct Words<SpecularAmbientOcclusion> {
+    static constexpr Word<SpecularAmbientOcclusion> kList[] = { { "none", SpecularAmbientOcclusion::None },
+                                                                { "simple", SpecularAmbientOcclusion::Simple },
+                                                                { "bentNormals",
+                                                                  SpecularAmbientOcclusion::BentNormals } };
+};
+
 template <class T>
 Result<void> readValue(JsonValue const& value, std::string_view name, T& out) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -165,27 +173,47 @@ std::string valuesOf() {
     }
 }
 
+template <class T>
+std::string wordOf(T value) {
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, float>) {
+        return fmt::format("{}", value);
+    } else {
+        auto const& words = Words<T>::kList;
+        return std::string(std::ranges::find(words, value, &Word<T>::second)->first);
+    }
+}
+
 template <class Owner, class T>
 T typeOf(T Owner::*);
+template <class Owner, class T>
+Owner ownerOf(T Owner::*);
 
-template <auto Member>
-std::string valuesOfMember() {
-    return valuesOf<decltype(typeOf(Member))>();
+/// The part of a definition, const or not, that has the member.
+template <auto Member, class Definition>
+auto& valueIn(Definition& definition) {
+    using Owner = decltype(ownerOf(Member));
+    if constexpr (std::is_same_v<Owner, MaterialPackage>) {
+        return definition.package.*Member;
+    } else if constexpr (std::is_same_v<Owner, SpecularAntiAliasing>) {
+        return definition.specularAntiAliasing.*Member;
+    } else {
+        return definition.*Member;
+    }
 }
 
 template <auto Member>
-Result<void> readState(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    return readValue(value, name, out.package.*Member);
+Result<void> readMember(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
+    return readValue(value, name, valueIn<Member>(out));
 }
 
 template <auto Member>
-Result<void> readSetting(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    return readValue(value, name, out.*Member);
+std::string shownMember(MaterialDefinition const& definition) {
+    return wordOf(valueIn<Member>(definition));
 }
 
 template <auto Member>
-Result<void> readFilter(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    return readValue(value, name, out.specularAntiAliasing.*Member);
+constexpr StateProperty property(std::string_view name, std::string_view meaning) {
+    return { name, meaning, readMember<Member>, valuesOf<decltype(typeOf(Member))>, shownMember<Member> };
 }
 
 Result<void> readName(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
@@ -203,19 +231,21 @@ Result<void> readFeatureLevel(JsonValue const& value, std::string_view name, Mat
     return {};
 }
 
+struct BlendField {
+    std::string_view name;
+    backend::BlendFactor BlendFunction::*factor;
+};
+constexpr BlendField kBlendFields[] = { { "srcRGB", &BlendFunction::sourceColor },
+                                        { "srcA", &BlendFunction::sourceAlpha },
+                                        { "dstRGB", &BlendFunction::targetColor },
+                                        { "dstA", &BlendFunction::targetAlpha } };
+
 Result<void> readBlendFunction(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    struct Field {
-        std::string_view name;
-        backend::BlendFactor BlendFunction::*factor;
-    };
-    static constexpr Field kFields[] = { { "srcRGB", &BlendFunction::sourceColor },
-                                         { "srcA", &BlendFunction::sourceAlpha },
-                                         { "dstRGB", &BlendFunction::targetColor },
-                                         { "dstA", &BlendFunction::targetAlpha } };
-    static constexpr std::string_view kNames[] = { kFields[0].name, kFields[1].name, kFields[2].name, kFields[3].name };
+    static constexpr std::string_view kNames[] = { kBlendFields[0].name, kBlendFields[1].name, kBlendFields[2].name,
+                                                   kBlendFields[3].name };
     if (Result<void> isObject = expectKind(value, JsonValue::Kind::Object, name); !isObject) return isObject;
     if (Result<void> known = expectOnly(value, kNames, name); !known) return known;
-    for (Field const& field : kFields) {
+    for (BlendField const& field : kBlendFields) {
         JsonValue const* factor = findMember(value, field.name);
         if (!factor) return errorAt(value.at, fmt::format("blendFunction needs the field '{}'", field.name));
         if (Result<void> done = readValue(*factor, field.name, out.package.blendFunction.*field.factor); !done)
@@ -224,16 +254,18 @@ Result<void> readBlendFunction(JsonValue const& value, std::string_view name, Ma
     return {};
 }
 
-constexpr Word<SpecularAmbientOcclusion> kOcclusionWords[] = {
-    { "none", SpecularAmbientOcclusion::None },
-    { "simple", SpecularAmbientOcclusion::Simple },
-    { "bentNormals", SpecularAmbientOcclusion::BentNormals },
-};
+std::string shownBlendFunction(MaterialDefinition const& definition) {
+    std::string text;
+    for (BlendField const& field : kBlendFields) {
+        text += fmt::format("{}{} : {}", text.empty() ? "" : ", ", field.name,
+                            wordOf(definition.package.blendFunction.*field.factor));
+    }
+    return "{ " + text + " }";
+}
 
 /// Accepts true and false besides the words: they mean simple and none.
 Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    if (value.kind != JsonValue::Kind::Bool)
-        return readEnum(value, name, kOcclusionWords, out.specularAmbientOcclusion);
+    if (value.kind != JsonValue::Kind::Bool) return readValue(value, name, out.specularAmbientOcclusion);
     out.specularAmbientOcclusion = value.boolean ? SpecularAmbientOcclusion::Simple : SpecularAmbientOcclusion::None;
     return {};
 }
@@ -241,70 +273,73 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
 // In the order of the guide; domain, fullScreenTriangle, wideLines, halfPrecision and clothDistribution are additions of
 // this engine.
 constexpr std::array kProperties{
-    StateProperty{ "name", readName, [] { return std::string("any text"); } },
-    StateProperty{ "domain", readState<&MaterialPackage::domain>, valuesOfMember<&MaterialPackage::domain> },
-    StateProperty{ "featureLevel", readFeatureLevel, [] { return std::string("0, 1, 2, 3"); } },
-    StateProperty{ "shadingModel", readState<&MaterialPackage::shading>, valuesOfMember<&MaterialPackage::shading> },
-    StateProperty{ "flipUV", readSetting<&MaterialDefinition::flipUv>, valuesOfMember<&MaterialDefinition::flipUv> },
-    StateProperty{ "quality", readState<&MaterialPackage::quality>, valuesOfMember<&MaterialPackage::quality> },
-    StateProperty{ "instanced", readState<&MaterialPackage::instanced>, valuesOfMember<&MaterialPackage::instanced> },
-    StateProperty{ "vertexDomainDeviceJittered", readState<&MaterialPackage::vertexDomainDeviceJittered>,
-                   valuesOfMember<&MaterialPackage::vertexDomainDeviceJittered> },
-    StateProperty{ "vertexDomain", readState<&MaterialPackage::vertexDomain>,
-                   valuesOfMember<&MaterialPackage::vertexDomain> },
-    StateProperty{ "interpolation", readState<&MaterialPackage::interpolation>,
-                   valuesOfMember<&MaterialPackage::interpolation> },
-    StateProperty{ "fullScreenTriangle", readSetting<&MaterialDefinition::fullScreenTriangle>,
-                   valuesOfMember<&MaterialDefinition::fullScreenTriangle> },
-    StateProperty{ "wideLines", readSetting<&MaterialDefinition::wideLines>,
-                   valuesOfMember<&MaterialDefinition::wideLines> },
-    StateProperty{ "halfPrecision", readSetting<&MaterialDefinition::halfPrecision>,
-                   valuesOfMember<&MaterialDefinition::halfPrecision> },
-    StateProperty{ "blending", readState<&MaterialPackage::blending>, valuesOfMember<&MaterialPackage::blending> },
-    StateProperty{ "blendFunction", readBlendFunction,
-                   [] { return "srcRGB, srcA, dstRGB, dstA, each: " + valuesOf<backend::BlendFactor>(); } },
-    StateProperty{ "postLightingBlending", readState<&MaterialPackage::postLightingBlending>,
-                   valuesOfMember<&MaterialPackage::postLightingBlending> },
-    StateProperty{ "transparency", readState<&MaterialPackage::transparency>,
-                   valuesOfMember<&MaterialPackage::transparency> },
-    StateProperty{ "maskThreshold", readState<&MaterialPackage::maskThreshold>,
-                   valuesOfMember<&MaterialPackage::maskThreshold> },
-    StateProperty{ "refractionMode", readState<&MaterialPackage::refractionMode>,
-                   valuesOfMember<&MaterialPackage::refractionMode> },
-    StateProperty{ "refractionType", readState<&MaterialPackage::refractionType>,
-                   valuesOfMember<&MaterialPackage::refractionType> },
-    StateProperty{ "culling", readState<&MaterialPackage::culling>, valuesOfMember<&MaterialPackage::culling> },
-    StateProperty{ "colorWrite", readState<&MaterialPackage::colorWrite>,
-                   valuesOfMember<&MaterialPackage::colorWrite> },
-    StateProperty{ "depthWrite", readState<&MaterialPackage::depthWrite>,
-                   valuesOfMember<&MaterialPackage::depthWrite> },
-    StateProperty{ "depthCulling", readState<&MaterialPackage::depthCulling>,
-                   valuesOfMember<&MaterialPackage::depthCulling> },
-    StateProperty{ "doubleSided", readState<&MaterialPackage::doubleSided>,
-                   valuesOfMember<&MaterialPackage::doubleSided> },
-    StateProperty{ "alphaToCoverage", readState<&MaterialPackage::alphaToCoverage>,
-                   valuesOfMember<&MaterialPackage::alphaToCoverage> },
-    StateProperty{ "reflections", readState<&MaterialPackage::reflections>,
-                   valuesOfMember<&MaterialPackage::reflections> },
-    StateProperty{ "shadowMultiplier", readState<&MaterialPackage::shadowMultiplier>,
-                   valuesOfMember<&MaterialPackage::shadowMultiplier> },
-    StateProperty{ "transparentShadow", readState<&MaterialPackage::transparentShadow>,
-                   valuesOfMember<&MaterialPackage::transparentShadow> },
-    StateProperty{ "clearCoatIorChange", readSetting<&MaterialDefinition::clearCoatIorChange>,
-                   valuesOfMember<&MaterialDefinition::clearCoatIorChange> },
-    StateProperty{ "multiBounceAmbientOcclusion", readSetting<&MaterialDefinition::multiBounceAmbientOcclusion>,
-                   valuesOfMember<&MaterialDefinition::multiBounceAmbientOcclusion> },
-    StateProperty{ "specularAmbientOcclusion", readSpecularOcclusion, [] { return listOf(kOcclusionWords); } },
-    StateProperty{ "specularAntiAliasing", readFilter<&SpecularAntiAliasing::enabled>,
-                   valuesOfMember<&SpecularAntiAliasing::enabled> },
-    StateProperty{ "specularAntiAliasingVariance", readFilter<&SpecularAntiAliasing::variance>,
-                   valuesOfMember<&SpecularAntiAliasing::variance> },
-    StateProperty{ "specularAntiAliasingThreshold", readFilter<&SpecularAntiAliasing::threshold>,
-                   valuesOfMember<&SpecularAntiAliasing::threshold> },
-    StateProperty{ "customSurfaceShading", readSetting<&MaterialDefinition::customSurfaceShading>,
-                   valuesOfMember<&MaterialDefinition::customSurfaceShading> },
-    StateProperty{ "clothDistribution", readSetting<&MaterialDefinition::clothDistribution>,
-                   valuesOfMember<&MaterialDefinition::clothDistribution> },
+    StateProperty{ "name", "what messages and tools call it", readName, [] { return std::string("any text"); },
+                   [](MaterialDefinition const& definition) { return definition.package.name; } },
+    property<&MaterialPackage::domain>("domain", "a surface of the scene, or an effect over the whole picture"),
+    StateProperty{
+            "featureLevel", "what devices must offer: it limits the number of samplers", readFeatureLevel,
+            [] { return std::string("0, 1, 2, 3"); },
+            [](MaterialDefinition const& definition) { return std::to_string(definition.package.featureLevel); } },
+    property<&MaterialPackage::shading>("shadingModel",
+                                        "how light is reflected, and which members of `MaterialInputs` there are"),
+    property<&MaterialDefinition::flipUv>(
+            "flipUV", "texture coordinates count from the lower edge of a picture, as in OpenGL: v becomes 1 - v"),
+    property<&MaterialPackage::quality>("quality", "`low`: a visibility term that is cheaper and slightly wrong"),
+    property<&MaterialPackage::instanced>("instanced", "`getInstanceIndex()` exists"),
+    property<&MaterialPackage::vertexDomainDeviceJittered>(
+            "vertexDomainDeviceJittered", "positions in clip space follow the jitter of temporal anti-aliasing"),
+    property<&MaterialPackage::vertexDomain>("vertexDomain", "the space of the positions in the mesh"),
+    property<&MaterialPackage::interpolation>("interpolation",
+                                              "of variables across a triangle; `flat`: those of its first vertex"),
+    property<&MaterialDefinition::fullScreenTriangle>(
+            "fullScreenTriangle", "one triangle over the view, without vertices; needs `vertexDomain : device`"),
+    property<&MaterialDefinition::wideLines>(
+            "wideLines", "the mesh holds corners of line segments, which are spread to `lineWidth` pixels"),
+    property<&MaterialDefinition::halfPrecision>("halfPrecision",
+                                                 "also compiles variants that are lit with 16-bit numbers"),
+    property<&MaterialPackage::blending>("blending", "how the surface covers what is behind it"),
+    StateProperty{ "blendFunction", "the factors of `blending : custom`", readBlendFunction,
+                   [] { return "srcRGB, srcA, dstRGB, dstA, each: " + valuesOf<backend::BlendFactor>(); },
+                   shownBlendFunction },
+    property<&MaterialPackage::postLightingBlending>("postLightingBlending",
+                                                     "how `postLightingColor` is put over the lit colour"),
+    property<&MaterialPackage::transparency>("transparency",
+                                             "which sides of a blended surface are drawn, and in how many passes"),
+    property<&MaterialPackage::maskThreshold>("maskThreshold", "alpha below which `blending : masked` leaves holes"),
+    property<&MaterialPackage::refractionMode>(
+            "refractionMode", "what is seen through the surface: nothing, the environment, or the picture"),
+    property<&MaterialPackage::refractionType>("refractionType",
+                                               "a solid object, whose surface bends light, or a thin sheet"),
+    property<&MaterialPackage::culling>("culling", "the sides that are not drawn"),
+    property<&MaterialPackage::colorWrite>("colorWrite", "writes colour"),
+    property<&MaterialPackage::depthWrite>("depthWrite", "writes depth"),
+    property<&MaterialPackage::depthCulling>("depthCulling", "what is behind other surfaces is not drawn"),
+    property<&MaterialPackage::doubleSided>(
+            "doubleSided", "back faces are lit as front faces; where it is given, instances can change it"),
+    property<&MaterialPackage::alphaToCoverage>(
+            "alphaToCoverage", "with several samples a pixel, alpha is the share of them that is covered"),
+    property<&MaterialPackage::reflections>("reflections", "`screenspace`: the surface reflects the picture"),
+    property<&MaterialPackage::shadowMultiplier>(
+            "shadowMultiplier",
+            "an unlit surface that only shows shadows: colour and alpha are scaled by how dark they are"),
+    property<&MaterialPackage::transparentShadow>("transparentShadow",
+                                                  "blended surfaces cast dithered shadows, as dense as their alpha"),
+    property<&MaterialDefinition::clearCoatIorChange>(
+            "clearCoatIorChange",
+            "below a clear coat the base reflects less, because it borders on the coat and not on air"),
+    property<&MaterialDefinition::multiBounceAmbientOcclusion>(
+            "multiBounceAmbientOcclusion", "bright surfaces are occluded less, and in their own colour"),
+    StateProperty{ "specularAmbientOcclusion", "how occlusion dims reflections; `true` is `simple`, `false` is `none`",
+                   readSpecularOcclusion, valuesOf<SpecularAmbientOcclusion>,
+                   shownMember<&MaterialDefinition::specularAmbientOcclusion> },
+    property<&SpecularAntiAliasing::enabled>("specularAntiAliasing",
+                                             "widens highlights where normals vary within a pixel"),
+    property<&SpecularAntiAliasing::variance>("specularAntiAliasingVariance",
+                                              "how strongly the variation of normals widens them"),
+    property<&SpecularAntiAliasing::threshold>("specularAntiAliasingThreshold", "the most by which it does"),
+    property<&MaterialDefinition::customSurfaceShading>(
+            "customSurfaceShading", "the fragment block defines `surfaceShading()`, which shades for each light"),
+    property<&MaterialDefinition::clothDistribution>("clothDistribution", "of the fibres of `shadingModel : cloth`"),
 };
 
 } // namespace

@@ -3,7 +3,7 @@
 
 struct ShadingData {
     vec3 diffuseColor;         // times alpha
-    vec3 f0;
+    vec3 f0;                   // reflectance at normal incidence
     float perceptualRoughness; // clamped and filtered
     float roughness;           // its square
 };

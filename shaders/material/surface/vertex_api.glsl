@@ -117,26 +117,26 @@ vec3 getUserWorldPosition() { return worldPositionOfVertex().xyz + frameUniforms
 
 struct MaterialVertexInputs {
 #if defined(HAS_COLOR)
-    vec4 color;
+    vec4 color; // if the material requires it, as uv0 and uv1
 #endif
 #if defined(HAS_UV0)
-    vec2 uv0;
+    vec2 uv0;   // flipped with flipUV
 #endif
 #if defined(HAS_UV1)
-    vec2 uv1;
+    vec2 uv1;   // flipped with flipUV
 #endif
 #if defined(NEEDS_NORMAL)
-    vec3 worldNormal;
+    vec3 worldNormal; // if the material has normals
 #endif
 #if defined(HAS_CLIP_SPACE_TRANSFORM)
-    mat4 clipSpaceTransform;
+    mat4 clipSpaceTransform; // of positions in the device domain, if the code uses it
 #endif
 #if defined(WIDE_LINES)
-    float lineWidth; // pixels
-    vec4 lineEnd;    // the other end of the segment, in the same space as worldPosition
+    float lineWidth; // with wideLines: pixels, 1 to 1024
+    vec4 lineEnd;    // with wideLines: the other end of the segment, in the space of worldPosition
 #endif
     MATERIAL_VARIABLES_AS_MEMBERS
-    vec4 worldPosition;
+    vec4 worldPosition; // in the world, also where the mesh has other positions; w is not used
 };
 
 vec2 meshUv(vec2 uv) {
