@@ -140,7 +140,8 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
 void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options) {
     app.set_help_flag("--help", "print this text");
     app.add_option("MODEL", words.model,
-                   ".gltf or .glb, filament-render also .mat or .fmat; without one the showcase is drawn")
+                   ".gltf or .glb; filament-render and filament-view also draw .mat and .fmat; without one the "
+                   "showcase is drawn")
             ->type_name("");
     app.add_option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
     app.add_option("--environment", words.environment,
@@ -164,7 +165,10 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
     app.add_option("--dither", words.dither, "on or off (off)");
     app.add_option("--preset", words.preset, "fast, balanced, fine or cinematic: the whole view, effects included");
     app.add_option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
-    app.add_option("--set", words.set, "NAME=VALUE: one choice of docs/quality.md, after --quality; repeatable")
+    app.add_option(
+               "--set", words.set,
+               "NAME=VALUE: after --quality, one of docs/options.md: a choice of quality, an option of an effect, how "
+               "files are loaded, what is shown; repeatable")
             ->expected(1)
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -50,7 +50,7 @@ int write(const char* path) {
 } // namespace filament::tools
 
 int main(int argc, char** argv) {
-    if (argc == 2) return filament::tools::write(argv[1]);
+    if (argc == 2 && argv[1][0] != '-') return filament::tools::write(argv[1]); // no option is a file
     std::fputs("ltcfit FILE: writes the table of shaders/interface/LtcTable.h\n", stderr);
     return 2;
 }
