@@ -90,21 +90,25 @@ void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, C
 }
 
 VkAccessFlags Barriers::takeMemory(Texture& texture, UseInfo const& next) {
-    VkAccessFlags written = 0;
+    ImageMemory& shared = texture.memory();
     if (Texture* const last = texture.takeMemory()) {
         forget(*last);
         last->uses.forEachPart(last->uses.all(), [&](SubresourceRange const&, Use use) {
-            memory(infoOf(use).stages, infoOf(use).written, next.stages, next.access);
-            written |= infoOf(use).written;
+            memory(infoOf(use).stages, 0, next.stages, next.access); // of readers as well
         });
         last->uses.set(last->uses.all(), Use::Undefined);
     }
+    if (shared.written != 0) memory(shared.writingStages, shared.written, next.stages, next.access);
     texture.uses.set(texture.uses.all(), Use::Undefined);
-    return written;
+    return shared.written;
 }
 
 void Barriers::leave(Texture& texture, SubresourceRange const& range, Use use) {
     texture.uses.set(range, use);
+    if (infoOf(use).written != 0) {
+        texture.memory().writingStages |= infoOf(use).stages;
+        texture.memory().written |= infoOf(use).written;
+    }
     if (use != Use::ShaderRead) add(texture);
 }
 

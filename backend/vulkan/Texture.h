@@ -30,6 +30,10 @@ struct ImageMemory {
     VkMemoryRequirements needs; ///< of the image that it was allocated for
     Allocation allocation{};
     Texture* user = nullptr; ///< the only one with contents; null: it is gone
+    /// How all of them have written it: where the last one is smaller, or has fewer samples, the last write is that of
+    /// another one.
+    VkPipelineStageFlags writingStages = 0;
+    VkAccessFlags written = 0;
 };
 
 class Texture final : public DeviceObject {
@@ -61,6 +65,7 @@ public:
     bool hasMemory() const { return mMemory->user == this; }
     /// It is from now on. Returns the texture that had it, if there is one.
     Texture* takeMemory() { return std::exchange(mMemory->user, this); }
+    ImageMemory& memory() { return *mMemory; }
 
     // Bookkeeping of Barriers.
     SubresourceUses uses;

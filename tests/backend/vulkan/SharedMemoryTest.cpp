@@ -45,6 +45,22 @@ TEST_F(SharedMemoryTest, ThoseThatFitTakeNoMoreAndTheLastOneWrittenHasContents) 
     }
 }
 
+TEST_F(SharedMemoryTest, ALargeTextureWaitsForWhatASmallOneBeforeItHasNotCovered) {
+    const TextureHandle samples =
+            makeTexture({ .usage = TextureUsage::ColorAttachment, .samples = 4, .width = kSide, .height = kSide });
+    const TextureHandle small = makeOn(samples, Format::R32F, kSide / 4), last = makeOn(samples, Format::RG16F);
+    PassDesc pass{ .layout = colorLayout(Format::RGBA8), .area = { 0, 0, kSide, kSide }, .debugName = "samples" };
+    pass.layout.samples = 4;
+    pass.colors[0].texture = samples;
+    commands.record(CmdBeginPass{ pass });
+    endPass();
+    beginPass(small, kSide / 4, kSide / 4, {}, Format::R32F);
+    endPass();
+    clear(makeTarget(kSide, kSide), Format::RGBA8, 0); // before this pass the small one becomes readable
+    clear(last, Format::RG16F, 1); // the layer looks for the write of the samples, of which the small one hides a part
+    finish();
+}
+
 TEST_F(SharedMemoryTest, ATextureThatDoesNotFitHasMemoryOfItsOwn) {
     const TextureHandle small = makeTarget(kSide, kSide);
     const uint64_t before = usedBytes();
