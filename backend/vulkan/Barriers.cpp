@@ -70,12 +70,13 @@ bool SubresourceUses::isUniform(SubresourceRange const& range) const {
 
 void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
     UseInfo const& next = infoOf(use);
-    const VkAccessFlags writtenByOther = texture.hasMemory() ? 0 : takeMemory(texture, next);
+    if (!texture.hasMemory()) takeMemory(texture, next);
     texture.uses.forEachPart(range, [&](SubresourceRange const& part, Use before) {
         if (before == use && next.written == 0) return; // a read after a read
+        const bool isNew = before == Use::Undefined;    // in memory that others, or other parts, may have written
         UseInfo const& last = infoOf(before);
         auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
-        barrier.srcAccessMask = last.written | writtenByOther;
+        barrier.srcAccessMask = isNew ? texture.memory().written : last.written;
         barrier.dstAccessMask = next.access;
         barrier.oldLayout = contents == Contents::Discard ? VK_IMAGE_LAYOUT_UNDEFINED : last.layout;
         barrier.newLayout = next.layout;
@@ -83,24 +84,23 @@ void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, C
         barrier.image = texture.image();
         barrier.subresourceRange = { texture.aspects(), part.level, part.levelCount, part.layer, part.layerCount };
         mImages.push_back(barrier);
-        mSourceStages |= last.stages;
+        mSourceStages |= isNew ? texture.memory().writingStages | last.stages : last.stages;
         mTargetStages |= next.stages;
     });
     leave(texture, range, use);
 }
 
-VkAccessFlags Barriers::takeMemory(Texture& texture, UseInfo const& next) {
-    ImageMemory& shared = texture.memory();
+void Barriers::takeMemory(Texture& texture, UseInfo const& next) {
+    ImageMemory const& shared = texture.memory();
     if (Texture* const last = texture.takeMemory()) {
         forget(*last);
         last->uses.forEachPart(last->uses.all(), [&](SubresourceRange const&, Use use) {
-            memory(infoOf(use).stages, 0, next.stages, next.access); // of readers as well
+            memory(infoOf(use).stages, 0, next.stages, next.access); // readers
         });
         last->uses.set(last->uses.all(), Use::Undefined);
     }
     if (shared.written != 0) memory(shared.writingStages, shared.written, next.stages, next.access);
     texture.uses.set(texture.uses.all(), Use::Undefined);
-    return shared.written;
 }
 
 void Barriers::leave(Texture& texture, SubresourceRange const& range, Use use) {

@@ -116,9 +116,8 @@ private:
     /// Makes all of the texture readable that is not attached; whether that is everything.
     bool settle(Texture& texture);
     void settleAll();
-    /// The memory of the texture becomes its own: what others did with it comes before `next`. Returns how they wrote it,
-    /// which a transition must wait for as well.
-    VkAccessFlags takeMemory(Texture& texture, UseInfo const& next);
+    /// The memory of the texture becomes its own: what others did with it comes before `next`.
+    void takeMemory(Texture& texture, UseInfo const& next);
     /// Makes what transfers and dispatches wrote to buffers visible to every command.
     void publishWrites();
     void memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,

@@ -61,6 +61,26 @@ TEST_F(SharedMemoryTest, ALargeTextureWaitsForWhatASmallOneBeforeItHasNotCovered
     finish();
 }
 
+TEST_F(SharedMemoryTest, EachLevelWaitsForThoseWhoHadItsMemory) {
+    const TextureHandle first = makeTexture(
+            { .usage = TextureUsage::Sampled | TextureUsage::ColorAttachment, .width = 2 * kSide, .height = kSide });
+    const TextureHandle levels = makeTexture({ .usage = TextureUsage::Sampled | TextureUsage::ColorAttachment,
+                                               .levels = 2,
+                                               .width = kSide,
+                                               .height = kSide,
+                                               .placedOn = first });
+    beginPass(first, 2 * kSide, kSide);
+    endPass();
+    for (uint8_t level = 0; level < 2; ++level) {
+        PassDesc pass{ .layout = colorLayout(Format::RGBA8), .area = { 0, 0, kSide >> level, kSide >> level } };
+        pass.colors[0].texture = levels;
+        pass.colors[0].level = level;
+        commands.record(CmdBeginPass{ pass });
+        endPass();
+    }
+    finish();
+}
+
 TEST_F(SharedMemoryTest, ATextureThatDoesNotFitHasMemoryOfItsOwn) {
     const TextureHandle small = makeTarget(kSide, kSide);
     const uint64_t before = usedBytes();
