@@ -138,7 +138,7 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     const std::string input = file("stone.mat", kLit);
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
-    ASSERT_EQ(matc("-a vulkan -o " + path("vulkan") + " " + input).status, 0);
+    ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -a vulkan -o " + path("vulkan") + " " + input).status, 0);
     EXPECT_EQ(package("all").variants.size(), 18u);
     EXPECT_EQ(package("one").variants.size(), 6u) << "skinned or not; colour, depth or values";
     EXPECT_THAT(package("all").variants[0].fragmentEssl, HasSubstr("#version 310 es"));
@@ -336,7 +336,8 @@ TEST_F(Matc, NamesTheFilesOfAMaterialForMake) {
 }
 
 TEST_F(Matc, ReadsTheStandardInput) {
-    const std::string input = file("stone.mat", kLit);
+    const std::string input = file("stone.mat", kUnlit);
+    file("tint.glsl", "vec4 tint() { return vec4(0.5); }");
     ASSERT_EQ(matc("-o " + path("a") + " " + input).status, 0);
     const Outcome piped = shell("cd " + mFolder.string() + " && " + kProgram + "-o b - < stone.mat 2>&1");
     EXPECT_EQ(piped.status, 0) << piped.output;
@@ -384,8 +385,9 @@ TEST_F(Matc, PrintsEachErrorAndEachWarningOnALine) {
     const Outcome broken = matc("-o " + path("x") + " " + input);
     EXPECT_THAT(broken.output, HasSubstr("e.mat:4: 'a' :"));
     EXPECT_THAT(broken.output, HasSubstr("\nERROR: " + input + ":5: 'b' :"));
-    const std::string good = file("g.mat", "material { parameters : [ { name : unused, type : float } ] }\nfragment { "
-                                           "void material(inout MaterialInputs m) { prepareMaterial(m); } }");
+    const std::string good =
+            file("g.mat", "material { shadingModel : unlit, parameters : [ { name : unused, type : float } ] }\n"
+                          "fragment { void material(inout MaterialInputs m) { prepareMaterial(m); } }");
     EXPECT_THAT(matc("-o " + path("x") + " " + good).output, HasSubstr("WARNING: " + good + ":1: no code reads"));
     EXPECT_EQ(matc("-w -o " + path("x") + " " + good).output, "");
 }
@@ -410,7 +412,8 @@ TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {
 }
 
 TEST_F(Matc, MatinfoPrintsTheCodeOfEitherApi) {
-    ASSERT_EQ(matc("-o " + path("standard.fmat") + " " + file("standard.mat", kStandard)).status, 0);
+    const std::string input = file("standard.mat", kStandard);
+    ASSERT_EQ(matc("-v shadowReceiver,skinning,debugViews -o " + path("standard.fmat") + " " + input).status, 0);
     const std::string of = path("standard.fmat");
     EXPECT_EQ(matinfo("--code opengl --variant 3 " + of).output, package("standard.fmat").findVariant(3)->fragmentEssl);
     EXPECT_THAT(matinfo("--code vulkan --stage vertex " + of).output, HasSubstr("OpEntryPoint Vertex"));
