@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -18,6 +20,8 @@ namespace filament::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::atomic<uint64_t> gCompiled{ 0 };
 
 Result<std::string> readText(fs::path const& path) {
     Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
@@ -35,6 +39,56 @@ Result<std::string> edited(std::string text, std::vector<TextEdit> const& edits,
     return text;
 }
 
+/// The latest compilations, by text. A viewer that changes the API or goes back compiles nothing again.
+class Compilations {
+public:
+    /// As long as the files that the text includes are the same.
+    std::optional<std::vector<std::byte>> find(std::string const& key, shader::IncludeResolver const& files) {
+        const std::lock_guard lock(mMutex);
+        const auto entry = std::ranges::find(mEntries, key, &Entry::key);
+        if (entry == mEntries.end()) return std::nullopt;
+        for (auto const& [name, content] : entry->included)
+            if (files(name) != content) return std::nullopt;
+        return entry->bytes;
+    }
+    void add(std::string key, std::map<std::string, std::optional<std::string>> included,
+             std::vector<std::byte> bytes) {
+        const std::lock_guard lock(mMutex);
+        std::erase_if(mEntries, [&](Entry const& entry) { return entry.key == key; });
+        if (mEntries.size() == kMost) mEntries.pop_front();
+        mEntries.push_back({ std::move(key), std::move(included), std::move(bytes) });
+    }
+    void clear() {
+        const std::lock_guard lock(mMutex);
+        mEntries.clear();
+    }
+
+private:
+    struct Entry {
+        std::string key;
+        std::map<std::string, std::optional<std::string>> included; ///< contents by name; nothing: there was no file
+        std::vector<std::byte> bytes;
+    };
+    static constexpr size_t kMost = 8;
+
+    std::mutex mMutex;
+    std::deque<Entry> mEntries; ///< the newest last
+};
+
+Compilations& compilations() {
+    static Compilations known;
+    return known;
+}
+
+constexpr std::string_view kShowMark = "// show:";
+
+/// Without the words about showing it, on which no code depends.
+std::string withoutShow(std::string text) {
+    const size_t mark = text.find(kShowMark);
+    if (mark != std::string::npos) text.erase(mark, text.find('\n', mark) - mark);
+    return text;
+}
+
 Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const& path, uint16_t filteredVariants) {
     const auto beside = [&](std::string_view name) -> std::optional<std::string> {
         const Result<fs::path> inside = assets::fileInside(path.parent_path(), name);
@@ -42,10 +96,17 @@ Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const&
         const Result<std::string> file = readText(*inside);
         return file ? std::optional(*file) : std::nullopt;
     };
+    std::string key = fmt::format("{}\n{}\n{}", path.string(), filteredVariants, withoutShow(text));
+    if (auto bytes = compilations().find(key, beside)) return std::move(*bytes);
+    std::map<std::string, std::optional<std::string>> included;
+    const auto noted = [&](std::string_view name) { return included[std::string(name)] = beside(name); };
     const Result<shader::MaterialPackage> package = shader::compileMaterial(
-            text, path.filename().string(), { .filteredVariants = filteredVariants, .includes = beside });
+            text, path.filename().string(), { .filteredVariants = filteredVariants, .includes = noted });
     if (!package) return package.error();
-    return shader::writePackage(*package);
+    gCompiled.fetch_add(1, std::memory_order_relaxed);
+    std::vector<std::byte> bytes = shader::writePackage(*package);
+    compilations().add(std::move(key), std::move(included), bytes);
+    return bytes;
 }
 
 std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
@@ -80,14 +141,17 @@ Result<MaterialFile> compileMaterialFile(fs::path const& path, std::vector<TextE
     return file;
 }
 
+uint64_t compiledMaterialFiles() { return gCompiled.load(std::memory_order_relaxed); }
+
+void forgetCompiledMaterialFiles() { compilations().clear(); }
+
 bool isMaterialFile(fs::path const& path) { return path.extension() == ".mat" || path.extension() == ".fmat"; }
 
 Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fileName) {
-    constexpr std::string_view kMark = "// show:";
     MaterialShow show;
-    const size_t mark = text.find(kMark);
+    const size_t mark = text.find(kShowMark);
     if (mark == std::string_view::npos) return show;
-    const size_t begin = mark + kMark.size();
+    const size_t begin = mark + kShowMark.size();
     std::istringstream words(std::string(text.substr(begin, text.find('\n', begin) - begin)));
     for (std::string word; words >> word;) {
         const size_t equals = word.find('=');

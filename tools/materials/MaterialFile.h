@@ -7,7 +7,8 @@
 ///           constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
 ///           elements one after the other.
 ///   Thread  any.
-///   Memory  each text is compiled once per process and kept.
+///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the latest
+///           eight packages.
 ///   Fails   errors of the compiler, or Unreadable with the path.
 #pragma once
 
@@ -46,9 +47,16 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::pa
                                                              std::vector<TextEdit> const& edits = {},
                                                              uint16_t filteredVariants = 0);
 
-/// The same from the file as it is now, and not kept.
+/// The same from the file as it is now. If its text (but for what follows "// show:") and the files that it includes are
+/// those of one of the latest eight compilations, the package of that one is used again.
 Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std::vector<TextEdit> const& edits = {},
                                          uint16_t filteredVariants = 0);
+
+/// How many texts this process has compiled.
+uint64_t compiledMaterialFiles();
+
+/// Forgets the latest compilations, for tests of what goes on beside one.
+void forgetCompiledMaterialFiles();
 
 /// Whether the path names a material, judged by its extension.
 bool isMaterialFile(std::filesystem::path const& path);

@@ -3,6 +3,7 @@
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tests/tools/view/app/TestScene.h"
+#include "tools/materials/MaterialFile.h"
 #include "tools/paths/Paths.h"
 #include "tools/view/app/Viewer.h"
 
@@ -101,6 +102,7 @@ TEST_P(ResponsivenessTest, NoStepIsLongWhileAMaterialIsCompiled) {
     load(*mViewer);
     const std::filesystem::path file = tools::sourceDir() / "samples/materials/blend_add.mat";
     ASSERT_TRUE(std::filesystem::exists(file));
+    tools::forgetCompiledMaterialFiles();
     mViewer->handle(DropEvent{ { file } });
     expectQuick(load(*mViewer), "a material");
     EXPECT_EQ(mViewer->stage().shownFile(), file);

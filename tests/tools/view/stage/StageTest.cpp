@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/stage/Stage.h"
 #include "tests/tools/view/stage/StageFiles.h"
+#include "tools/materials/MaterialFile.h"
 #include "tools/paths/Paths.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -294,6 +295,7 @@ TEST_P(StageTest, KeepsWhatWasThereWhileAndAfterALoadIsCancelled) {
     const Image before = shoot(*stage, car);
     Document other = car;
     other.model.file = folder() / "ball.mat"; // compiles for a while
+    tools::forgetCompiledMaterialFiles();
     other.environment.file = folder() / "dusk.hdr";
     stage->apply(other);
     EXPECT_TRUE(stage->progress().isLoading);
