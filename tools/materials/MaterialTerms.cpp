@@ -59,8 +59,8 @@ std::vector<MaterialTerm> materialTerms() {
     };
 }
 
-Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term) {
-    auto file = readMaterialFile(sourceDir() / "tools/materials/terms.mat", term.edits);
+Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term, uint16_t filteredVariants) {
+    auto file = readMaterialFile(sourceDir() / "tools/materials/terms.mat", term.edits, filteredVariants);
     if (!file) return fail(file.error().code, "{}: {}", term.name, file.error().message);
     return file;
 }

@@ -19,6 +19,7 @@ struct MaterialTerm {
 
 /// The first is the standard model.
 std::vector<MaterialTerm> materialTerms();
-Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term);
+/// `filteredVariants`: VariantBits that nobody will request.
+Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term, uint16_t filteredVariants = 0);
 
 } // namespace filament::tools
