@@ -5,6 +5,7 @@
 ///   Thread  any; pure.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace filament::assets {
@@ -38,6 +39,24 @@ struct BlockFormat {
 
     friend bool operator==(BlockFormat const&, BlockFormat const&) = default;
 };
+
+/// Width and height of the blocks of two-dimensional ASTC, in the order of the formats of Vulkan and OpenGL ES.
+inline constexpr std::array<std::array<uint8_t, 2>, 14> kAstcBlockSizes{ {
+        { 4, 4 },
+        { 5, 4 },
+        { 5, 5 },
+        { 6, 5 },
+        { 6, 6 },
+        { 8, 5 },
+        { 8, 6 },
+        { 8, 8 },
+        { 10, 5 },
+        { 10, 6 },
+        { 10, 8 },
+        { 10, 10 },
+        { 12, 10 },
+        { 12, 12 },
+} };
 
 /// 8 or 16.
 uint32_t bytesPerBlock(BlockKind kind);

@@ -72,20 +72,6 @@ std::optional<Ktx2Format> blockFormat(uint32_t vkFormat) {
                                  Bc7,      Bc7,    Etc2Rgb,    Etc2Rgb, Etc2RgbA1,  Etc2RgbA1, Etc2Rgba,
                                  Etc2Rgba, EacR,   EacRSigned, EacRg,   EacRgSigned };
     constexpr std::array kSrgbFormats{ 132, 134, 136, 138, 146, 148, 150, 152 };
-    constexpr std::array<std::array<uint8_t, 2>, 14> kAstcSizes{ { { 4, 4 },
-                                                                   { 5, 4 },
-                                                                   { 5, 5 },
-                                                                   { 6, 5 },
-                                                                   { 6, 6 },
-                                                                   { 8, 5 },
-                                                                   { 8, 6 },
-                                                                   { 8, 8 },
-                                                                   { 10, 5 },
-                                                                   { 10, 6 },
-                                                                   { 10, 8 },
-                                                                   { 10, 10 },
-                                                                   { 12, 10 },
-                                                                   { 12, 12 } } };
     constexpr uint32_t kFirst = 131, kFirstAstc = kFirst + kKinds.size();
     static_assert(kFirstAstc == 157, "VK_FORMAT_ASTC_4x4_UNORM_BLOCK");
     Ktx2Format format;
@@ -94,8 +80,8 @@ std::optional<Ktx2Format> blockFormat(uint32_t vkFormat) {
         format.isSrgb = std::ranges::find(kSrgbFormats, static_cast<int>(vkFormat)) != kSrgbFormats.end();
         return format;
     }
-    if (vkFormat < kFirstAstc || vkFormat >= kFirstAstc + 2 * kAstcSizes.size()) return std::nullopt;
-    auto const& size = kAstcSizes[(vkFormat - kFirstAstc) / 2];
+    if (vkFormat < kFirstAstc || vkFormat >= kFirstAstc + 2 * kAstcBlockSizes.size()) return std::nullopt;
+    auto const& size = kAstcBlockSizes[(vkFormat - kFirstAstc) / 2];
     format.block = BlockFormat{ Astc, size[0], size[1] };
     format.isSrgb = (vkFormat - kFirstAstc) % 2 == 1;
     return format;

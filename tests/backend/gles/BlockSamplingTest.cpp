@@ -164,23 +164,13 @@ TEST(GlesBlockSampling, AstcOfEverySizeIsDecodedToTheHighest8BitsOfItsNumbers) {
                         "tests/filament_core/assets";
     if (!gles->has("GL_KHR_texture_compression_astc_ldr"))
         GTEST_SKIP() << "this device samples no ASTC, which is optional: there is nothing to compare the decoder with";
-    constexpr std::array<std::array<uint8_t, 2>, 14> kSizes{ { { 4, 4 },
-                                                               { 5, 4 },
-                                                               { 5, 5 },
-                                                               { 6, 5 },
-                                                               { 6, 6 },
-                                                               { 8, 5 },
-                                                               { 8, 6 },
-                                                               { 8, 8 },
-                                                               { 10, 5 },
-                                                               { 10, 6 },
-                                                               { 10, 8 },
-                                                               { 10, 10 },
-                                                               { 12, 10 },
-                                                               { 12, 12 } } };
-    for (size_t i = 0; i < kSizes.size(); ++i) {
+    for (size_t i = 0; i < assets::kAstcBlockSizes.size(); ++i) {
         const auto gl = static_cast<GLenum>(GL_COMPRESSED_RGBA_ASTC_4x4_KHR + i);
-        expectSampledAlike(*gles, { gl, { assets::BlockKind::Astc, kSizes[i][0], kSizes[i][1] }, 1.1f / 255 }, 240);
+        expectSampledAlike(*gles,
+                           { gl,
+                             { assets::BlockKind::Astc, assets::kAstcBlockSizes[i][0], assets::kAstcBlockSizes[i][1] },
+                             1.1f / 255 },
+                           240);
     }
 }
 

@@ -4,18 +4,18 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
+#include "filament_core/assets/image/Ktx2Formats.h"
 #include "filament_core/assets/image/PictureDecoder.h"
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
+#include "tests/filament_core/assets/image/Ktx2Packing.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
-#include <zlib.h>
-#include <zstd.h>
-
 #include <cmath>
 #include <random>
+#include <tuple>
 
 namespace filament::assets {
 namespace {
@@ -23,6 +23,8 @@ namespace {
 using backend::Format;
 using test::BasisWriter;
 using test::Ktx2Writer;
+using test::zlibOf;
+using test::zstdOf;
 using testing::ElementsAreArray;
 using testing::HasSubstr;
 using KtxBytes = std::vector<std::byte>;
@@ -121,23 +123,24 @@ TEST(Ktx2, FullFloatsKeepAllBits) {
     EXPECT_EQ(floatsIn(decodedKtx(block, { .isFull = true }).image), floatsIn(decodedKtx(block).image));
 }
 
+// Vulkan 1.3, "VkFormat": VK_FORMAT_ASTC_WxH_UNORM_BLOCK; sRGB is the next number.
+TEST(Ktx2, FormatsOfAstcHaveTheNumbersOfVulkan) {
+    const std::tuple<uint32_t, uint8_t, uint8_t> numbers[] = { { 157, 4, 4 },   { 159, 5, 4 },  { 163, 6, 5 },
+                                                               { 169, 8, 6 },   { 171, 8, 8 },  { 177, 10, 8 },
+                                                               { 181, 12, 10 }, { 183, 12, 12 } };
+    for (const auto& [number, width, height] : numbers) {
+        for (const bool isSrgb : { false, true }) {
+            const std::optional<Ktx2Format> format = ktx2Format(number + isSrgb);
+            ASSERT_TRUE(format && format->block);
+            EXPECT_EQ(*format->block, (BlockFormat{ BlockKind::Astc, width, height })) << number;
+            EXPECT_EQ(format->isSrgb, isSrgb);
+        }
+    }
+}
+
 TEST(Ktx2, EveryBlockFormatIsDecodedByItsDecoder) {
     for (uint32_t format = 131; format <= 184; ++format) {
         SCOPED_TRACE(format);
-        constexpr std::array<std::array<uint8_t, 2>, 14> kAstc{ { { 4, 4 },
-                                                                  { 5, 4 },
-                                                                  { 5, 5 },
-                                                                  { 6, 5 },
-                                                                  { 6, 6 },
-                                                                  { 8, 5 },
-                                                                  { 8, 6 },
-                                                                  { 8, 8 },
-                                                                  { 10, 5 },
-                                                                  { 10, 6 },
-                                                                  { 10, 8 },
-                                                                  { 10, 10 },
-                                                                  { 12, 10 },
-                                                                  { 12, 12 } } };
         const bool isAstc = format >= 157;
         const bool isSrgb = isAstc          ? format % 2 == 0
                             : format <= 138 ? format % 2 == 0
@@ -148,7 +151,9 @@ TEST(Ktx2, EveryBlockFormatIsDecodedByItsDecoder) {
                                      Bc7,      Bc7,    Etc2Rgb,    Etc2Rgb, Etc2RgbA1,  Etc2RgbA1, Etc2Rgba,
                                      Etc2Rgba, EacR,   EacRSigned, EacRg,   EacRgSigned };
         BlockFormat block{ isAstc ? Astc : kKinds[format - 131] };
-        if (isAstc) block.blockWidth = kAstc[(format - 157) / 2][0], block.blockHeight = kAstc[(format - 157) / 2][1];
+        if (isAstc)
+            block.blockWidth = kAstcBlockSizes[(format - 157) / 2][0],
+            block.blockHeight = kAstcBlockSizes[(format - 157) / 2][1];
         const KtxBytes bytes = randomKtxBytes(bytesOfBlocks(block, 13, 11), format);
         const Ktx2Texture texture = decodedKtx({ .format = format, .width = 13, .height = 11, .levels = { bytes } });
         KtxBytes expected(13 * 11 * (hasHalfTexels(block.kind) ? 8 : 4));
@@ -159,20 +164,6 @@ TEST(Ktx2, EveryBlockFormatIsDecodedByItsDecoder) {
                                         : isSrgb                  ? Format::RGBA8Srgb
                                                                   : Format::RGBA8);
     }
-}
-
-KtxBytes zstdOf(KtxBytes const& bytes) {
-    KtxBytes packed(ZSTD_compressBound(bytes.size()));
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
-    return packed;
-}
-KtxBytes zlibOf(KtxBytes const& bytes) {
-    uLongf size = compressBound(bytes.size());
-    KtxBytes packed(size);
-    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-             bytes.size());
-    packed.resize(size);
-    return packed;
 }
 
 TEST(Ktx2, SupercompressedLevelsHaveTheTexelsOfPlainOnes) {
