@@ -43,7 +43,7 @@ public:
 
     /// Of each block in a row in turn; null: the bits are damaged.
     const BasisLz::Ends* nextEnds(uint32_t x, uint32_t y) {
-        if (x % 2 == 0) startPair(x / 2, y);
+        if (x % 2 == 0 && !startPair(x / 2, y)) return nullptr;
         const uint32_t prediction = mPredictions & 3;
         mPredictions >>= 2;
         const uint32_t aboveLeft = std::exchange(mAboveLeft, mAbove[x]);
@@ -88,23 +88,25 @@ private:
     static constexpr uint32_t kRepeatPredictions = 256, kLeastRepeats = 3;
     static constexpr uint32_t kLongRun = 63, kLeastRun = 3;
 
-    /// Two bits for each of 2 x 2 blocks are read once, at the upper left one.
-    void startPair(uint32_t pair, uint32_t y) {
+    /// Two bits for each of 2 x 2 blocks are read once, at the upper left one. Returns whether they are predictions.
+    bool startPair(uint32_t pair, uint32_t y) {
         if (y % 2) {
             mPredictions = mBelowPairs[pair];
-            return;
+            return true;
         }
         if (mRepeats > 0) {
             --mRepeats;
         } else {
             const uint32_t symbol = mBooks.mPredictions.take(mBits);
+            if (symbol > kRepeatPredictions) return false;
             if (symbol == kRepeatPredictions)
                 mRepeats = mBits.takeVariable(4) + kLeastRepeats - 1;
             else
-                mLastPredictions = symbol & 255;
+                mLastPredictions = symbol;
         }
         mPredictions = mLastPredictions;
         mBelowPairs[pair] = static_cast<uint8_t>(mPredictions >> 4);
+        return true;
     }
 
     bool startRun() {

@@ -119,6 +119,20 @@ TEST(BasisLz, SlicesOfEverySizeHaveTheTexelsThatWereWritten) {
     }
 }
 
+TEST(BasisLz, PredictionsThatTheSpecificationDoesNotKnowAreErrors) {
+    BasisWriter writer(1, 1, false, 5);
+    writer.predictionSymbols = 300;
+    const Result<BasisLz> books = BasisLz::read(writer.globalData({ {} }), 1);
+    ASSERT_TRUE(books) << books.error().message;
+    std::vector<Texel8> texels(16);
+    for (const uint32_t symbol : { 255u, 257u, 299u }) {
+        BasisBitWriter slice;
+        EvenCode(300).put(symbol, slice);
+        slice.put(0, 32), slice.put(0, 32);
+        EXPECT_EQ(books->decodeSlice(slice.bytes, 4, 4, texels).ok(), symbol == 255) << symbol;
+    }
+}
+
 TEST(BasisLz, CodebooksAndSlicesThatAreCutShortAreErrors) {
     BasisWriter writer(20, 30, false, 3);
     std::vector<Texel8> texels;

@@ -82,6 +82,7 @@ struct BasisEnds {
 class BasisWriter {
 public:
     static constexpr uint32_t kHistory = 8;
+    uint32_t predictionSymbols = 257; ///< more are none of the specification
 
     BasisWriter(uint32_t ends, uint32_t selectors, bool isGrey, uint32_t seed) : mRandom(seed), mIsGrey(isGrey) {
         for (uint32_t i = 0; i < ends; ++i) {
@@ -178,7 +179,7 @@ private:
         return writer.bytes;
     }
 
-    EvenCode predictionCode() const { return EvenCode(257); }
+    EvenCode predictionCode() const { return EvenCode(predictionSymbols); }
     EvenCode deltaCode() const { return EvenCode(static_cast<uint32_t>(mEnds.size())); }
     EvenCode selectorCode() const { return EvenCode(static_cast<uint32_t>(mSelectors.size()) + kHistory + 1); }
     EvenCode runCode() const { return EvenCode(64); }
