@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/EnvironmentImpl.h"
+#include "filament_core/engine/SharedBytes.h"
 
 #include <new>
 #include <utility>
@@ -18,7 +19,7 @@ Handle orBadAlloc(Handle handle) {
 
 /// Gives its texels away.
 Texture uploadCube(Engine::Impl& engine, assets::Image& image, std::string name) {
-    const auto texels = std::make_shared<const std::vector<std::byte>>(std::exchange(image.data, {}));
+    const engine::SharedBytes texels = engine::sharedBytes(image.data);
     return engine.createTexture({ .kind = TextureKind::Cube,
                                   .format = image.format,
                                   .width = image.width,

@@ -6,6 +6,7 @@
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/EnvironmentImpl.h"
+#include "filament_core/engine/SharedBytes.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
 #include "filament_core/scene/VertexPositions.h"
@@ -65,7 +66,7 @@ private:
 
     size_t uploadImage(assets::Image& image) {
         mModel->textures.push_back({}); // reserve the entry before the object exists
-        const Bytes texels = shared(image.data);
+        const SharedBytes texels = sharedBytes(image.data);
         mModel->textures.back() = mEngine.createTexture({ .format = image.format,
                                                           .width = image.width,
                                                           .height = image.height,
@@ -74,11 +75,6 @@ private:
                                                           .name = mData.name },
                                                         texels);
         return texels->size();
-    }
-
-    using Bytes = std::shared_ptr<const std::vector<std::byte>>;
-    static Bytes shared(std::vector<std::byte>& bytes) {
-        return std::make_shared<const std::vector<std::byte>>(std::exchange(bytes, {}));
     }
 
     size_t uploadEnvironment() {
@@ -108,7 +104,7 @@ private:
     }
 
     RenderableDesc upload(PrimitiveData& primitive, scene::MinMax const& positions, std::string const& name) {
-        const Bytes ofVertices = shared(primitive.vertices), ofIndices = shared(primitive.indices);
+        const SharedBytes ofVertices = sharedBytes(primitive.vertices), ofIndices = sharedBytes(primitive.indices);
         VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
                                    .stride = primitive.layout.buffers[0].stride,
                                    .data = *ofVertices,
