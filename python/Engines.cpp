@@ -167,7 +167,8 @@ void bindLoading(EngineClass& engine) {
                "model.files.")
             .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
-                 "Loads an equirectangular .hdr or .exr, or a baked .fenv, as light and background.")
+                 "Loads an equirectangular .hdr or .exr, a cube map in a .ktx2, or a package of cmgen, as light and "
+                 "background.")
             .def("texture", &textureOfArray, py::arg("pixels"), py::kw_only(), py::arg("srgb") = true,
                  py::arg("name") = "",
                  "A texture with all mip levels from a picture: uint8 codes of sRGB (srgb=False: data), or floats.")

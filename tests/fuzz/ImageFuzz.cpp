@@ -12,6 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     test::fuzzPicture(bytes);
     if (filament::assets::isBakedEnvironment(bytes))
         test::fuzzEnvironment(bytes);
+    else if (filament::assets::isKtx2(bytes))
+        test::fuzzEnvironmentPackage(bytes);
     else if (!test::fuzzHdrImage(bytes))
         test::fuzzImage(bytes);
     return 0;

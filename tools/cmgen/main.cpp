@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// cmgen: bakes an environment into NAME.fenv, which loadEnvironment() takes in place of the picture, and shows what the
-// engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done, 1: it failed (one line on standard error), 2: wrong arguments.
+// cmgen: bakes an environment into NAME.ktx2, which loadEnvironment() takes in place of the picture, and shows what the
+// engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done, 1: it failed
+// (one line on standard error), 2: wrong arguments.
 #include "base/math/Half.h"
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
@@ -26,8 +27,11 @@ using namespace filament::assets;
 
 namespace {
 
+enum class PackageKind { Ktx2, Fenv };
+
 struct Arguments {
     std::filesystem::path environment, out = ".";
+    PackageKind package = PackageKind::Ktx2;
     uint32_t size = 256, samples = 512, dfgSize = 64;
     int workers = -1;
     backend::Format format = backend::Format::RGBA16F;
@@ -129,7 +133,27 @@ void printLoss(const char* name, EncodeLoss const& loss) {
                 static_cast<unsigned long long>(loss.clippedTexels), 100 * loss.lostEnergy);
 }
 
+std::filesystem::path packageFile(Arguments const& arguments) {
+    const char* const ending = arguments.package == PackageKind::Ktx2 ? ".ktx2" : ".fenv";
+    return arguments.out / (arguments.environment.stem().string() + ending);
+}
+
+Result<void> checkPackageFile(Arguments const& arguments) {
+    const std::filesystem::path file = packageFile(arguments);
+    std::error_code error; // one of them is missing: they are not the same
+    if (!std::filesystem::equivalent(file, arguments.environment, error)) return {};
+    return fail(ErrorCode::InvalidArgument, "'{}' would replace its own picture; choose another folder with --out",
+                file.string());
+}
+
+Result<void> writePackage(Arguments const& arguments, EnvironmentData const& data) {
+    const std::filesystem::path file = packageFile(arguments);
+    return arguments.package == PackageKind::Ktx2 ? writeEnvironmentPackage(data, file)
+                                                  : writeBakedEnvironment(data, file);
+}
+
 Result<void> run(Arguments const& arguments) {
+    if (Result<void> checked = checkPackageFile(arguments); !checked) return checked;
     jobs::JobSystem jobs({ .workers = arguments.workers });
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
     EnvironmentOptions options{ .useCache = false,
@@ -150,11 +174,12 @@ Result<void> run(Arguments const& arguments) {
     if (done) done = writeCube(arguments, data->sky, "sky");
     if (done) done = writeCube(arguments, data->irradiance, "irradiance");
     if (done) done = writeSh(arguments.out / "sh.txt", data->irradianceSh);
-    if (done) done = writeBakedEnvironment(*data, arguments.out / (arguments.environment.stem().string() + ".fenv"));
+    if (done) done = writePackage(arguments, *data);
     if (done) done = writeDfg(arguments.out / "dfg.exr", bakeDfgTable(jobs, arguments.dfgSize));
     if (!done) return done;
-    std::printf("%u x %u -> %u levels from %u texels a face, baked in %.0f ms\n", data->statistics.sourceWidth,
-                data->statistics.sourceHeight, data->specular.levels, data->specular.width, elapsed.count());
+    std::printf("%u x %u -> %u levels from %u texels a face, %s in %.0f ms\n", data->statistics.sourceWidth,
+                data->statistics.sourceHeight, data->specular.levels, data->specular.width,
+                data->statistics.fromCache ? "read" : "baked", elapsed.count());
     printLoss("specular", data->statistics.specularLoss);
     printLoss("sky", data->statistics.skyLoss);
     return tools::finishOutput();
@@ -165,9 +190,13 @@ Result<void> run(Arguments const& arguments) {
 int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app(
-            "Bakes an equirectangular .hdr or .exr: NAME.fenv for the engine, and to look at specular-N.exr, sky.exr, "
-            "irradiance.exr, sh.txt, dfg.exr");
+            "Bakes an equirectangular .hdr or .exr, or a cube map in a .ktx2: NAME.ktx2 for the engine, and to look at "
+            "specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr");
     app.add_option("environment", arguments.environment, "the picture")->required();
+    const std::map<std::string, PackageKind> packages{ { "ktx2", PackageKind::Ktx2 }, { "fenv", PackageKind::Fenv } };
+    app.add_option("--package", arguments.package,
+                   "ktx2, or fenv: the layout of the cache, which only this version of the engine reads")
+            ->transform(CLI::CheckedTransformer(packages, CLI::ignore_case));
     app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
             ->capture_default_str();
     app.add_option("--samples", arguments.samples, "approximate number of sky pieces that each texel integrates")

@@ -2,7 +2,9 @@
 #include "filament_core/assets/environment/Environment.h"
 
 #include "base/Log.h"
+#include "filament_core/assets/environment/CubePicture.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
+#include "filament_core/assets/environment/EnvironmentPackage.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/HdrReader.h"
 
@@ -57,10 +59,57 @@ Result<EnvironmentData> readCached(std::filesystem::path const& file, uint64_t k
     return decodeEnvironment(*bytes, key);
 }
 
+Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
+    constexpr uint32_t kSource = 64; // texels per face edge: the resolution for irradianceCube()
+    const size_t level = std::bit_width(std::max(cube.front().size() / kSource, 1u)) - 1u;
+    const IblCubeLevel irradiance = irradianceCube(cube[level], kIrradianceFaceSize, jobs);
+    return encodeCube(std::span(&irradiance, 1), backend::Format::RGBA16F, jobs).image;
+}
+
+/// What of the cube is needed once it is there: its first level has at least `skySize` and options.faceSize texels.
+Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::JobSystem& jobs,
+                                 EnvironmentOptions const& options) {
+    report(options, "project", 1, 1);
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
+    EnvironmentData data;
+    data.irradianceSh = irradianceSh(cube.front(), jobs);
+    const std::vector<IblCubeLevel> levels = prefilterSpecular(
+            cube, options.faceSize, options.samples, jobs,
+            [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
+    data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
+    data.mapping = options.mapping;
+    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
+    EncodedCube specular = encodeCube(levels, options.format, jobs);
+    const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
+    EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
+    data.specular = std::move(specular.image);
+    data.sky = std::move(sky.image);
+    data.irradiance = irradianceOf(cube, jobs);
+    data.statistics.specularLoss = specular.loss;
+    data.statistics.skyLoss = sky.loss;
+    return data;
+}
+
+Result<EnvironmentData> bakeCubePicture(std::span<const std::byte> ktx2, std::string_view name, jobs::JobSystem& jobs,
+                                        EnvironmentOptions const& options) {
+    const Result<CubePicture> picture = decodeCubePicture(ktx2, name);
+    if (!picture) return picture.error();
+    report(options, "decode", 1, 1);
+    const uint32_t face = picture->radiance.size(), skySize = skyFaceSize(4 * face);
+    report(options, "project", 0, 1);
+    const IblCube cube = cubeFromPicture(*picture, std::max(skySize, options.faceSize), jobs);
+    Result<EnvironmentData> data = bakeCube(cube, skySize, jobs, options);
+    if (!data) return data;
+    data->statistics.sourceWidth = data->statistics.sourceHeight = face;
+    data->statistics.repairs = picture->repairs;
+    return data;
+}
+
 Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::string_view name, jobs::JobSystem& jobs,
                                     EnvironmentOptions const& options) {
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     report(options, "decode", 0, 1);
+    if (isKtx2(picture)) return bakeCubePicture(picture, name, jobs, options);
     const Result<HdrImage> image = decodeHdrImage(picture, name);
     if (!image) return image.error();
     report(options, "decode", 1, 1);
@@ -82,6 +131,11 @@ Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::string_
 Result<EnvironmentData> loadThroughCache(std::span<const std::byte> picture, std::string_view name,
                                          jobs::JobSystem& jobs, EnvironmentOptions const& options) {
     if (isBakedEnvironment(picture)) return readBaked(picture, name);
+    if (isKtx2(picture)) {
+        const Result<Ktx2File> file = readKtx2(picture, name);
+        if (!file) return file.error();
+        if (isEnvironmentPackage(*file)) return decodeEnvironmentPackage(*file, name);
+    }
     const std::filesystem::path directory =
             options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
     if (directory.empty()) return bakePicture(picture, name, jobs, options);
@@ -103,14 +157,11 @@ Result<EnvironmentData> loadThroughCache(std::span<const std::byte> picture, std
     return baked;
 }
 
-Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
-    constexpr uint32_t kSource = 64; // texels per face edge: the resolution for irradianceCube()
-    const size_t level = std::bit_width(std::max(cube.front().size() / kSource, 1u)) - 1u;
-    const IblCubeLevel irradiance = irradianceCube(cube[level], kIrradianceFaceSize, jobs);
-    return encodeCube(std::span(&irradiance, 1), backend::Format::RGBA16F, jobs).image;
-}
-
 } // namespace
+
+Result<void> writeEnvironmentPackage(EnvironmentData const& data, std::filesystem::path const& path) {
+    return replaceFile(path, encodeEnvironmentPackage(data));
+}
 
 Result<void> writeBakedEnvironment(EnvironmentData const& data, std::filesystem::path const& path) {
     return replaceFile(path, encodeEnvironment(data, bakedEnvironmentKey(data.mapping)));
@@ -141,28 +192,11 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     report(options, "project", 0, 1);
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     const IblCube cube = cubeFromEquirect(image, std::max(skySize, options.faceSize), jobs);
-    report(options, "project", 1, 1);
-    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
-
-    EnvironmentData data;
-    data.statistics.sourceWidth = image.width;
-    data.statistics.sourceHeight = image.height;
-    data.statistics.repairs = image.repairs;
-    data.irradianceSh = irradianceSh(cube.front(), jobs);
-    const std::vector<IblCubeLevel> levels = prefilterSpecular(
-            cube, options.faceSize, options.samples, jobs,
-            [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
-    data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
-    data.mapping = options.mapping;
-    if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
-    EncodedCube specular = encodeCube(levels, options.format, jobs);
-    const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
-    EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
-    data.specular = std::move(specular.image);
-    data.sky = std::move(sky.image);
-    data.irradiance = irradianceOf(cube, jobs);
-    data.statistics.specularLoss = specular.loss;
-    data.statistics.skyLoss = sky.loss;
+    Result<EnvironmentData> data = bakeCube(cube, skySize, jobs, options);
+    if (!data) return data;
+    data->statistics.sourceWidth = image.width;
+    data->statistics.sourceHeight = image.height;
+    data->statistics.repairs = image.repairs;
     return data;
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "not enough memory to bake an environment of {} x {} pixels; make it smaller",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadEnvironment: turns an equirectangular .hdr or .exr into the cubes and coefficients that light a scene.
-///   In      a picture (HdrReader.h), or a file of writeBakedEnvironment(), whose sizes, format and mapping then count; world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
+///   In      a picture (HdrReader.h) or a cube map in a KTX 2.0 file (CubePicture.h); world direction d sees a picture
+///           at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi. Or a file of writeEnvironmentPackage() or
+///           writeBakedEnvironment(), whose sizes, format and mapping then count.
 ///   Out     EnvironmentData, with the same bits from the cache and from the baker, for any number of workers.
 ///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
 ///           detected by their checksum and baked again; a directory that cannot be written causes a warning, not an
@@ -53,8 +55,8 @@ inline constexpr uint32_t kIrradianceFaceSize = 32;
 struct EnvironmentData {
     Image specular; ///< cube
     Image sky;      ///< cube, one level: the picture itself at its own pixel density
-    /// Cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F. Without texels for an environment
-    /// of which only the coefficients are known.
+    /// Cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F. Without texels for an
+    /// environment of which only the coefficients are known.
     Image irradiance;
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
@@ -74,8 +76,11 @@ Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> fil
 Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options = {});
 
-/// A file that loadEnvironment() reads without baking, on any machine, with the same bits. It belongs to this version of
-/// the baker: others refuse it and say so.
+/// A KTX 2.0 file that loadEnvironment() reads without baking, on any machine, with the same bits
+/// (EnvironmentPackage.h). `data` is that of a picture: it has no rotation.
+Result<void> writeEnvironmentPackage(EnvironmentData const& data, std::filesystem::path const& path);
+
+/// The same in the layout of the cache. It belongs to this version of the baker: others refuse it and say so.
 Result<void> writeBakedEnvironment(EnvironmentData const& data, std::filesystem::path const& path);
 
 /// Texels per side of a sky face for a picture of this width, a power of two in [16, 512]: at least a quarter of the

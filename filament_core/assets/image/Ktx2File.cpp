@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <optional>
 
 namespace filament::assets {
 namespace {
@@ -142,8 +141,10 @@ private:
                 return;
             }
             const std::string_view entry(reinterpret_cast<const char*>(bytes.data() + at), length);
-            if (const size_t end = entry.find('\0'); end != std::string_view::npos)
+            if (const size_t end = entry.find('\0'); end != std::string_view::npos) {
+                mFile.values.push_back({ entry.substr(0, end), bytes.subspan(at + end + 1, length - end - 1) });
                 readValue(entry.substr(0, end), entry.substr(end + 1));
+            }
             at += std::min<uint64_t>((length + 3) / 4 * 4, bytes.size() - at);
         }
     }
@@ -168,6 +169,11 @@ private:
 };
 
 } // namespace
+
+std::optional<std::span<const std::byte>> Ktx2File::value(std::string_view key) const {
+    const auto found = std::ranges::find(values, key, &Ktx2Value::key);
+    return found == values.end() ? std::nullopt : std::optional(found->value);
+}
 
 bool isKtx2(std::span<const std::byte> bytes) {
     return bytes.size() >= kKtx2Identifier.size() &&

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,12 @@ struct Ktx2Level {
     uint64_t plainBytes = 0; ///< when decompressed, as the file says
 };
 
+/// One of the key/value pairs of a file. The text of the key lies in the file, without its final zero.
+struct Ktx2Value {
+    std::string_view key;
+    std::span<const std::byte> value; ///< of texts with their final zero
+};
+
 struct Ktx2File {
     uint32_t format = 0; ///< VkFormat; 0: Description::model says
     uint32_t width = 0, height = 0;
@@ -48,6 +55,10 @@ struct Ktx2File {
     std::span<const std::byte> globalData;
     std::array<char, 4> swizzle{ 'r', 'g', 'b', 'a' }; ///< r, g, b, a, 0 or 1 for each channel
     bool isFlippedX = false, isFlippedY = false;       ///< the first texel is at the right, at the bottom
+    std::vector<Ktx2Value> values;                     ///< all of them, in the order of the file
+
+    /// The bytes of the first pair with this key; nothing if there is none.
+    std::optional<std::span<const std::byte>> value(std::string_view key) const;
 };
 
 bool isKtx2(std::span<const std::byte> bytes);

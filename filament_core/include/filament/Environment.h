@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadEnvironment: loads an equirectangular .hdr or .exr picture as light and background.
-///   Space   world direction d sees the picture at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
+/// loadEnvironment: loads a picture (equirectangular .hdr or .exr, cube map in .ktx2) as light and background.
+///   Space   world direction d sees a panorama at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
 ///   Cost    a second or two on the workers the first time; after that milliseconds, from a disk cache keyed by
 ///           content.
 ///   Errors  one line with file and reason.
@@ -42,8 +42,8 @@ private:
     std::unique_ptr<Impl> mImpl;
 };
 
-/// `path`: an equirectangular .hdr or .exr, or a .fenv that cmgen baked from one; sizes, format and mapping are then
-/// those of the file.
+/// `path`: an equirectangular .hdr or .exr, a cube map of floats in a .ktx2, or a package (.ktx2 or .fenv) that cmgen
+/// baked from one of them; sizes, format and mapping are then those of the package.
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options = {});
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes with a correct checksum, reading a baked environment gives an
-/// error, or cubes that a device can hold.
+/// Shared by the fuzzer and the replay test: for any bytes with a correct checksum, and for any KTX 2.0 file, reading a
+/// baked environment gives an error, or cubes that a device can hold.
 #pragma once
 
 #include "base/Assert.h"
 #include "base/Hash.h"
+#include "filament_core/assets/environment/CubePicture.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
+#include "filament_core/assets/environment/EnvironmentPackage.h"
 
 #include <cmath>
 #include <cstring>
@@ -25,6 +27,20 @@ inline std::vector<std::byte> signedEnvironment(std::span<const std::byte> bytes
     return file;
 }
 
+inline void checkEnvironment(EnvironmentData const& data) {
+    for (Image const* cube : { &data.specular, &data.sky, &data.irradiance }) {
+        if (cube == &data.irradiance && cube->data.empty()) continue; // only its coefficients are known
+        FILAMENT_ASSERT(cube->layers == 6 && cube->width == cube->height && cube->width > 0, "a cube has six squares");
+        FILAMENT_ASSERT(cube->levels >= 1 && cube->levels <= backend::fullMipCount(cube->width, cube->height),
+                        "a cube has no level below one texel");
+        FILAMENT_ASSERT(cube->data.size() == cube->levelOffset(cube->levels), "every texel is there");
+        FILAMENT_ASSERT(isEnvironmentFormat(cube->format), "the format is one of environments");
+    }
+    for (float4 const& coefficient : data.irradianceSh) {
+        for (int i = 0; i < 4; ++i) FILAMENT_ASSERT(std::isfinite(coefficient[i]), "coefficients are finite");
+    }
+}
+
 /// Returns whether it was an environment.
 inline bool fuzzEnvironment(std::span<const std::byte> bytes) {
     const std::vector<std::byte> file = signedEnvironment(bytes);
@@ -34,16 +50,30 @@ inline bool fuzzEnvironment(std::span<const std::byte> bytes) {
         return false;
     }
     FILAMENT_ASSERT(isBakedEnvironment(file), "what is read as an environment claims to be one");
-    for (Image const* cube : { &data->specular, &data->sky, &data->irradiance }) {
-        FILAMENT_ASSERT(cube->layers == 6 && cube->width == cube->height && cube->width > 0, "a cube has six squares");
-        FILAMENT_ASSERT(cube->levels >= 1 && cube->levels <= backend::fullMipCount(cube->width, cube->height),
-                        "a cube has no level below one texel");
-        FILAMENT_ASSERT(cube->data.size() == cube->levelOffset(cube->levels), "every texel is there");
-        FILAMENT_ASSERT(isEnvironmentFormat(cube->format), "the format is one of environments");
+    checkEnvironment(*data);
+    return true;
+}
+
+/// Returns whether it was a package, or a cube map that can be baked.
+inline bool fuzzEnvironmentPackage(std::span<const std::byte> bytes) {
+    const Result<Ktx2File> file = readKtx2(bytes, "fuzzed");
+    if (!file || uint64_t{ file->width } * file->height * file->layers > 1u << 18) return false; // only slow
+    const auto checkError = [](Error const& error) {
+        FILAMENT_ASSERT(error.code == ErrorCode::Corrupt || error.code == ErrorCode::Unsupported, "bad bytes say so");
+        FILAMENT_ASSERT(error.message.find("fuzzed") != std::string::npos, "an error names its file");
+        FILAMENT_ASSERT(error.message.find('\n') == std::string::npos, "an error is one line");
+    };
+    if (!isEnvironmentPackage(*file)) {
+        const Result<CubePicture> picture = decodeCubePicture(bytes, "fuzzed");
+        if (!picture) checkError(picture.error());
+        return picture.ok();
     }
-    for (float4 const& coefficient : data->irradianceSh) {
-        for (int i = 0; i < 4; ++i) FILAMENT_ASSERT(std::isfinite(coefficient[i]), "coefficients are finite");
-    }
+    const Result<EnvironmentData> data = decodeEnvironmentPackage(*file, "fuzzed");
+    if (!data) return checkError(data.error()), false;
+    checkEnvironment(*data);
+    const std::vector<std::byte> again = encodeEnvironmentPackage(*data);
+    const Result<Ktx2File> reread = readKtx2(again, "fuzzed");
+    FILAMENT_ASSERT(reread && decodeEnvironmentPackage(*reread, "fuzzed"), "what was read can be written and read");
     return true;
 }
 
