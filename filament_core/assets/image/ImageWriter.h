@@ -25,8 +25,8 @@ namespace filament::assets {
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba8, OutputSpace space = OutputSpace::Srgb);
 
-/// RGB10A2, 4 bytes per pixel, as 16 bits of red, green and blue: a code c becomes round(c * 65535 / 1023), of which the file
-/// says that ten bits are significant (sBIT). Alpha is left out: a display has none.
+/// RGB10A2, 4 bytes per pixel, as 16 bits of red, green and blue: a code c becomes round(c * 65535 / 1023), of which
+/// the file says that ten bits are significant (sBIT). Alpha is left out: a display has none.
 Result<void> writePng16(std::filesystem::path const& path, uint32_t width, uint32_t height,
                         std::span<const std::byte> rgb10a2, OutputSpace space = OutputSpace::Srgb);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// checkLevel, inflatedLevel: the bytes of a level without Zstandard or zlib. `expected` is how many they are, which the
-/// caller knows from the size of the level.
+/// checkLevel, inflatedLevel: the bytes of a level without Zstandard or zlib. `expected` is how many they are, which
+/// the caller knows from the size of the level.
 ///   Memory  `expected` bytes in `buffer`; none for plain levels.
 ///   Fails   Corrupt with file and level, unless it is exactly as long.
 #pragma once

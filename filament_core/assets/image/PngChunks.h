@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// appendPngChunk: the chunks of a PNG (ISO/IEC 15948, 5.3): length, name, data and checksum, numbers with their highest byte
-/// first.
+/// appendPngChunk: the chunks of a PNG (ISO/IEC 15948, 5.3): length, name, data and checksum, numbers with their
+/// highest byte first.
 ///   Thread  any; pure.   Fails: std::bad_alloc.
 #pragma once
 
