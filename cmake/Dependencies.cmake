@@ -17,6 +17,7 @@ find_package(tinyexr REQUIRED)
 find_package(draco REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
+pkg_check_modules(AVIF REQUIRED IMPORTED_TARGET libavif)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 
@@ -54,7 +55,7 @@ target_link_libraries(spirv_validator INTERFACE SPIRV-Tools-static)
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
     nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG JPEG::JPEG
-    ZLIB::ZLIB PkgConfig::WEBP PkgConfig::ZSTD)
+    ZLIB::ZLIB PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
 # The reference renderer's ray tracer. Its CMake package requires TBB's headers, which are not needed here.
 find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)

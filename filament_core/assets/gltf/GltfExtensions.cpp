@@ -14,6 +14,7 @@ constexpr std::array kExtensions{
     GltfExtension{ "KHR_mesh_quantization", "positions, normals and texture coordinates as 8- and 16-bit integers" },
     GltfExtension{ "KHR_texture_transform", "textures are moved, turned and scaled, each on its own" },
     GltfExtension{ "KHR_texture_basisu", "textures in KTX 2.0 files, compressed by Basis Universal" },
+    GltfExtension{ "EXT_texture_avif", "textures in AVIF files" },
     GltfExtension{ "EXT_texture_webp", "textures in WebP files" },
     GltfExtension{ "KHR_node_visibility", "nodes that are not visible hide what is below them" },
     GltfExtension{ "EXT_mesh_gpu_instancing", "a mesh at many places, as instances" },

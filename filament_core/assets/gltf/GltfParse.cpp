@@ -278,7 +278,8 @@ GltfImage parseImage(JsonNode const& node, Counts const& counts) {
 GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
     GltfTexture texture{ node["sampler"].index(counts.samplers, "samplers"),
                          node["source"].index(counts.images, "images") };
-    for (const char* extension : { "EXT_texture_webp", "KHR_texture_basisu" }) { // the last one comes first
+    // the last one comes first
+    for (const char* extension : { "EXT_texture_avif", "EXT_texture_webp", "KHR_texture_basisu" }) {
         const uint32_t image = node.extension(extension)["source"].index(counts.images, "images");
         if (image != kNone) texture.image = image;
     }

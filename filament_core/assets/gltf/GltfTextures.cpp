@@ -112,7 +112,8 @@ private:
         GltfTexture const& texture = mDocument.textures[info.texture];
         if (texture.image == kNone) {
             mDiagnostics.refuse(ErrorCode::Unsupported,
-                                "textures[{}]: has no PNG, JPEG, WebP or KTX2 image; export it as one", info.texture);
+                                "textures[{}]: has no PNG, JPEG, WebP, AVIF or KTX2 image; export it as one",
+                                info.texture);
             return reference;
         }
         reference.image = mFirstOfSame[texture.image];
@@ -164,8 +165,9 @@ private:
     uint32_t mMaterial = 0;
 };
 
-Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize) {
-    return decodeTexture(source.bytes, imageName(document, source.image), maxSize);
+Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize,
+                              TextureDepth depth) {
+    return decodeTexture(source.bytes, imageName(document, source.image), maxSize, depth);
 }
 
 /// The file of a texture says whether it holds colours, and so does its use.
@@ -180,7 +182,7 @@ void warnAboutTransfer(GltfDocument const& document, GltfImageSource const& sour
 
 /// The first level of a texture, for packing.
 Result<Image> decodeFirstLevel(GltfDocument const& document, GltfImageSource const& source) {
-    Result<DecodedTexture> texture = decode(document, source, 0);
+    Result<DecodedTexture> texture = decode(document, source, 0, TextureDepth::EightBits);
     if (!texture) return texture.error();
     Image& image = texture->image;
     image.data.resize(image.levelBytes(0));
@@ -222,13 +224,13 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job) {
     GltfImageSource const& source = textures.sources[job.source];
     try {
-        Result<DecodedTexture> texture = decode(document, source, maxSize);
+        Result<DecodedTexture> texture = decode(document, source, maxSize, TextureDepth::AllBits);
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
         const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
-        if (isBoth) job.data = withAllLevels(texture->image, false, maxSize);
+        if (isBoth) job.data = withAllLevels(*texture, false, maxSize);
         (job.colorTexture != kNone ? job.color : job.data) =
-                withAllLevels(std::move(texture->image), job.colorTexture != kNone, maxSize);
+                withAllLevels(std::move(*texture), job.colorTexture != kNone, maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again",
                                source.image);

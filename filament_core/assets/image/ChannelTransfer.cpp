@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/ChannelTransfer.h"
 
+#include <filament/Color.h>
+
 #include <cmath>
 #include <memory>
 
@@ -36,6 +38,18 @@ ChannelTransfer const& colorTransfer() {
 ChannelTransfer const& dataTransfer() {
     static const std::unique_ptr<ChannelTransfer> kTransfer = makeTransfer([](double value) { return value; });
     return *kTransfer;
+}
+
+std::vector<float> const& lightOfDeepCodes() {
+    static const std::vector<float> kTable = [] {
+        constexpr uint32_t kDeepCodes = 65536;
+        std::vector<float> light;
+        light.reserve(kDeepCodes);
+        for (uint32_t code = 0; code < kDeepCodes; ++code)
+            light.push_back(color::linearFromSrgb(float3(shareOfDeepCode(code))).x);
+        return light;
+    }();
+    return kTable;
 }
 
 } // namespace filament::assets

@@ -29,7 +29,7 @@ bool isDeepPng(std::span<const std::byte> bytes) {
 
 Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view name) {
     if (!isPngOrJpeg(bytes))
-        return fail(ErrorCode::Unsupported, "image '{}' is none of PNG, JPEG and WebP; convert it to one of them",
+        return fail(ErrorCode::Unsupported, "image '{}' is none of PNG, JPEG, WebP and AVIF; convert it to one of them",
                     name);
     const uint2 size = imageSize(bytes);
     if (size.x > kMaxImageSide || size.y > kMaxImageSide)
@@ -42,8 +42,17 @@ Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view n
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name) {
     if (isWebp(bytes)) return decodeWebp(bytes, name);
+    if (isAvif(bytes)) return decodeAvif(bytes, name);
     if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
     return beginsAsPng(bytes) ? decodePng(bytes, name) : decodeJpeg(bytes, name);
+}
+
+bool isDeepImage(std::span<const std::byte> bytes) { return isDeepPng(bytes) || isDeepAvif(bytes); }
+
+Result<DeepImage> decodeDeepImage(std::span<const std::byte> bytes, std::string_view name) {
+    if (isAvif(bytes)) return decodeDeepAvif(bytes, name);
+    if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
+    return decodeDeepPng(bytes, name);
 }
 
 } // namespace filament::assets

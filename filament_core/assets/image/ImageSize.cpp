@@ -68,6 +68,7 @@ uint2 jpegSize(Bytes bytes) {
 uint2 imageSize(std::span<const std::byte> bytes) {
     if (isPng(bytes)) return pngSize(bytes);
     if (isWebp(bytes)) return webpSize(bytes);
+    if (isAvif(bytes)) return avifSize(bytes);
     if (isKtx2(bytes)) return ktx2Size(bytes);
     const bool isJpeg = bytes.size() >= 4 && number(bytes, 0, 2) == 0xFFD8;
     return isJpeg ? jpegSize(bytes) : uint2(0);

@@ -2,6 +2,7 @@
 #include "filament_core/assets/image/MipMaps.h"
 
 #include "base/Assert.h"
+#include "base/math/Half.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
 
 #include <algorithm>
@@ -150,7 +151,50 @@ void dropLargeLevels(Image& image, uint32_t maxSize) {
     image.levels -= dropped;
 }
 
+/// The first level as 16-bit light.
+Level lightOf(DeepImage const& base, bool isColor) {
+    Level level{ base.width, base.height, base.codes };
+    if (!isColor) return level;
+    std::vector<float> const& light = lightOfDeepCodes();
+    for (size_t i = 0; i < level.texels.size(); ++i) {
+        if (i % kChannels != kAlpha)
+            level.texels[i] = static_cast<uint16_t>(std::lround(light[base.codes[i]] * 65535.0f));
+    }
+    return level;
+}
+
+/// `count` numbers value(0), value(1), ...
+template <class Value>
+void encodeHalves(size_t count, Value const& value, std::byte* halves) {
+    for (size_t i = 0; i < count; ++i) {
+        const uint16_t half = halfFromFloat(value(i));
+        std::memcpy(halves + i * sizeof(half), &half, sizeof(half));
+    }
+}
+
 } // namespace
+
+Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize) {
+    FILAMENT_ASSERT(!base.codes.empty() && base.codes.size() == size_t{ kChannels } * base.width * base.height,
+                    "the image must hold its pixels");
+    Image image{ .width = base.width, .height = base.height, .format = backend::Format::RGBA16F, .data = {} };
+    image.levels = backend::fullMipCount(image.width, image.height);
+    image.data.resize(image.levelOffset(image.levels));
+    std::vector<float> const& light = lightOfDeepCodes();
+    const auto exact = [&](size_t i) {
+        return isColor && i % kChannels != kAlpha ? light[base.codes[i]] : shareOfDeepCode(base.codes[i]);
+    };
+    encodeHalves(base.codes.size(), exact, image.data.data());
+    Level level = lightOf(base, isColor);
+    for (uint32_t i = 1; i < image.levels; ++i) {
+        level = halveLevel(level);
+        encodeHalves(
+                level.texels.size(), [&](size_t at) { return shareOfDeepCode(level.texels[at]); },
+                &image.data[image.levelOffset(i)]);
+    }
+    dropLargeLevels(image, maxSize);
+    return image;
+}
 
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize) {
     FILAMENT_ASSERT(base.format == backend::Format::RGBA8 && base.levels == 1,

@@ -2,11 +2,10 @@
 #include "filament_core/assets/image/PictureDecoder.h"
 
 #include "base/math/Half.h"
+#include "filament_core/assets/image/ChannelTransfer.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
-
-#include <filament/Color.h>
 
 #include <cstring>
 #include <utility>
@@ -14,22 +13,6 @@
 
 namespace filament::assets {
 namespace {
-
-constexpr uint32_t kDeepCodes = 65536;
-
-float shareOf(uint32_t deepCode) { return static_cast<float>(deepCode) / static_cast<float>(kDeepCodes - 1); }
-
-/// The light that each code of 16 bits stands for.
-std::vector<float> const& lightOfDeepCodes() {
-    static const std::vector<float> table = [] {
-        std::vector<float> light;
-        light.reserve(kDeepCodes);
-        for (uint32_t code = 0; code < kDeepCodes; ++code)
-            light.push_back(color::linearFromSrgb(float3(shareOf(code))).x);
-        return light;
-    }();
-    return table;
-}
 
 /// RGBA pixels of floats or halves, one after the other.
 class FloatPixels {
@@ -65,15 +48,14 @@ Image fromDeepCodes(DeepImage const& deep, PictureOptions const& options) {
     std::vector<float> const& light = lightOfDeepCodes();
     for (size_t i = 0; i < deep.codes.size(); i += 4) {
         const uint16_t* const code = &deep.codes[i];
-        const auto component = [&](int c) { return options.isColor ? light[code[c]] : shareOf(code[c]); };
-        pixels.add({ component(0), component(1), component(2), shareOf(code[3]) });
+        const auto component = [&](int c) { return options.isColor ? light[code[c]] : shareOfDeepCode(code[c]); };
+        pixels.add({ component(0), component(1), component(2), shareOfDeepCode(code[3]) });
     }
     return pixels.take();
 }
 
 Result<Image> decodeDeep(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
-    if (Result<void> checked = checkPngOrJpeg(bytes, name); !checked) return checked.error();
-    const Result<DeepImage> picture = decodeDeepPng(bytes, name);
+    const Result<DeepImage> picture = decodeDeepImage(bytes, name);
     if (!picture) return picture.error();
     return fromDeepCodes(*picture, options);
 }
@@ -87,11 +69,13 @@ Result<Image> decodeFloats(std::span<const std::byte> bytes, std::string_view na
 }
 
 Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    const Result<Ktx2File> file = readKtx2(bytes, name);
+    if (!file) return file.error();
+    if (file->layers > 1)
+        return fail(ErrorCode::Unsupported, "image '{}' has {} pictures ({}); export one of them", name, file->layers,
+                    file->isCube ? "a cube" : "an array");
     Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .isFull = options.isFull, .isOneLevel = true });
     if (!texture) return texture.error();
-    if (texture->image.layers > 1)
-        return fail(ErrorCode::Unsupported, "image '{}' has {} pictures ({}); export one of them", name,
-                    texture->image.layers, texture->isCube ? "a cube" : "an array");
     return std::move(texture->image);
 }
 
@@ -100,10 +84,10 @@ Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view nam
 Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
     if (isHdrImage(bytes)) return decodeFloats(bytes, name, options);
     if (isKtx2(bytes)) return decodeLevel(bytes, name, options);
-    if (!isPngOrJpeg(bytes) && !isWebp(bytes))
+    if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
         return fail(ErrorCode::Unsupported,
-                    "image '{}' is none of PNG, JPEG, WebP, KTX2, HDR and EXR; convert it to one of them", name);
-    if (isDeepPng(bytes)) return decodeDeep(bytes, name, options);
+                    "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2, HDR and EXR; convert it to one of them", name);
+    if (isDeepImage(bytes)) return decodeDeep(bytes, name, options);
     Result<Image> picture = decodeImage(bytes, name);
     if (picture && options.isColor) picture->format = backend::Format::RGBA8Srgb;
     return picture;

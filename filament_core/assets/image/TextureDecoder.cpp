@@ -11,11 +11,13 @@
 namespace filament::assets {
 namespace {
 
-Result<void> checkTexture(Ktx2Texture const& texture, std::string_view name) {
-    Image const& image = texture.image;
-    if (texture.isCube || texture.isArray)
-        return fail(ErrorCode::Unsupported, "image '{}' is {}; export it as a two-dimensional texture", name,
-                    texture.isCube ? "a cube" : "an array");
+Result<void> checkShape(Ktx2File const& file, std::string_view name) {
+    if (!file.isCube && !file.isArray) return {};
+    return fail(ErrorCode::Unsupported, "image '{}' is {}; export it as a two-dimensional texture", name,
+                file.isCube ? "a cube" : "an array");
+}
+
+Result<void> checkTexels(Image const& image, std::string_view name) {
     if (image.format != backend::Format::RGBA8 && image.format != backend::Format::RGBA8Srgb)
         return fail(
                 ErrorCode::Unsupported,
@@ -26,27 +28,36 @@ Result<void> checkTexture(Ktx2Texture const& texture, std::string_view name) {
 
 } // namespace
 
-Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize) {
+Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize,
+                                     TextureDepth depth) {
     if (!isKtx2(bytes)) {
-        if (!isPngOrJpeg(bytes) && !isWebp(bytes))
+        if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
             return fail(ErrorCode::Unsupported,
-                        "image '{}' is none of PNG, JPEG, WebP and KTX2; convert it to one of them", name);
+                        "image '{}' is none of PNG, JPEG, WebP, AVIF and KTX2; convert it to one of them", name);
+        if (depth == TextureDepth::AllBits && isDeepImage(bytes)) {
+            Result<DeepImage> deep = decodeDeepImage(bytes, name);
+            if (!deep) return deep.error();
+            return DecodedTexture{ .image = {}, .deep = std::move(*deep) };
+        }
         Result<Image> image = decodeImage(bytes, name);
         if (!image) return image.error();
-        return DecodedTexture{ std::move(*image), std::nullopt };
+        return DecodedTexture{ .image = std::move(*image) };
     }
     const Result<Ktx2File> file = readKtx2(bytes, name);
     if (!file) return file.error();
+    if (Result<void> checked = checkShape(*file, name); !checked) return checked.error();
     const uint32_t all = backend::fullMipCount(file->width, file->height);
     const bool isWhole = file->levels.size() == all;
     Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole });
     if (!texture) return texture.error();
-    if (Result<void> checked = checkTexture(*texture, name); !checked) return checked.error();
+    if (Result<void> checked = checkTexels(texture->image, name); !checked) return checked.error();
     texture->image.format = backend::Format::RGBA8;
-    return DecodedTexture{ std::move(texture->image), texture->isSrgb };
+    return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };
 }
 
-Image withAllLevels(Image image, bool isColor, uint32_t maxSize) {
+Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize) {
+    if (!texture.deep.codes.empty()) return withMipMaps(texture.deep, isColor, maxSize);
+    Image image = std::move(texture.image);
     if (image.levels == 1) return withMipMaps(std::move(image), isColor, maxSize);
     image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
     return image;

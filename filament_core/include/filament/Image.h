@@ -25,7 +25,7 @@ struct Image {
 
 /// What the numbers in a picture are.
 enum class ImageContent : uint8_t {
-    Color, ///< codes of sRGB in PNG, JPEG and WebP: base colours, what is shown
+    Color, ///< codes of sRGB in PNG, JPEG, WebP and AVIF: base colours, what is shown
     Data,  ///< themselves: normals, roughness, occlusion, heights
 };
 
@@ -35,12 +35,12 @@ struct ImageLoadOptions {
 };
 
 /// A picture in a file; its first bytes, not its name, say of which kind it is.
-///   PNG, JPEG  and WebP of 8 bits: RGBA8Srgb, or RGBA8 of data. Missing alpha is 255; grey is copied to all colours;
-///              colour profiles are ignored; alpha is not multiplied in.
-///   PNG        of 16 bits: RGBA16F, colours as linear light, data as code / 65535.
+///   8 bits     of PNG, JPEG, WebP, AVIF: RGBA8Srgb, or RGBA8 of data. Missing alpha is 255; grey is copied to all
+///              colours; colour profiles are ignored; alpha is not multiplied in.
+///   10 to 16   bits of PNG, AVIF: RGBA16F, colours as linear light, data as code / 65535.
 ///   KTX2       its first level: RGBA8Srgb or RGBA8, as the file says; RGBA16F where 8 bits do not hold it.
 ///   HDR, EXR   RGBA16F: linear, without alpha. Negative or not a number becomes 0; what a half cannot hold, 65504.
-///   Limits     16384 a side; of HDR and EXR 2^26 pixels; single-part scan lines of EXR; no cubes and arrays of KTX2.
+///   Limits     16384 a side; of AVIF, HDR, EXR 2^26 pixels; single-part scan lines of EXR; no cubes, arrays of KTX2.
 ///   Fails      NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with the file, the reason and the cure.
 Result<Image> loadImage(std::filesystem::path const& path, ImageLoadOptions const& options = {});
 /// From memory. `name` is used in messages.

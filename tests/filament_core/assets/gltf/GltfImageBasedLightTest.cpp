@@ -364,7 +364,7 @@ TEST(GltfImageBasedLight, PicturesOfOtherSizesAreRefused) {
     cut.resize(cut.size() / 2);
     EXPECT_THAT(refusal(cut, 8), HasSubstr("specularImages[1][2]: image 'images[8]' cannot be decoded"));
     EXPECT_THAT(refusal(Bytes(40, std::byte{ 'x' }), 8, ErrorCode::Unsupported),
-                HasSubstr("specularImages[1][2]: image 'images[8]' is none of PNG, JPEG and WebP; convert it"));
+                HasSubstr("specularImages[1][2]: image 'images[8]' is none of PNG, JPEG, WebP and AVIF; convert it"));
     TestFile missing = file;
     missing.root["images"][7] = { { "uri", "none.png" } };
     EXPECT_THAT(refusalOfLight(missing, ErrorCode::NotFound), HasSubstr("images[7]: "));

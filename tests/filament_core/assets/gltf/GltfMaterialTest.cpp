@@ -198,7 +198,7 @@ TEST(GltfMaterial, ATextureInAFormatThatIsNotReadIsAnError) {
     file.root["textures"][0] = Json::parse(R"({ "extensions": { "MSFT_texture_dds": { "source": 0 } } })");
     const Result<ModelData> model = file.load();
     ASSERT_FALSE(model);
-    EXPECT_THAT(model.error().message, HasSubstr("textures[0]: has no PNG, JPEG, WebP or KTX2 image"));
+    EXPECT_THAT(model.error().message, HasSubstr("textures[0]: has no PNG, JPEG, WebP, AVIF or KTX2 image"));
 }
 
 TEST(GltfMaterial, ImagesComeFromDataUrisAndFilesWithEncodedNames) {

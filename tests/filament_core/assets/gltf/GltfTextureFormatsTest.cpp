@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_texture_basisu and EXT_texture_webp: which image a texture reads, and what of it reaches the model.
+// KHR_texture_basisu, EXT_texture_webp and EXT_texture_avif: which image a texture reads, and what of it reaches the model.
+#include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/Ktx2File.h"
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
+#include "tests/filament_core/assets/image/AvifFile.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
+#include "tests/filament_core/assets/image/PictureFiles.h"
+
+#include <filament/Color.h>
 
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cstring>
 
 namespace filament::assets::test {
 namespace {
@@ -61,7 +67,7 @@ TestFile texturedBy(std::vector<Bytes> const& images, const char* texture, bool 
     else
         material["occlusionTexture"]["index"] = 0;
     file.root["materials"] = { material };
-    file.root["extensionsUsed"] = { "KHR_texture_basisu", "EXT_texture_webp" };
+    file.root["extensionsUsed"] = { "KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif" };
     file.primitive()["material"] = 0;
     return file;
 }
@@ -71,7 +77,8 @@ constexpr const char* kBasis = R"({ "extensions": { "KHR_texture_basisu": { "sou
 TEST(GltfTextureFormats, TheImageOfAnExtensionTakesThePlaceOfTheCoreOne) {
     const Bytes webp(reinterpret_cast<const std::byte*>(kWebpPixel.data()),
                      reinterpret_cast<const std::byte*>(kWebpPixel.data() + kWebpPixel.size()));
-    const std::vector<Bytes> images{ pngPixel(1), webp, uastcOf(4, 1).file() };
+    const test::AvifFile avif{ .width = 1, .height = 1, .code = [](uint32_t, uint2) { return 60u; } };
+    const std::vector<Bytes> images{ pngPixel(1), webp, uastcOf(4, 1).file(), avif.file() };
     const auto red = [&](const char* texture) {
         const ModelData model = loaded(texturedBy(images, texture));
         EXPECT_THAT(model.warnings, testing::IsEmpty());
@@ -81,6 +88,10 @@ TEST(GltfTextureFormats, TheImageOfAnExtensionTakesThePlaceOfTheCoreOne) {
     EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_webp": { "source": 1 } } })"), 10);
     EXPECT_EQ(red(R"({ "extensions": { "EXT_texture_webp": { "source": 1 } } })"), 10) << "without a fallback";
     EXPECT_EQ(red(R"({ "source": 0, "extensions": { "KHR_texture_basisu": { "source": 2 } } })"), 100);
+    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_avif": { "source": 3 } } })"), 60);
+    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_avif": { "source": 3 },
+                                                    "EXT_texture_webp": { "source": 1 } } })"),
+              10);
     EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_webp": { "source": 1 },
                                                     "KHR_texture_basisu": { "source": 2 } } })"),
               100);
@@ -88,9 +99,29 @@ TEST(GltfTextureFormats, TheImageOfAnExtensionTakesThePlaceOfTheCoreOne) {
             << "a format that is not read has its fallback";
 }
 
-TEST(GltfTextureFormats, BothExtensionsMayBeRequired) {
+// A PNG of 16 bits and an AVIF of 10 keep them in a texture of their own; two maps in one texture have 8 bits.
+TEST(GltfTextureFormats, MoreThan8BitsReachTheModel) {
+    const PngFile png = makePng({ .colorType = 2, .depth = 16 }, 5, 3);
+    const AvifFile avif{ .width = 5, .height = 3, .depth = 10 };
+    for (const bool isColor : { true, false }) {
+        const ModelData model = loaded(texturedBy({ png.bytes }, R"({ "source": 0 })", isColor));
+        ASSERT_EQ(model.images.size(), 1u);
+        EXPECT_EQ(model.images[0].format, Format::RGBA16F);
+        EXPECT_EQ(model.images[0].levels, 3u);
+        uint16_t half = 0;
+        std::memcpy(&half, model.images[0].data.data(), sizeof(half));
+        const float share = static_cast<float>(png.deep[0]) / 65535.0f;
+        EXPECT_EQ(half, halfFromFloat(isColor ? color::linearFromSrgb(float3(share)).x : share));
+        const ModelData other = loaded(
+                texturedBy({ avif.file() }, R"({ "extensions": { "EXT_texture_avif": { "source": 0 } } })", isColor));
+        ASSERT_EQ(other.images.size(), 1u);
+        EXPECT_EQ(other.images[0].format, Format::RGBA16F);
+    }
+}
+
+TEST(GltfTextureFormats, TheExtensionsMayBeRequired) {
     TestFile file = texturedBy({ uastcOf(4, 1).file() }, kBasis);
-    file.root["extensionsRequired"] = { "KHR_texture_basisu", "EXT_texture_webp" };
+    file.root["extensionsRequired"] = { "KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif" };
     EXPECT_TRUE(file.load());
 }
 
@@ -147,7 +178,7 @@ TEST(GltfTextureFormats, WhatMaterialsDoNotReadIsAnError) {
     EXPECT_THAT(refusal(deep.file()),
                 HasSubstr("has more than 8 bits a channel, which materials of models do not read"));
     EXPECT_THAT(refusal(Bytes(30, std::byte{ 1 })),
-                HasSubstr("is none of PNG, JPEG, WebP and KTX2; convert it to one of them"));
+                HasSubstr("is none of PNG, JPEG, WebP, AVIF and KTX2; convert it to one of them"));
     Bytes cut = uastcOf(4, 1).file();
     cut.pop_back();
     EXPECT_THAT(refusal(cut), HasSubstr("image 'images[0]' cannot be decoded: its level 0 is 16 bytes from byte"));

@@ -10,6 +10,7 @@
 #include "filament_core/assets/image/ImageSize.h"
 #include "filament_core/assets/image/Ktx2File.h"
 #include "filament_core/assets/image/PictureDecoder.h"
+#include "filament_core/assets/image/TextureDecoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,21 +21,26 @@ namespace filament::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 
-/// PNG, JPEG and WebP. Returns whether it was a picture.
+/// PNG, JPEG, WebP and AVIF. Returns whether it was a picture.
 inline bool fuzzImage(std::span<const std::byte> bytes) {
     isCutShortPng(bytes);
     const uint2 size = imageSize(bytes);
     if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return false; // only slow
     const Result<Image> image = decodeImage(bytes, "fuzzed");
     // Whatever the first bytes say, the decoders themselves refuse what is not theirs.
-    const int readers =
-            decodePng(bytes, "fuzzed").ok() + decodeJpeg(bytes, "fuzzed").ok() + decodeWebp(bytes, "fuzzed").ok();
+    const int readers = decodePng(bytes, "fuzzed").ok() + decodeJpeg(bytes, "fuzzed").ok() +
+                        decodeWebp(bytes, "fuzzed").ok() + (isAvif(bytes) && decodeAvif(bytes, "fuzzed").ok());
     FILAMENT_ASSERT(readers < 2 && image.ok() == (readers == 1), "one decoder reads what is a picture");
     if (!image) {
         FILAMENT_ASSERT(image.error().message.starts_with("image 'fuzzed' "), "an error names its picture");
         return false;
     }
     FILAMENT_ASSERT(image->data.size() == image->levelBytes(0), "every pixel is there");
+    if (isDeepImage(bytes)) {
+        const Result<DecodedTexture> deep = decodeTexture(bytes, "fuzzed", 0, TextureDepth::AllBits);
+        FILAMENT_ASSERT(deep.ok() && deep->deep.codes.size() == image->data.size(),
+                        "with all bits it is a picture, too");
+    }
     const Result<Image> again = decodeImage(bytes, "fuzzed");
     FILAMENT_ASSERT(again.ok() && again->data == image->data, "decoding twice gives the same pixels");
     return true;

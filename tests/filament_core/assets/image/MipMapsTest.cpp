@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/MipMaps.h"
 
+#include "base/math/Half.h"
+#include "base/math/Math.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
 
 #include <gtest/gtest.h>
@@ -163,6 +165,53 @@ TEST(MipMaps, OneTexelIsItsOwnChain) {
     const Image mips = withMipMaps(noise(1, 1), true);
     EXPECT_EQ(mips.levels, 1u);
     EXPECT_EQ(mips.data.size(), 4u);
+}
+
+float halfAt(Image const& image, uint32_t level, size_t number) {
+    uint16_t half = 0;
+    std::memcpy(&half, &image.data[image.levelOffset(level) + 2 * number], sizeof(half));
+    return floatFromHalf(half);
+}
+
+/// Noise of 16 bits whose high bytes are equal: with 8 bits it would be one code.
+DeepImage deepNoise(uint32_t width, uint32_t height) {
+    std::mt19937 random(width * 1000 + height);
+    DeepImage image{ .width = width, .height = height, .codes = {} };
+    for (size_t i = 0; i < size_t{ 4 } * width * height; ++i)
+        image.codes.push_back(static_cast<uint16_t>(0x8000 + random() % 256));
+    return image;
+}
+
+// The means of a level, in double: of light where the codes are colours.
+TEST(MipMaps, DeepPicturesKeepTheirBitsInEveryLevel) {
+    for (const auto& [width, height] : { std::pair(8u, 4u), { 7u, 5u }, { 1u, 3u } }) {
+        const DeepImage base = deepNoise(width, height);
+        for (const bool isColor : { false, true }) {
+            const Image image = withMipMaps(base, isColor);
+            EXPECT_EQ(image.format, Format::RGBA16F);
+            ASSERT_EQ(image.levels, backend::fullMipCount(width, height));
+            const auto exact = [&](size_t i) {
+                const double share = base.codes[i] / 65535.0;
+                return isColor && i % 4 < 3 ? linearFromSrgb(share) : share;
+            };
+            for (size_t i = 0; i < base.codes.size(); ++i)
+                EXPECT_NEAR(halfAt(image, 0, i), exact(i), exact(i) / 2048) << "half a step of a half";
+            for (size_t c = 0; c < 4; ++c) { // the smallest level of a picture of even sizes is the mean of all
+                if (width != 8) break;
+                double sum = 0;
+                for (size_t i = c; i < base.codes.size(); i += 4) sum += exact(i);
+                EXPECT_NEAR(halfAt(image, image.levels - 1, c), sum / 32, 2.5e-4) << c;
+            }
+        }
+    }
+}
+
+TEST(MipMaps, DeepPicturesStartWithTheFirstLevelThatIsSmallEnough) {
+    const DeepImage base = deepNoise(16, 8);
+    const Image whole = withMipMaps(base, true), part = withMipMaps(base, true, 4);
+    EXPECT_EQ(uint2(part.width, part.height), uint2(4, 2));
+    EXPECT_TRUE(std::equal(part.data.begin(), part.data.end(),
+                           whole.data.begin() + static_cast<std::ptrdiff_t>(whole.levelOffset(2)), whole.data.end()));
 }
 
 } // namespace
