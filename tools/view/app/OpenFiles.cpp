@@ -2,9 +2,13 @@
 #include "tools/view/app/OpenFiles.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/Ktx2File.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
+#include <span>
 
 namespace filament::view {
 namespace {
@@ -18,6 +22,15 @@ void showModel(Document& document, std::filesystem::path const& file) {
     document.modelLights.clear();
     document.morphs.clear();
     document.playback = {};
+}
+
+/// Of a KTX 2.0 file that cannot be read, too: loading it says why. A texture of one face is no sky.
+FileKind kindOfKtx2(std::filesystem::path const& file) {
+    constexpr size_t kFaceCount = 36; // KTX 2.0 Specification, 2: behind the identifier and six numbers
+    std::array<char, kFaceCount + 1> header{};
+    std::ifstream(file, std::ios::binary).read(header.data(), header.size());
+    const bool isFlat = assets::isKtx2(std::as_bytes(std::span(header))) && header[kFaceCount] == 1;
+    return isFlat ? FileKind::Picture : FileKind::Environment;
 }
 
 Result<void> showJson(Document& document, std::filesystem::path const& file) {
@@ -37,7 +50,8 @@ FileKind kindOf(std::filesystem::path const& file) {
     const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
     if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
     if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;
-    if (isOneOf(".png", ".jpg", ".jpeg")) return FileKind::Picture;
+    if (isOneOf(".ktx2")) return kindOfKtx2(file);
+    if (isOneOf(".png", ".jpg", ".jpeg", ".webp", ".avif")) return FileKind::Picture;
     return ending == ".json" ? FileKind::Document : FileKind::Unknown;
 }
 
@@ -56,7 +70,7 @@ Result<void> showFile(Document& document, std::filesystem::path const& file) {
     case FileKind::Unknown:
         break;
     }
-    return fail(ErrorCode::Unsupported, "'{}' is nothing to show: open .glb, .gltf, .mat, .hdr, .exr or .json",
+    return fail(ErrorCode::Unsupported, "'{}' is nothing to show: open .glb, .gltf, .mat, .hdr, .exr, .ktx2 or .json",
                 file.string());
 }
 

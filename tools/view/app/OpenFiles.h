@@ -11,7 +11,7 @@
 
 namespace filament::view {
 
-/// By its ending, in any case.
+/// By its ending, in any case; a .ktx2 is an environment or a picture, as its first bytes say.
 enum class FileKind : uint8_t { Model, Environment, Document, Picture, Unknown };
 FileKind kindOf(std::filesystem::path const& file);
 

@@ -35,7 +35,7 @@ struct DocumentModel {
 };
 
 struct DocumentEnvironment {
-    std::filesystem::path file{};     ///< .hdr, .exr or .fenv; empty: none
+    std::filesystem::path file{};     ///< .hdr, .exr, .ktx2 or .fenv; empty: none
     bool prefersModels = true;        ///< the environment that the model's file brings, if it does, comes before `file`
     EnvironmentLoadOptions options{}; ///< without `progress`
     EnvironmentSettings settings{};

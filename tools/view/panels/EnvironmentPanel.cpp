@@ -14,7 +14,7 @@ constexpr float kDegreesOfRadian = 57.29577951f, kMostLux = 1e6f;
 
 void drawEnvironmentPanel(PanelFrame& frame) {
     DocumentEnvironment& environment = frame.document.environment;
-    ImGui::TextWrapped("%s", environment.file.empty() ? "no file: drop a .hdr or .exr into the window"
+    ImGui::TextWrapped("%s", environment.file.empty() ? "no file: drop a .hdr, .exr or .ktx2 into the window"
                                                       : environment.file.filename().c_str());
     tooltip(environment.file.string());
     if (frame.stage.hasModelEnvironment()) quietText("the model's own lights it");
