@@ -20,6 +20,7 @@ using conformance::JsonReader;
 constexpr const char* kVersion = "filament-frame 1";
 constexpr size_t kMaxNameLength = 32, kMaxTextLength = 4096;
 constexpr double kMaxBytes = 0x1p40;
+constexpr size_t kMaxNesting = 256;
 
 std::string hexOf(uint64_t value) { return fmt::format("{:016x}", value); }
 
@@ -32,9 +33,20 @@ std::optional<Format> formatFromName(std::string_view name) {
     return index ? std::optional(static_cast<Format>(*index)) : std::nullopt;
 }
 
-bool isPictureFormat(Format format) {
-    return format == Format::RGBA8 || format == Format::RGBA8Srgb || format == Format::RGB10A2 ||
-           format == Format::RGBA16F;
+/// Brackets that are not in texts. What is nested deeper than kMaxNesting is no frame.json, and its text would be written
+/// by as many calls in each other.
+bool isTooDeep(std::string_view json) {
+    size_t depth = 0;
+    bool isInText = false;
+    for (size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (isInText && c == '\\') ++i;
+        if (c == '"') isInText = !isInText;
+        if (isInText) continue;
+        if ((c == '[' || c == '{') && ++depth > kMaxNesting) return true;
+        if ((c == ']' || c == '}') && depth > 0) --depth;
+    }
+    return false;
 }
 
 // ---------------------------------------------------------------------------------------------- writing
@@ -232,6 +244,11 @@ bool isPictureName(std::string_view name) {
     });
 }
 
+bool isPictureFormat(Format format) {
+    return format == Format::RGBA8 || format == Format::RGBA8Srgb || format == Format::RGB10A2 ||
+           format == Format::RGBA16F;
+}
+
 std::filesystem::path manifestPath(std::filesystem::path const& folder) { return folder / "frame.json"; }
 
 std::filesystem::path tracePath(std::filesystem::path const& folder, Backend backend) {
@@ -263,6 +280,8 @@ std::string toJson(Manifest const& manifest) {
 }
 
 Result<Manifest> parseManifest(std::string_view text, std::string const& name) {
+    if (isTooDeep(text))
+        return fail(ErrorCode::Corrupt, "{}: nested deeper than {}; save the frame again", name, kMaxNesting);
     const Json json = Json::parse(text, nullptr, false);
     if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON; save the frame again", name);
     Manifest manifest;

@@ -91,6 +91,7 @@ struct Manifest {
 TraceRecord const* findTrace(Manifest const& manifest, Backend backend);
 std::optional<Backend> backendFromName(std::string_view name);
 bool isPictureName(std::string_view name);
+bool isPictureFormat(Format format); ///< of PictureRecord
 
 std::filesystem::path manifestPath(std::filesystem::path const& folder);
 std::filesystem::path tracePath(std::filesystem::path const& folder, Backend backend);

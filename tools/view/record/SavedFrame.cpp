@@ -40,9 +40,7 @@ Result<void> checkPictures(std::span<const FramePicture> pictures) {
         if (image.pixels.size() != backend::imageBytes(image.format, image.width, image.height))
             return fail(ErrorCode::InvalidArgument, "picture '{}' of {}x{} pixels has {} bytes", picture.name,
                         image.width, image.height, image.pixels.size());
-        const bool canBeSaved = image.format == Format::RGBA8 || image.format == Format::RGBA8Srgb ||
-                                image.format == Format::RGB10A2 || image.format == Format::RGBA16F;
-        if (!canBeSaved)
+        if (!isPictureFormat(image.format))
             return fail(ErrorCode::InvalidArgument,
                         "picture '{}' is {}; a saved frame has RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F", picture.name,
                         backend::formatInfo(image.format).name);

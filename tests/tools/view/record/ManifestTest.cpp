@@ -107,6 +107,18 @@ TEST(Manifest, TextThatIsNoneIsRefusedInOneLine) {
     EXPECT_THAT(parseManifest(text, "frame.json").error().message, HasSubstr("hash: expected 16 lower-case"));
 }
 
+TEST(Manifest, SettingsAreNotNestedWithoutEnd) {
+    const auto nested = [](size_t depth) {
+        return R"({"version": "filament-frame 1", "settings": )" + std::string(depth, '[') + "\"]]\\\"]\"" +
+               std::string(depth, ']') + "}";
+    };
+    EXPECT_THAT(parseManifest(nested(255), "frame.json").error().message, HasSubstr("pictures: expected"));
+    for (const size_t depth : { 256, 2'000'000 })
+        EXPECT_THAT(parseManifest(nested(depth), "frame.json").error().message,
+                    HasSubstr("frame.json: nested deeper than 256"))
+                << depth;
+}
+
 TEST(Manifest, AFolderWithoutOneIsNoSavedFrame) {
     const Result<Manifest> read = readManifest("no/such/folder");
     ASSERT_FALSE(read.ok());
