@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +27,9 @@
 #include <vector>
 
 namespace filament::view {
+
+/// Of a spot, in radians: its outer cone at most, and the outer one beyond the inner one at least, where a hand sets them.
+inline constexpr float kMostCone = std::numbers::pi_v<float> / 2, kLeastCone = 0.001f;
 
 struct DocumentModel {
     std::filesystem::path file{}; ///< .gltf, .glb, .mat or .fmat; empty: nothing
@@ -148,9 +152,11 @@ Result<void> check(Document const& document);
 // ---- JSON: a version, then every field by the name of its member; units are those of the members.
 
 std::string toJson(Document const& document);
-/// A field that is absent has its default. Unsupported: another version, or over 64 MiB. Corrupt: `name`, the place ("view.camera.lens.nearMeters") and what is expected
-/// there; unknown fields, too, with the nearest name. What is returned passes check().
+/// A field that is absent has its default. Unsupported: another version, or over 64 MiB. Corrupt: `name`, the place
+/// ("view.camera.lens.nearMeters") and what is expected there; unknown fields, too, with the nearest name. What is
+/// returned passes check().
 Result<Document> documentFromJson(std::string_view text, std::string_view name);
+/// Replaces the file in one step: an error (a full disk) leaves what was there. Unreadable, with the path and the reason.
 Result<void> saveDocument(std::filesystem::path const& file, Document const& document);
 Result<Document> loadDocument(std::filesystem::path const& file);
 

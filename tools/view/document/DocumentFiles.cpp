@@ -3,18 +3,13 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/view/document/TextForms.h"
 
-#include <fstream>
+#include <span>
 
 namespace filament::view {
-
 namespace {
 
 Result<void> saveText(std::filesystem::path const& file, std::string const& text) {
-    std::ofstream out(file, std::ios::binary | std::ios::trunc);
-    out << text;
-    out.close();
-    if (out) return {};
-    return fail(ErrorCode::Unreadable, "'{}' cannot be written; give another path", file.string());
+    return assets::replaceFile(file, std::as_bytes(std::span(text)));
 }
 
 } // namespace

@@ -144,8 +144,8 @@ template <> struct Fields<SpotLight> {
         field("directionWorld", &SpotLight::directionWorld, -kFinite, kFinite),
         field("intensity", &SpotLight::intensity, 0, 1e12), field("color", &SpotLight::color, 0, 1e9),
         field("rangeMeters", &SpotLight::rangeMeters, 0, kFinite),
-        field("innerConeRadians", &SpotLight::innerConeRadians, 0, 1.5707963),
-        field("outerConeRadians", &SpotLight::outerConeRadians, 0, 1.5707964),
+        field("innerConeRadians", &SpotLight::innerConeRadians, 0, static_cast<double>(kMostCone)),
+        field("outerConeRadians", &SpotLight::outerConeRadians, 0, static_cast<double>(kMostCone)),
         field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters, 0, kFinite),
         field("castsShadows", &SpotLight::castsShadows), field("contactShadows", &SpotLight::contactShadows),
         field("lightChannels", &SpotLight::lightChannels), field("upWorld", &SpotLight::upWorld, -kFinite, kFinite) };

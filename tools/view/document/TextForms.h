@@ -20,6 +20,7 @@ Result<AnyText> anyFromJson(std::string_view text, std::string_view name);
 
 /// InvalidArgument: as check(Document).
 Result<void> check(CameraPath const& path);
+/// As saveDocument().
 Result<void> saveCameraPath(std::filesystem::path const& file, CameraPath const& path);
 /// The path of a file, or the first one of a document. NotFound: the document has none.
 Result<CameraPath> loadCameraPath(std::filesystem::path const& file);

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <limits>
 
@@ -261,7 +264,44 @@ TEST(Document, IsWrittenToAFileAndReadAgain) {
     EXPECT_EQ(*again, fullDocument());
     std::filesystem::remove(file);
     EXPECT_THAT(loadDocument(file).error().message, HasSubstr("document-test.json"));
-    EXPECT_THAT(saveDocument("/nowhere/at all", {}).error().message, HasSubstr("/nowhere/at all"));
+    EXPECT_THAT(saveDocument("/dev/null/at all", {}).error().message, HasSubstr("/dev/null/at all"));
+}
+
+/// For as long as it lives, no file grows beyond so many bytes: a full disk.
+class FullDisk {
+public:
+    explicit FullDisk(rlim_t bytes) {
+        getrlimit(RLIMIT_FSIZE, &mBefore);
+        mHandler = std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{ bytes, mBefore.rlim_max };
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    FullDisk(FullDisk const&) = delete;
+    FullDisk& operator=(FullDisk const&) = delete;
+    ~FullDisk() {
+        setrlimit(RLIMIT_FSIZE, &mBefore);
+        std::signal(SIGXFSZ, mHandler);
+    }
+
+private:
+    rlimit mBefore{};
+    void (*mHandler)(int) = nullptr;
+};
+
+TEST(Document, AFullDiskLeavesTheFileThatWasThere) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "document-kept.json";
+    ASSERT_TRUE(saveDocument(file, fullDocument()).ok());
+    Result<void> saved;
+    {
+        const FullDisk disk(64);
+        saved = saveDocument(file, {});
+    }
+    ASSERT_FALSE(saved.ok());
+    EXPECT_THAT(saved.error().message, HasSubstr("document-kept.json"));
+    const Result<Document> kept = loadDocument(file);
+    ASSERT_TRUE(kept.ok()) << kept.error().message;
+    EXPECT_EQ(*kept, fullDocument());
+    std::filesystem::remove(file);
 }
 
 TEST(Document, IsMadeOfACommandLine) {
