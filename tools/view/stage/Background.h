@@ -9,6 +9,7 @@
 #include <functional>
 #include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace filament::view {
@@ -31,12 +32,27 @@ private:
     std::shared_ptr<std::future<T>> mFuture;
 };
 
+/// What it gave, once it is finished; `work` is empty then.
+template <class T>
+std::optional<T> takeFinished(std::optional<Background<T>>& work) {
+    if (!work || !work->isFinished()) return std::nullopt;
+    std::optional<T> result(work->take());
+    work.reset();
+    return result;
+}
+
 /// Functions that nobody waits for any more, until they are finished. Its own end waits for them.
 class Abandoned {
 public:
     template <class T>
     void add(Background<T> const& work) {
         mRest.push_back(work.rest());
+    }
+    /// If there is one; `work` is empty then.
+    template <class T>
+    void add(std::optional<Background<T>>& work) {
+        if (work) add(*work);
+        work.reset();
     }
     void removeFinished() {
         std::erase_if(mRest, [](std::function<bool()> const& isFinished) { return isFinished(); });

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <regex>
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -47,6 +47,27 @@ void addUris(nlohmann::json const& tree, const char* list, fs::path const& folde
     }
 }
 
+std::string_view withoutSpaces(std::string_view text) {
+    return text.substr(std::min(text.find_first_not_of(" \t"), text.size()));
+}
+
+/// The names in #include "..." and #include <...>. A regular expression of the standard library needs a call for each
+/// character of a long name.
+std::vector<std::string_view> includesOf(std::string_view text) {
+    constexpr std::string_view kInclude = "include";
+    std::vector<std::string_view> names;
+    for (size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1)) {
+        std::string_view rest = withoutSpaces(text.substr(at + 1));
+        if (!rest.starts_with(kInclude)) continue;
+        rest = withoutSpaces(rest.substr(kInclude.size()));
+        if (rest.empty() || (rest[0] != '"' && rest[0] != '<')) continue;
+        rest.remove_prefix(1);
+        const size_t end = rest.find_first_of("\">\n");
+        if (end != std::string_view::npos && end > 0 && rest[end] != '\n') names.push_back(rest.substr(0, end));
+    }
+    return names;
+}
+
 } // namespace
 
 std::vector<fs::path> filesOf(fs::path const& file) {
@@ -58,9 +79,8 @@ std::vector<fs::path> filesOf(fs::path const& file) {
         addUris(tree, "images", file.parent_path(), files);
     } else if (file.extension() == ".mat") {
         const std::string text = textOfFile(file);
-        static const std::regex kInclude(R"(#\s*include\s*["<]([^">\n]+)[">])");
-        for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it) {
-            const Result<fs::path> inside = assets::fileInside(file.parent_path(), (*it)[1].str());
+        for (const std::string_view name : includesOf(text)) {
+            const Result<fs::path> inside = assets::fileInside(file.parent_path(), std::string(name));
             if (inside) files.push_back(*inside);
         }
     }

@@ -123,21 +123,21 @@ private:
 template <class Load, class Key>
 class Slot {
 public:
-    /// Begins to load what is asked for, if that is something else, or again. Returns whether the value ended: nothing is
-    /// asked for.
-    bool want(Engine& engine, Key const& key, bool isThere, bool again, Abandoned& abandoned) {
-        if (mWanted && *mWanted == key && !again) return false;
+    /// Begins to load what is asked for, if that is something else, or again. Returns the value that is no longer asked for,
+    /// if nothing is: it lives until nothing shows it any more.
+    std::optional<typename Load::Value> want(Engine& engine, Key const& key, bool isThere, bool again,
+                                             Abandoned& abandoned) {
+        if (mWanted && *mWanted == key && !again) return std::nullopt;
         drop(abandoned);
         mWanted = key;
-        if (mValue && mShown == mWanted && !again) return false; // it was asked for before another one that never came
+        const bool isKept = mValue && mShown == mWanted && !again; // asked for before another one that never came
+        if (isKept) return std::nullopt;
         if (!isThere) {
-            const bool ended = mValue.has_value();
-            mValue.reset();
             mShown = key;
-            return ended;
+            return std::exchange(mValue, std::nullopt);
         }
         mLoad.emplace(engine, key);
-        return false;
+        return std::nullopt;
     }
     /// The result of a load that is finished.
     std::optional<Result<typename Load::Value>> poll(Engine& engine, size_t sliceBytes) {

@@ -20,7 +20,7 @@ Result<Owned<Texture>> textureOn(Engine& engine, Image const& image, std::filesy
 
 void LoadedTextures::start(Key const& key, Abandoned& abandoned) {
     Entry& entry = mEntries[key];
-    if (entry.load) abandoned.add(*entry.load);
+    abandoned.add(entry.load);
     const ImageContent content = key.second ? ImageContent::Data : ImageContent::Color;
     entry.load.emplace([file = key.first, content] { return loadImage(file, { .content = content }); });
 }
@@ -33,7 +33,7 @@ void LoadedTextures::want(std::vector<TextureEdit> const& edits, bool again, Aba
             ++entry;
             continue;
         }
-        if (entry->second.load) abandoned.add(*entry->second.load);
+        abandoned.add(entry->second.load);
         if (entry->second.texture.get()) mRetired.push_back(std::move(entry->second.texture));
         entry = mEntries.erase(entry);
     }
@@ -49,10 +49,9 @@ void LoadedTextures::reload(std::filesystem::path const& file, Abandoned& abando
 bool LoadedTextures::poll(Engine& engine, Messages& messages) {
     bool isNew = false;
     for (auto& [key, entry] : mEntries) {
-        if (!entry.load || !entry.load->isFinished()) continue;
-        const Result<Image> image = entry.load->take();
-        entry.load.reset();
-        Result<Owned<Texture>> texture = image ? textureOn(engine, *image, key.first) : image.error();
+        const std::optional<Result<Image>> image = takeFinished(entry.load);
+        if (!image) continue;
+        Result<Owned<Texture>> texture = *image ? textureOn(engine, **image, key.first) : image->error();
         if (!texture) {
             messages.add(texture.error().message);
             continue;
@@ -65,10 +64,7 @@ bool LoadedTextures::poll(Engine& engine, Messages& messages) {
 }
 
 void LoadedTextures::drop(Abandoned& abandoned) {
-    for (auto& [key, entry] : mEntries) {
-        if (entry.load) abandoned.add(*entry.load);
-        entry.load.reset();
-    }
+    for (auto& [key, entry] : mEntries) abandoned.add(entry.load);
 }
 
 Texture LoadedTextures::find(TextureEdit const& edit) const {

@@ -70,10 +70,12 @@ struct Stage::Impl {
     void pollTextures();
     void readProfiles(bool again);
     void watchFiles(bool again);
+    void watchListed();
+    void pollListing();
     void lookAtFiles();
     bool isLoading() const {
         return model.isLoading() || environment.isLoading() || lookFile.isLoading() || dirt.isLoading() ||
-               textures.isLoading();
+               textures.isLoading() || listing;
     }
     template <class SlotType>
     void finish(SlotType& slot, Result<typename std::remove_reference_t<decltype(*slot.value())>>&& result);
@@ -105,6 +107,7 @@ struct Stage::Impl {
     FileWatch watch;
     std::vector<std::filesystem::path> watchedOthers, modelFiles; ///< the latter: of watchedModel
     std::filesystem::path watchedModel;
+    std::optional<Background<std::vector<std::filesystem::path>>> listing; ///< filesOf(watchedModel)
     Clock::time_point nextLook{};
 
     std::unique_ptr<StagedScene> scene; ///< ends before what is loaded
@@ -117,19 +120,20 @@ struct Stage::Impl {
 // ---- files
 
 void Stage::Impl::startLoads(bool again) {
-    const bool modelEnded =
+    const auto endedModel =
             model.want(engine, ModelKey(document.model), !document.model.file.empty(), again, abandoned);
-    const bool skyEnded = environment.want(engine, EnvironmentKey(document.environment),
+    const auto endedSky = environment.want(engine, EnvironmentKey(document.environment),
                                            !document.environment.file.empty(), again, abandoned);
-    lookFile.want(engine, document.look, !document.look.empty(), again, abandoned);
-    dirt.want(engine, document.dirt, !document.dirt.empty(), again, abandoned);
+    (void)lookFile.want(engine, document.look, !document.look.empty(), again, abandoned);
+    const auto endedDirt = dirt.want(engine, document.dirt, !document.dirt.empty(), again, abandoned);
     textures.want(document.textures, again, abandoned);
     readProfiles(again);
     watchFiles(again);
-    if (modelEnded)
+    if (endedModel)
         rebuild();
-    else if (skyEnded)
+    else if (endedSky)
         light();
+    if (endedDirt) updateView();
 }
 
 /// A finished load takes the place of what was there, or says why it does not.
@@ -203,11 +207,25 @@ void Stage::Impl::watchFiles(bool again) {
     for (TextureEdit const& edit : document.textures) files.push_back(edit.file);
     const bool isSame = document.model.file == watchedModel && files == watchedOthers && !again;
     if (!options.watchesFiles || isSame) return;
-    watchedModel = document.model.file;
-    watchedOthers = files;
-    modelFiles = watchedModel.empty() ? std::vector<std::filesystem::path>{} : filesOf(watchedModel);
+    watchedOthers = std::move(files);
+    if (std::exchange(watchedModel, document.model.file) != watchedModel) modelFiles = { watchedModel };
+    abandoned.add(listing);
+    if (!watchedModel.empty()) listing.emplace([file = watchedModel] { return filesOf(file); });
+    watchListed();
+}
+
+void Stage::Impl::watchListed() {
+    std::vector<std::filesystem::path> files = watchedOthers;
     files.insert(files.end(), modelFiles.begin(), modelFiles.end());
     watch.watch(files);
+}
+
+/// Until then the files that the model named before are watched.
+void Stage::Impl::pollListing() {
+    std::optional<std::vector<std::filesystem::path>> files = takeFinished(listing);
+    if (!files) return;
+    modelFiles = std::move(*files);
+    watchListed();
 }
 
 void Stage::Impl::lookAtFiles() {
@@ -216,13 +234,13 @@ void Stage::Impl::lookAtFiles() {
     const std::vector<std::filesystem::path> changed = watch.changed();
     for (std::filesystem::path const& file : changed) {
         if (std::ranges::find(modelFiles, file) != modelFiles.end()) {
-            model.want(engine, ModelKey(document.model), true, true, abandoned);
+            (void)model.want(engine, ModelKey(document.model), true, true, abandoned);
         } else if (file == document.environment.file) {
-            environment.want(engine, EnvironmentKey(document.environment), true, true, abandoned);
+            (void)environment.want(engine, EnvironmentKey(document.environment), true, true, abandoned);
         } else if (file == document.look) {
-            lookFile.want(engine, file, true, true, abandoned);
+            (void)lookFile.want(engine, file, true, true, abandoned);
         } else if (file == document.dirt) {
-            dirt.want(engine, file, true, true, abandoned);
+            (void)dirt.want(engine, file, true, true, abandoned);
         } else if (std::ranges::find(document.textures, file, &TextureEdit::file) != document.textures.end()) {
             textures.reload(file, abandoned);
         } else {
@@ -266,10 +284,10 @@ void Stage::Impl::rebuild() {
 
 void Stage::Impl::light() {
     Model const* gltf = model.value() ? model.value()->model() : nullptr;
-    Environment const* own = gltf && document.environment.prefersModels ? gltf->environment() : nullptr;
+    Environment const* ofModel = gltf && document.environment.prefersModels ? gltf->environment() : nullptr;
     Environment const* ofFile = environment.value() ? &*environment.value() : nullptr;
-    isModelEnvironment = own != nullptr;
-    scene->setEnvironment(own ? own : ofFile, document.environment.settings);
+    isModelEnvironment = ofModel != nullptr;
+    scene->setEnvironment(ofModel ? ofModel : ofFile, document.environment.settings);
 }
 
 void Stage::Impl::updateView() {
@@ -320,6 +338,7 @@ Document const& Stage::document() const { return mImpl->document; }
 
 void Stage::poll() {
     mImpl->abandoned.removeFinished();
+    mImpl->pollListing();
     mImpl->lookAtFiles();
     mImpl->pollModel();
     mImpl->pollEnvironment();
@@ -346,8 +365,9 @@ StageProgress Stage::progress() const {
     return progress;
 }
 
-void Stage::finishLoading() {
-    for (poll(); mImpl->isLoading(); poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+void Stage::finishLoading(std::function<bool()> const& isCancelled) {
+    const auto goesOn = [&] { return mImpl->isLoading() && !(isCancelled && isCancelled()); };
+    for (poll(); goesOn(); poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 void Stage::cancel() {

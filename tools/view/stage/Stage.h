@@ -23,6 +23,7 @@
 #include <filament/Scene.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -69,8 +70,8 @@ public:
     /// Continues loads, and puts what is complete in the place of what was there. Never waits for a device or a worker.
     void poll();
     StageProgress progress() const;
-    /// Waits for all loads.
-    void finishLoading();
+    /// Waits for all loads, or until `isCancelled` says so, which is asked about once a millisecond.
+    void finishLoading(std::function<bool()> const& isCancelled = {});
     /// Stops loads; what is there stays, until the document names other files or reload().
     void cancel();
     /// Loads all files of the document again.

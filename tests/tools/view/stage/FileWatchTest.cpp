@@ -47,6 +47,15 @@ TEST(FileWatch, KnowsFilesThatStayFromBefore) {
     EXPECT_THAT(watch.changed(), IsEmpty());
 }
 
+TEST(FileWatch, LongNamesAndSpacesAreNoTrouble) {
+    const StageFolder folder;
+    folder.write("near.glsl", "");
+    const std::string many(2'000'000, ' '), longName(2'000'000, 'a');
+    const auto file = folder.write("long.mat", "#" + many + "include" + many + "\"near.glsl\"\n#include \"" + longName +
+                                                       "\"\n#include <" + longName);
+    EXPECT_THAT(filesOf(file), testing::Contains(folder / "near.glsl"));
+}
+
 TEST(FileWatch, FindsTheFilesThatAFileNames) {
     const StageFolder folder;
     folder.write("noise.glsl", "");
