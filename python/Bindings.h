@@ -13,15 +13,18 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdint>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 namespace filament::python {
 
 using ModelObject = Held<Model>;
 using EnvironmentObject = Held<Environment>;
 using SceneObject = Held<Scene>;
-using RendererObject = Held<Renderer>;
 using TextureObject = Held<Owned<Texture>>;
 
 struct OwnedMaterial {
@@ -63,6 +66,11 @@ void bindMeshes(py::module_& module, EngineClass& engine);
 void bindScene(py::module_& module);
 void bindRenderer(py::module_& module);
 void bindCompare(py::module_& module);
+
+/// Counts under their names.
+py::dict dictOfCounts(std::initializer_list<std::pair<const char*, uint64_t>> counts);
+/// name, type and array_size of each.
+py::list listOf(std::span<const ParameterDescription> parameters);
 
 /// A value of a parameter of this type from a bool, a number, or a (nested) sequence of numbers.
 ParameterValue parameterOf(ParameterDescription const& parameter, py::handle value);

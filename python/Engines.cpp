@@ -51,14 +51,12 @@ py::list devices() {
 py::dict statisticsOf(EngineObject const& self) {
     const Owner::Call call(*self.owner);
     const EngineStatistics statistics = call.engine().statistics();
-    py::dict dict;
-    dict["draws"] = statistics.draws;
-    dict["pipelines_created"] = statistics.pipelinesCreated;
-    dict["programs_created"] = statistics.programsCreated;
-    dict["programs_from_cache"] = statistics.programsFromCache;
-    dict["commands"] = statistics.commands;
-    dict["device_bytes"] = statistics.deviceBytes;
-    return dict;
+    return dictOfCounts({ { "draws", statistics.draws },
+                          { "pipelines_created", statistics.pipelinesCreated },
+                          { "programs_created", statistics.programsCreated },
+                          { "programs_from_cache", statistics.programsFromCache },
+                          { "commands", statistics.commands },
+                          { "device_bytes", statistics.deviceBytes } });
 }
 
 /// The value of a keyword, by one of the fromName() functions.

@@ -91,7 +91,8 @@ void bindErrors(py::module_& module) {
         { Kind::Memory, "OutOfMemoryError", PyExc_MemoryError, "out of memory",
           "Memory of the host or device is exhausted." },
         { Kind::Thread, "ThreadError", PyExc_RuntimeError, "wrong thread",
-          "An engine was used on another thread than its own: see Engine.use_on_this_thread()." },
+          "An engine was used on another thread than its own, or closed while another call was at work: see "
+          "Engine.use_on_this_thread()." },
         { Kind::Closed, "ClosedError", PyExc_RuntimeError, "closed",
           "Something was used after its engine was closed, or after it was removed from its scene." },
     };

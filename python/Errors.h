@@ -21,7 +21,7 @@ void bindErrors(py::module_& module);
 
 /// Sets the exception of the error's code, and throws it through C++.
 [[noreturn]] void raise(Error const& error);
-/// ThreadError: another thread than the engine's.
+/// ThreadError: another thread than the engine's, or another call is still at work.
 [[noreturn]] void raiseThreadError(std::string_view message);
 /// ClosedError: what is used is gone, because its engine was closed or it was removed from its scene.
 [[noreturn]] void raiseClosedError(std::string_view message);

@@ -97,18 +97,6 @@ std::shared_ptr<MaterialObject> builtIn(EngineObject const& self, std::string co
     return made(self.owner, call.engine(), released([&] { return createBuiltInMaterial(call.engine(), name); }));
 }
 
-py::list parametersOf(MaterialDescription const& description) {
-    py::list list;
-    for (ParameterDescription const& parameter : description.parameters) {
-        py::dict dict;
-        dict["name"] = parameter.name;
-        dict["type"] = toString(parameter.type);
-        dict["array_size"] = parameter.arraySize;
-        list.append(dict);
-    }
-    return list;
-}
-
 py::dict constantsOf(MaterialDescription const& description) {
     py::dict dict;
     for (ConstantDescription const& constant : description.constants) dict[py::str(constant.name)] = constant.value;
@@ -169,7 +157,7 @@ void bindInstance(py::module_& module) {
     py::class_<InstanceObject, std::shared_ptr<InstanceObject>>(
             module, "MaterialInstance", "A material with values of its parameters. From Material.instance().")
             .def_property_readonly(
-                    "parameters", [](InstanceObject const& self) { return parametersOf(self->description); },
+                    "parameters", [](InstanceObject const& self) { return listOf(self->description.parameters); },
                     "name, type and array_size of each parameter that set() takes.")
             .def("set", &setParameter, py::arg("name"), py::arg("value"),
                  "Sets a parameter: a bool, a number, a sequence of numbers, or for arrays a sequence of those. Starts "
@@ -210,7 +198,7 @@ void bindMaterials(py::module_& module, EngineClass& engine) {
                     "name", [](MaterialObject const& self) { return self->description.name; },
                     "The name that it declares.")
             .def_property_readonly(
-                    "parameters", [](MaterialObject const& self) { return parametersOf(self->description); },
+                    "parameters", [](MaterialObject const& self) { return listOf(self->description.parameters); },
                     "name, type and array_size of each parameter.")
             .def_property_readonly(
                     "constants", [](MaterialObject const& self) { return constantsOf(self->description); },

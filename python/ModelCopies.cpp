@@ -51,15 +51,7 @@ MaterialDescription const& describe(Engine& engine, ModelCopy const& parts, std:
 
 py::list parametersOf(CopyObject const& self, std::string const& material) {
     const Owner::Call call(*self.scene->owner());
-    py::list list;
-    for (ParameterDescription const& parameter : describe(call.engine(), self.parts(), material).parameters) {
-        py::dict dict;
-        dict["name"] = parameter.name;
-        dict["type"] = toString(parameter.type);
-        dict["array_size"] = parameter.arraySize;
-        list.append(dict);
-    }
-    return list;
+    return listOf(describe(call.engine(), self.parts(), material).parameters);
 }
 
 void setParameter(CopyObject const& self, std::string const& material, std::string const& name,
@@ -76,20 +68,21 @@ void setParameter(CopyObject const& self, std::string const& material, std::stri
     check(parts.set(material, name, parameterOf(*parameter, value)));
 }
 
+/// By its name or its number.
+uint32_t animationOf(Model const& model, py::object const& given) {
+    if (py::isinstance<py::str>(given)) return valueOf(model.findAnimation(given.cast<std::string>()));
+    const Py_ssize_t number = PyNumber_AsSsize_t(given.ptr(), PyExc_OverflowError);
+    if (number == -1 && PyErr_Occurred()) raiseInvalid("animation: give a name or a whole number");
+    if (number < 0 || number >= static_cast<Py_ssize_t>(model.animationCount()))
+        raiseInvalid("animation: {} is not below {}, the number of the model's", number, model.animationCount());
+    return static_cast<uint32_t>(number);
+}
+
 void animate(CopyObject const& self, py::object const& animation, double seconds) {
     const Owner::Call call(*self.scene->owner());
     self.live();
     Model const& model = **self.model;
-    uint32_t index = 0;
-    if (py::isinstance<py::str>(animation)) {
-        index = valueOf(model.findAnimation(animation.cast<std::string>()));
-    } else {
-        const auto number = animation.cast<int64_t>();
-        if (number < 0 || number >= model.animationCount())
-            raiseInvalid("animation: {} is not below {}, the number of the model's", number, model.animationCount());
-        index = static_cast<uint32_t>(number);
-    }
-    (*self.animator)->apply(index, numberIn(seconds, "seconds", -1e12, 1e12));
+    (*self.animator)->apply(animationOf(model, animation), numberIn(seconds, "seconds", -1e12, 1e12));
 }
 
 void useCamera(CopyObject const& self, ViewObject& view, std::string const& name) {

@@ -77,6 +77,7 @@ void Owner::close() {
     if (!isOpen()) return;
     const std::shared_ptr<Owner> self = shared_from_this(); // what it holds may be the last that refers to it
     { const Call call(*this); }
+    if (mCalls > 0) raiseThreadError("the engine is at work: close it once that call has returned");
     end();
 }
 

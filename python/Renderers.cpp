@@ -17,6 +17,7 @@ struct Drawing {
     Owned<SwapChain> images{};
     uint2 size{ 0 };
     Format format = Format::RGBA8;
+    bool isDrawing = false;
 };
 using DrawingObject = Held<Drawing>;
 
@@ -43,6 +44,21 @@ void checkFrame(Owner& owner) {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// A handler of a signal runs inside of render(): there the renderer is not its own.
+class DrawingMark {
+public:
+    explicit DrawingMark(Drawing& drawing) : mDrawing(drawing) {
+        if (drawing.isDrawing) raiseThreadError("the renderer is at work: draw once that call has returned");
+        drawing.isDrawing = true;
+    }
+    ~DrawingMark() { mDrawing.isDrawing = false; }
+    DrawingMark(DrawingMark const&) = delete;
+    DrawingMark& operator=(DrawingMark const&) = delete;
+
+private:
+    Drawing& mDrawing;
+};
+
 View viewOf(ViewObject const& view, Owner const& owner) {
     View copy = view.view;
     if (view.dirt) {
@@ -61,6 +77,7 @@ py::array render(DrawingObject const& self, SceneObject const& scene, ViewObject
     requireSame(owner, scene, "scene");
     const View settings = viewOf(view, owner);
     Drawing& drawing = *self;
+    const DrawingMark mark(drawing);
     const Scene& content = *scene;
     const Format format = output == "light" ? Format::RGBA16F : Format::RGBA8;
     prepareImages(call.engine(), owner, drawing, settings.size, format);
@@ -99,17 +116,15 @@ py::list decisionsOf(DrawingObject const& self) {
 py::dict statisticsOf(DrawingObject const& self) {
     const Owner::Call call(*self.owner());
     const FrameStatistics statistics = self->renderer.statistics();
-    py::dict dict;
-    dict["frame"] = statistics.frame;
-    dict["renderables"] = statistics.renderables;
-    dict["visible"] = statistics.visible;
-    dict["culled"] = statistics.culled;
-    dict["draws"] = statistics.draws;
-    dict["triangles"] = statistics.triangles;
-    dict["lights"] = statistics.lights;
-    dict["passes_run"] = statistics.passesRun;
-    dict["passes_culled"] = statistics.passesCulled;
-    return dict;
+    return dictOfCounts({ { "frame", statistics.frame },
+                          { "renderables", statistics.renderables },
+                          { "visible", statistics.visible },
+                          { "culled", statistics.culled },
+                          { "draws", statistics.draws },
+                          { "triangles", statistics.triangles },
+                          { "lights", statistics.lights },
+                          { "passes_run", statistics.passesRun },
+                          { "passes_culled", statistics.passesCulled } });
 }
 
 py::list timingsOf(DrawingObject const& self) {

@@ -192,6 +192,46 @@ class Threads(unittest.TestCase):
             other.join()
             engine.close()
 
+    def test_a_handler_of_a_signal_cannot_end_what_is_drawn(self):
+        refused = []
+
+        def ring(*_):
+            for act in (engine.close, lambda: renderer.render(scene, flat_view(16, 8))):
+                try:
+                    act()
+                except fc.ThreadError as error:
+                    refused.append(str(error))
+            raise KeyboardInterrupt
+
+        engine = fc.Engine("null")
+        self.addCleanup(engine.close)
+        scene, renderer = fc.Scene(engine), fc.Renderer(engine)
+        kept = signal.signal(signal.SIGALRM, ring)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
+            self.assertRaises(KeyboardInterrupt, renderer.render, scene, flat_view(8, 8), frames=1_000_000)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, kept)
+        self.assertEqual(len(refused), 2, refused)
+        self.assertIn("close it once", refused[0])
+        self.assertIn("the renderer is at work", refused[1])
+        self.assertFalse(engine.closed)
+
+    def test_what_is_read_of_a_sequence_cannot_end_the_engine(self):
+        class Ends:
+            def __len__(self):
+                return 3
+
+            def __getitem__(self, index):
+                engine.close()
+
+        engine = fc.Engine("null")
+        self.addCleanup(engine.close)
+        instance = engine.built_in_material("lit").instance()
+        self.assertRaises(fc.ThreadError, instance.set, "baseColor", Ends())
+        self.assertFalse(engine.closed)
+
     def test_a_signal_ends_long_work(self):
         class Alarm(Exception):
             pass

@@ -90,6 +90,14 @@ class Messages(unittest.TestCase):
         self.fails(fc.NotFoundError, "brings no environment", self.scene.set_environment, self.engine.load_model(WINDMILL))
         self.assertRaises(TypeError, self.scene.add_mesh, None, material)
 
+    def test_of_animations(self):
+        copy = self.scene.add(self.engine.load_model(WINDMILL))
+        self.fails(fc.InvalidArgumentError, "is not below 1", copy.animate, 1, 0)
+        self.fails(fc.InvalidArgumentError, "is not below 1", copy.animate, -1, 0)
+        for given in (0.5, None, (0,), 1 << 80):
+            self.fails(fc.InvalidArgumentError, "give a name or a whole number", copy.animate, given, 0)
+        self.fails(fc.NotFoundError, "", copy.animate, "no such animation", 0)
+
     def test_of_what_was_removed(self):
         shape = self.scene.add_mesh(quad(self.engine), unlit(self.engine, (1, 1, 1)))
         sun = self.scene.add_sun((0, -1, 0))
