@@ -6,7 +6,7 @@ import math
 import matplotlib.pyplot as plt
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from style import BLUE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, BadInput, field, finite, load_json
+from style import BLUE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, BadInput, field, finite, load_report
 
 BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
 BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
@@ -68,11 +68,7 @@ def read_effect(item, where):
 
 
 def read(path):
-    data = load_json(path)
-    if not isinstance(data, dict) or data.get("program") != "filament-accuracy":
-        raise BadInput(f"{path}: not written by filament-accuracy")
-    if data.get("version") != 1:
-        raise BadInput(f"{path}: version {data.get('version')} of the format; this program reads version 1")
+    data = load_report(path, "filament-accuracy", "filament-accuracy")
     effects = [read_effect(item, str(path)) for item in field(data, "effects", list, str(path))]
     if not effects:
         raise BadInput(f"{path}: no effects in it: was everything skipped?")

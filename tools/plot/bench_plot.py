@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from style import BLUE, CONTENDER_COLORS, CONTENDER_LABELS, GREEN, ORANGE, PINK, RED, BadInput, field, finite, load_json
+from style import BLUE, CONTENDER_COLORS, CONTENDER_LABELS, GREEN, ORANGE, PINK, RED, BadInput, field, finite, load_report
 
 SERIES_COLORS = (BLUE, ORANGE, GREEN, PINK, RED)
 
@@ -57,11 +57,7 @@ def read_workload(item, where):
 
 
 def read(path):
-    data = load_json(path)
-    if not isinstance(data, dict) or data.get("program") != "threading_bench":
-        raise BadInput(f"{path}: not written by threading_bench --json")
-    if data.get("version") != 1:
-        raise BadInput(f"{path}: version {data.get('version')} of the format; this program reads version 1")
+    data = load_report(path, "threading_bench", "threading_bench --json")
     workloads = [read_workload(item, str(path)) for item in field(data, "workloads", list, str(path))]
     if not workloads:
         raise BadInput(f"{path}: no workloads in it: was everything filtered out?")

@@ -41,6 +41,16 @@ def load_json(path):
         raise BadInput(f"{path}: no valid JSON ({where}): was it written to the end?") from error
 
 
+def load_report(path, program, written_by):
+    """The object that `program` wrote, in version 1 of its format. `written_by`: the command, for people."""
+    data = load_json(path)
+    if not isinstance(data, dict) or data.get("program") != program:
+        raise BadInput(f"{path}: not written by {written_by}")
+    if data.get("version") != 1:
+        raise BadInput(f"{path}: version {data.get('version')} of the format; this program reads version 1")
+    return data
+
+
 def field(container, name, kinds, where):
     """container[name], which must be one of `kinds`."""
     value = container.get(name) if isinstance(container, dict) else None
