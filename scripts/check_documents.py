@@ -55,7 +55,8 @@ def check(root):
         for line, target in targets(document):
             shown.add(target.resolve())
             if not target.exists():
-                wrong.append(f"{document.relative_to(root)}:{line}: there is no {target.relative_to(document.parent)}")
+                name = target.relative_to(document.parent) if target.is_relative_to(document.parent) else target
+                wrong.append(f"{document.relative_to(root)}:{line}: there is no {name}")
     for file in files:
         if file.suffix in PICTURES and file.relative_to(root).parts[0] == "docs" and file.resolve() not in shown:
             wrong.append(f"{file.relative_to(root)}:1: no document shows this picture")

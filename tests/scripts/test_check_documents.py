@@ -42,6 +42,8 @@ class Documents(unittest.TestCase):
         self.assert_broken({"a.md": "\n\n[x](b/c.md)"}, "a.md:3: there is no b/c.md")
         self.assert_broken({"docs/p.html": '<img src="p/x.png">'}, "docs/p.html:1: there is no p/x.png")
         self.assert_broken({"a.md": "![x](<x.svg>)"}, "a.md:1: there is no x.svg")
+        self.assert_broken({"docs/a.md": "[x](/nowhere/x.md)"}, "docs/a.md:1: there is no /nowhere/x.md")
+        self.assert_broken({"docs/a.md": "[x](../y.md)"}, "docs/a.md:1: there is no ../y.md")
 
     def test_a_picture_that_no_document_shows_is_reported(self):
         self.assert_broken({"a.md": "text", "docs/p/x.png": ""}, "docs/p/x.png:1: no document shows this picture")
