@@ -58,7 +58,7 @@ Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget con
     mDocument.view.size = max(target.pixels, uint2(1));
     if (!options.model.empty())
         (void)mRecent.add(options.model); // a list that cannot be written is no reason to say so
-    mPanels.state.fileDialog.recent = mRecent.files();
+    mPanels.fileDialog.recent = mRecent.files();
     mPanels.state.showsPanels = options.panels;
     mCompared.mode = options.compare;
     mGizmo.scale = static_cast<double>(mUi.scale());
@@ -151,7 +151,7 @@ void Viewer::handle(InputEvent const& event) {
     auto const* key = std::get_if<KeyEvent>(&event);
     auto const* button = std::get_if<MouseButtonEvent>(&event);
     const bool isRelease = (key && !key->isDown) || (button && !button->isDown); // of what was pressed over the scene
-    const bool isForDialog = key && mPanels.state.fileDialog.isOpen();
+    const bool isForDialog = key && mPanels.fileDialog.isOpen();
     if ((isTaken || isForDialog) && !isRelease && !mHands.isDragging() && !mGizmo.isDragging()) return;
     const InputEvent placed = inPicture(event, mOffset);
     if (auto const* move = std::get_if<MouseMoveEvent>(&placed)) mInspector.point(uint2(max(move->pixel, float2(0))));
@@ -217,7 +217,7 @@ void Viewer::perform(Action action) {
         mIsClosed = true;
         break;
     case Action::Open:
-        mPanels.state.fileDialog.open(FilePurpose::Open);
+        mPanels.fileDialog.open(FilePurpose::Open);
         break;
     case Action::SaveDocument:
         saveDocumentFile();
@@ -313,7 +313,7 @@ void Viewer::perform(Action action) {
         savePicture();
         break;
     case Action::SavePictureAs:
-        mPanels.state.fileDialog.open(FilePurpose::SavePicture, freshName(".png").filename().string());
+        mPanels.fileDialog.open(FilePurpose::SavePicture, freshName(".png").filename().string());
         break;
     case Action::SaveFrame:
         saveFrame();
@@ -331,7 +331,7 @@ double Viewer::idleSeconds() const {
                        (mPanels.requests.inspectsPixel && mInspector.isWaiting());
     const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
     PanelState const& state = mPanels.state;
-    const bool waits = state.path.isPlaying || state.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
+    const bool waits = state.path.isPlaying || mPanels.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
     return moves || saves || waits ? kShortWait : kLongWait; // files are looked at four times a second
 }
 
@@ -426,7 +426,7 @@ bool Viewer::step(double seconds) {
 }
 
 bool Viewer::drawIfDue(double seconds) {
-    const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.state.fileDialog.isReading();
+    const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.fileDialog.isReading();
     if (!hasWork || isHidden() || !mStage->renderer().mayPresent(mChain)) return false;
     if (mFramesToDraw > 0) --mFramesToDraw;
     draw(seconds);

@@ -29,13 +29,13 @@ void Viewer::open(std::filesystem::path const& file) {
     if (const Result<void> shown = showFile(mDocument, file); !shown) return note(shown.error().message);
     if (mDocument.paths.size() > paths) mPanels.state.path = { .path = mDocument.paths.size() - 1 };
     const Result<void> kept = mRecent.add(file);
-    mPanels.state.fileDialog.recent = mRecent.files();
+    mPanels.fileDialog.recent = mRecent.files();
     if (!kept) note(kept.error().message);
     touch();
 }
 
 void Viewer::followFileDialog() {
-    const std::optional<ChosenFile> chosen = mPanels.state.fileDialog.takeChosen();
+    const std::optional<ChosenFile> chosen = mPanels.fileDialog.takeChosen();
     if (!chosen) return;
     touch();
     PathState& state = mPanels.state.path;
@@ -110,7 +110,7 @@ void Viewer::recordPath() {
                          .path = shownPath(mDocument, mPanels.state.path),
                          .engine = engineOptions(mStage->engine().device().backend) };
     request.engine.display = {};
-    RecordingState const& recording = mPanels.state.recording;
+    RecordingSettings const& recording = mPanels.state.recording;
     request.series.framesPerSecond = recording.framesPerSecond;
     request.series.format = pictureFormatOf(recording.kind);
     if (recording.kind == FrameKind::Video)
@@ -126,13 +126,9 @@ void Viewer::pollSaving() {
         for (std::string& line : *lines) note(std::move(line));
     if (auto lines = mRecorder.poll())
         for (std::string& line : *lines) note(std::move(line));
-    RecordingState& state = mPanels.state.recording;
     PathProgress const& progress = mRecorder.progress();
-    const bool isSame = state.isRunning == mRecorder.isBusy() && state.done == progress.done;
-    state.isRunning = mRecorder.isBusy();
-    state.done = progress.done;
-    state.total = progress.total;
-    if (!isSame) touch();
+    const RecordingProgress now{ mRecorder.isBusy(), progress.done, progress.total };
+    if (std::exchange(mPanels.inputs.recording, now) != now) touch();
 }
 
 } // namespace filament::view

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/gizmo/GizmoDrag.h"
 
+#include "tools/common/RoundStep.h"
+
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -83,30 +85,27 @@ double factorOf(GizmoDrag const& drag, double2 to) {
     return armOf(drag, to) / std::max(armOf(drag, drag.from), kLeastArm * handleMeters(drag.frame, drag.view));
 }
 
-bool isOfAxes(GizmoPart part) { return isAxis(part) || isPlane(part) || part == GizmoPart::Screen; }
+bool isMovable(GizmoPart part) { return isAxis(part) || isPlane(part) || part == GizmoPart::Screen; }
+bool isRing(GizmoPart part) { return isAxis(part) || part == GizmoPart::Screen; }
 
 } // namespace
 
 GizmoSteps stepsOf(GizmoFrame const& frame, PictureView const& view) {
     const double least = kLeastStepPixels * metersPerPixel(view, frame.originWorld);
-    const double decade = std::pow(10.0, std::floor(std::log10(least)));
-    double meters = decade;
-    for (const double factor : { 10.0, 5.0, 2.0, 1.0 })
-        if (decade * factor >= least) meters = decade * factor;
-    return { .meters = meters, .radians = glm::radians(15.0), .scale = 0.1 };
+    return { .meters = roundStep(least), .radians = glm::radians(15.0), .scale = 0.1 };
 }
 
 double snapped(double value, double step) { return step > 0 ? std::round(value / step) * step : value; }
 
 double4x4 worldChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
-    const bool hasWay = isOfAxes(drag.part);
-    if (hasWay && drag.mode == GizmoMode::Move) return glm::translate(double4x4(1.0), translationOf(drag, to, steps));
-    if (hasWay && drag.mode == GizmoMode::Rotate) return rotationOf(drag, to, steps);
+    if (drag.mode == GizmoMode::Move && isMovable(drag.part))
+        return glm::translate(double4x4(1.0), translationOf(drag, to, steps));
+    if (drag.mode == GizmoMode::Rotate && isRing(drag.part)) return rotationOf(drag, to, steps);
     return double4x4(1.0);
 }
 
 double3 scaleChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
-    if (!isOfAxes(drag.part) || drag.mode != GizmoMode::Scale) return double3(1);
+    if (drag.mode != GizmoMode::Scale || !isMovable(drag.part)) return double3(1);
     const double factor =
             std::clamp(snapped(factorOf(drag, to), steps.scale), std::max(kLeastScale, steps.scale), kMostScale);
     double3 scale(factor);

@@ -30,7 +30,8 @@ struct GizmoSteps {
 GizmoSteps stepsOf(GizmoFrame const& frame, PictureView const& view);
 double snapped(double value, double step); ///< `step` 0: as it is
 
-/// What happens in the world: a translation, or a rotation about the origin of the frame. One for parts that do neither.
+/// What happens in the world: a translation, or a rotation about the origin of the frame. One for parts that
+/// do neither, such as planes, which have no rotation.
 double4x4 worldChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps = {});
 /// Of GizmoMode::Scale, for each axis of the frame.
 double3 scaleChange(GizmoDrag const& drag, double2 to, GizmoSteps const& steps = {});

@@ -18,6 +18,18 @@ constexpr double kLeastSine = 0.2;  // of the angle between the view and an arro
 constexpr double kRingBehind = 0.1; // of its radius: how much of a ring is seen beyond its outline
 constexpr int kCircleLines = 64;
 
+/// Calls visit(from, to) for the sides of a polygon in the circle of radius 1.
+template <class Visit>
+void forCircle(Visit const& visit) {
+    double2 last(1, 0);
+    for (int i = 1; i <= kCircleLines; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kCircleLines;
+        const double2 next(std::cos(angle), std::sin(angle));
+        visit(last, next);
+        last = next;
+    }
+}
+
 struct Builder {
     GizmoMode mode;
     GizmoFrame const& frame;
@@ -78,15 +90,11 @@ struct Builder {
         Handle handle{ .part = static_cast<GizmoPart>(static_cast<int>(GizmoPart::AxisX) + axis) };
         const double3 x = frame.axes[(axis + 1) % 3], y = frame.axes[(axis + 2) % 3];
         const double3 eye = towardsEye(view, frame.originWorld);
-        double3 last(0);
-        for (int i = 0; i <= kCircleLines; ++i) {
-            const double angle = 2 * std::numbers::pi * i / kCircleLines;
-            const double3 next = x * std::cos(angle) + y * std::sin(angle);
-            const bool isInFront = glm::dot(next + last, eye) / 2 > -kRingBehind;
-            if (i > 0 && isInFront)
-                addLine(handle, view, frame.originWorld + last * length, frame.originWorld + next * length);
-            last = next;
-        }
+        forCircle([&](double2 from, double2 to) {
+            const double3 begin = x * from.x + y * from.y, end = x * to.x + y * to.y;
+            const bool isInFront = glm::dot(begin + end, eye) / 2 > -kRingBehind;
+            if (isInFront) addLine(handle, view, frame.originWorld + begin * length, frame.originWorld + end * length);
+        });
         handles.push_back(std::move(handle));
     }
 
@@ -95,13 +103,9 @@ struct Builder {
         if (!center) return;
         Handle handle{ .part = GizmoPart::Screen };
         const double radius = kOuterRing * frame.pixels;
-        double2 last(center->x + radius, center->y);
-        for (int i = 1; i <= kCircleLines; ++i) {
-            const double angle = 2 * std::numbers::pi * i / kCircleLines;
-            const double2 next = *center + radius * double2(std::cos(angle), std::sin(angle));
-            handle.lines.push_back({ last, next });
-            last = next;
-        }
+        forCircle([&](double2 from, double2 to) {
+            handle.lines.push_back({ *center + radius * from, *center + radius * to });
+        });
         handles.push_back(std::move(handle));
     }
 };
@@ -215,13 +219,9 @@ void addLine(Handle& handle, PictureView const& view, double3 fromWorld, double3
 }
 
 void addCircle(Handle& handle, PictureView const& view, double3 centerWorld, double3 x, double3 y) {
-    double3 last = centerWorld + x;
-    for (int i = 1; i <= kCircleLines; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kCircleLines;
-        const double3 next = centerWorld + x * std::cos(angle) + y * std::sin(angle);
-        addLine(handle, view, last, next);
-        last = next;
-    }
+    forCircle([&](double2 from, double2 to) {
+        addLine(handle, view, centerWorld + x * from.x + y * from.y, centerWorld + x * to.x + y * to.y);
+    });
 }
 
 void addDot(Handle& handle, PictureView const& view, double3 atWorld, double pixels) {

@@ -12,8 +12,7 @@ namespace filament::view {
 namespace {
 
 constexpr double kDotPixels = 11;
-constexpr float kRightAngle = 1.5707963f; // Fields<SpotLight>
-constexpr float kLeastCone = 0.001f, kLeastRange = 0.001f;
+constexpr float kLeastRange = 0.001f;
 
 template <class L>
 concept HasPosition = requires(L light) {
@@ -183,8 +182,7 @@ void setCone(SpotLight& light, GizmoDrag const& drag, double2 to, GizmoSteps con
     };
     const auto angle = static_cast<float>(snapped(before + angleAt(to) - angleAt(drag.from), steps.radians / 3));
     if (isOuter)
-        light.outerConeRadians =
-                std::clamp(angle, std::min(light.innerConeRadians + kLeastCone, kRightAngle), kRightAngle);
+        light.outerConeRadians = std::clamp(angle, std::min(light.innerConeRadians + kLeastCone, kMostCone), kMostCone);
     else
         light.innerConeRadians = std::clamp(angle, 0.0f, std::max(light.outerConeRadians - kLeastCone, 0.0f));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/CostPlot.h"
 
+#include "tools/common/RoundStep.h"
 #include "tools/view/panels/PanelText.h"
 
 #include <fmt/format.h>
@@ -18,12 +19,9 @@ constexpr double kNearZero = 0.5; // of the range: zero is then shown, too
 constexpr std::array kMeasuredPresets{ QualityPreset::Low, QualityPreset::Medium, QualityPreset::High,
                                        QualityPreset::Reference };
 
-bool isSameSetting(QualitySetting const& a, QualitySetting const& b) {
-    return a.quality == b.quality && a.samples == b.samples;
-}
-
 void addUnlessKnown(std::vector<QualitySetting>& settings, QualitySetting setting) {
-    const auto isKnown = [&](QualitySetting const& other) { return isSameSetting(other, setting); };
+    const View with{ .quality = setting.quality, .samples = setting.samples };
+    const auto isKnown = [&](QualitySetting const& other) { return hasSetting(with, other); };
     if (std::ranges::none_of(settings, isKnown)) settings.push_back(std::move(setting));
 }
 
@@ -102,10 +100,7 @@ PlotScale scaleOf(std::span<const MeasuredSetting> points, float2 origin, float2
 std::vector<double> ticksOf(double least, double most, uint32_t count) {
     std::vector<double> ticks;
     if (!(most > least) || count == 0) return ticks;
-    const double wanted = (most - least) / count, power = std::pow(10.0, std::floor(std::log10(wanted)));
-    double step = 10 * power;
-    for (const double factor : { 5.0, 2.0, 1.0 })
-        if (factor * power >= wanted) step = factor * power;
+    const double step = roundStep((most - least) / count);
     for (double i = std::ceil(least / step); i * step <= most; ++i) ticks.push_back(i * step);
     return ticks;
 }

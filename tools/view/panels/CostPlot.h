@@ -18,7 +18,7 @@
 namespace filament::view {
 
 struct QualitySetting {
-    std::string name{}; ///< "shadows=pcf5", "preset fast", "as it is"
+    std::string name{}; ///< "shadows=pcf5", "samples=4", "preset high", "as it is": the label of the point
     Quality quality{};
     uint8_t samples = 1; ///< View::samples
 };

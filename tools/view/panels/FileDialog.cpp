@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 namespace filament::view {
 namespace {
@@ -27,10 +26,6 @@ const char* titleOf(FilePurpose purpose) {
                                   "Load a camera path###files", "Save the camera path###files",
                                   "Save the picture###files" };
     return kTitles[static_cast<size_t>(purpose)];
-}
-
-bool isReady(std::shared_future<FolderList> const& reading) {
-    return reading.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 bool isPath(std::string const& text) { return text.find('/') != std::string::npos; }
@@ -65,64 +60,90 @@ void FileDialog::goTo(std::filesystem::path const& folder) {
     if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path(); // "models/" is "models"
     mFolder = whole;
     mList = {}; // its names belong to another folder
+    mIsShownCurrent = false;
     mSelected = 0;
     mHasMoved = true;
     mToReplace.clear();
-    if (mReading.valid()) mAbandoned.push_back(std::move(mReading));
-    mReading = std::async(std::launch::async, [whole, endings = endingsOf(mPurpose)] {
-                   return listFolder(whole, endings);
-               }).share();
+    dropQuestion();
+    mAbandoned.add(mReading);
+    mReading.emplace([whole, endings = endingsOf(mPurpose)] { return listFolder(whole, endings); });
 }
 
-void FileDialog::pollReading() {
-    std::erase_if(mAbandoned, isReady);
-    if (!mReading.valid() || !isReady(mReading)) return;
-    mList = mReading.get();
-    mReading = {};
+void FileDialog::close() {
+    mIsOpen = false;
+    dropQuestion();
+    mAbandoned.add(mReading); // open() reads again
+}
+
+void FileDialog::dropQuestion() { mAbandoned.add(mLooking); }
+
+void FileDialog::poll() {
+    mAbandoned.removeFinished();
+    if (auto list = takeFinished(mReading)) {
+        mList = std::move(*list);
+        mIsShownCurrent = false;
+    }
+    if (const auto typed = takeFinished(mLooking)) follow(*typed);
+}
+
+/// A name to save to gets an ending, unless it is a folder.
+void FileDialog::lookUp(std::filesystem::path typed) {
+    dropQuestion();
+    std::filesystem::path file = typed;
+    const std::span<const std::string_view> endings = endingsOf(mPurpose);
+    if (isSaving(mPurpose) && !endsAsAsked(typed.string(), endings)) file += endings.front();
+    mLooking.emplace([typed = std::move(typed), file = std::move(file)] {
+        if (kindOfPath(typed) == PathKind::Folder) return Typed{ typed, PathKind::Folder };
+        return Typed{ file, kindOfPath(file) };
+    });
+}
+
+void FileDialog::follow(Typed const& typed) {
+    if (typed.kind == PathKind::Folder) {
+        mField.clear();
+        return goTo(typed.path);
+    }
+    if (!isSaving(mPurpose)) {
+        if (typed.kind == PathKind::File) choose(typed.path);
+        return;
+    }
+    if (typed.kind == PathKind::Missing || typed.path == mToReplace) return choose(typed.path);
+    mToReplace = typed.path;
 }
 
 void FileDialog::choose(std::filesystem::path const& file) {
-    std::error_code ignored;
-    if (isSaving(mPurpose) && file != mToReplace && std::filesystem::exists(file, ignored)) {
-        mToReplace = file;
-        return;
-    }
     mChosen = ChosenFile{ mPurpose, file };
-    mIsOpen = false;
+    close();
 }
 
 void FileDialog::enterEntry(FolderEntry const& entry) {
-    if (!entry.isFolder) return choose(mFolder / entry.name);
-    if (!isSaving(mPurpose)) mField.clear();
-    goTo(mFolder / entry.name);
-}
-
-/// What is written, if it is a path. A name to save to gets an ending.
-void FileDialog::enterTyped() {
-    if (mField.empty()) return;
-    const std::filesystem::path typed = mFolder / mField; // an absolute one takes its place
-    std::error_code ignored;
-    if (std::filesystem::is_directory(typed, ignored)) {
-        mField.clear();
-        return goTo(typed);
+    const std::filesystem::path path = mFolder / entry.name;
+    if (entry.isFolder) {
+        if (!isSaving(mPurpose)) mField.clear();
+        return goTo(path);
     }
-    if (isSaving(mPurpose)) {
-        const std::span<const std::string_view> endings = endingsOf(mPurpose);
-        return choose(endsAsAsked(typed.string(), endings)
-                              ? typed
-                              : std::filesystem::path(typed.string() + std::string(endings.front())));
+    if (isSaving(mPurpose)) return lookUp(path);
+    choose(path);
+}
+
+void FileDialog::enter() {
+    if (isSaving(mPurpose) || isPath(mField)) {
+        if (!mField.empty()) lookUp(mFolder / mField); // an absolute path takes the folder's place
+        return;
     }
-    if (std::filesystem::is_regular_file(typed, ignored)) choose(typed);
+    if (mSelected < mShown.size()) enterEntry(mList.entries[mShown[mSelected]]);
 }
 
-void FileDialog::enter(std::vector<size_t> const& shown) {
-    if (isSaving(mPurpose) || isPath(mField)) return enterTyped();
-    if (mSelected < shown.size() && shown[mSelected] < mList.entries.size()) // unless the folder has changed since
-        enterEntry(mList.entries[shown[mSelected]]);
+void FileDialog::updateShown() {
+    std::string filter = isSaving(mPurpose) || isPath(mField) ? "" : mField;
+    if (mIsShownCurrent && filter == mShownFilter) return;
+    mShownFilter = std::move(filter);
+    mShown = matching(mList.entries, mShownFilter);
+    mIsShownCurrent = true;
 }
 
-void FileDialog::walk(std::vector<size_t> const& shown) {
-    const size_t before = mSelected, last = shown.empty() ? 0 : shown.size() - 1;
+void FileDialog::walk() {
+    const size_t before = mSelected, last = mShown.empty() ? 0 : mShown.size() - 1;
     if (isPressed(ImGuiKey_UpArrow) && mSelected > 0) --mSelected;
     if (isPressed(ImGuiKey_DownArrow)) ++mSelected;
     if (isPressed(ImGuiKey_PageUp)) mSelected -= std::min(mSelected, kRowsOfPage);
@@ -154,37 +175,48 @@ void FileDialog::drawRecent() {
     if (!recent.empty()) ImGui::Separator();
 }
 
-void FileDialog::drawEntries(std::vector<size_t> const& shown) {
+std::optional<size_t> FileDialog::drawRow(size_t row) {
+    FolderEntry const& entry = mList.entries[mShown[row]];
+    std::optional<size_t> clicked;
+    ImGui::PushID(static_cast<int>(row));
+    if (ImGui::Selectable("##entry", row == mSelected, ImGuiSelectableFlags_AllowDoubleClick)) {
+        mSelected = row;
+        dropQuestion();
+        if (isSaving(mPurpose) && !entry.isFolder) mField = entry.name, mToReplace.clear();
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) clicked = row;
+    }
+    if (row == mSelected && mHasMoved) ImGui::SetScrollHereY();
+    ImGui::SameLine(0, 0);
+    ImGui::TextUnformatted((shownName(entry.name) + (entry.isFolder ? "/" : "")).c_str());
+    if (!entry.isFolder) {
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::GetFontSize() * 5);
+        ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
+    }
+    ImGui::PopID();
+    return clicked;
+}
+
+void FileDialog::drawEntries() {
     const float below = ImGui::GetFrameHeightWithSpacing() * 2;
+    std::optional<size_t> clicked;
     if (ImGui::BeginChild("entries", { 0, -below }, true)) {
-        std::optional<size_t> clicked;
-        for (size_t row = 0; row < shown.size(); ++row) {
-            FolderEntry const& entry = mList.entries[shown[row]];
-            ImGui::PushID(static_cast<int>(row));
-            if (ImGui::Selectable("##entry", row == mSelected, ImGuiSelectableFlags_AllowDoubleClick)) {
-                mSelected = row;
-                if (isSaving(mPurpose) && !entry.isFolder) mField = entry.name, mToReplace.clear();
-                if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) clicked = row;
-            }
-            if (row == mSelected && mHasMoved) ImGui::SetScrollHereY();
-            ImGui::SameLine(0, 0);
-            ImGui::TextUnformatted((shownName(entry.name) + (entry.isFolder ? "/" : "")).c_str());
-            if (!entry.isFolder) {
-                ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::GetFontSize() * 5);
-                ImGui::TextDisabled("%s", bytesText(entry.bytes).c_str());
-            }
-            ImGui::PopID();
-        }
+        ImGuiListClipper clipper;
+        clipper.Begin(static_cast<int>(mShown.size()));
+        const auto selected = static_cast<int>(mSelected);
+        if (mHasMoved && mSelected < mShown.size()) clipper.ForceDisplayRangeByIndices(selected, selected + 1);
+        while (clipper.Step())
+            for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
+                if (const auto twice = drawRow(static_cast<size_t>(row))) clicked = twice;
         mHasMoved = false;
-        if (shown.empty())
-            ImGui::TextDisabled("%s", isReading()             ? "reading ..."
+        if (mShown.empty())
+            ImGui::TextDisabled("%s", mReading                ? "reading ..."
                                       : !mList.error.empty()  ? mList.error.c_str()
                                       : mList.entries.empty() ? "nothing here that can be opened"
                                                               : "no name has these words");
         if (mList.isCut) ImGui::TextDisabled("more than %zu entries: type a path", kMostEntries);
-        if (clicked) enterEntry(mList.entries[shown[*clicked]]);
     }
     ImGui::EndChild();
+    if (clicked) enterEntry(mList.entries[mShown[*clicked]]);
 }
 
 /// Keeps the keyboard, so that keys do not reach the scene. True: its text has changed.
@@ -198,8 +230,8 @@ bool FileDialog::drawField(bool hasKeys) {
     return isChanged;
 }
 
-void FileDialog::drawButtons(std::vector<size_t> const& shown) {
-    if (ImGui::Button(isSaving(mPurpose) ? "save" : "open")) enter(shown);
+void FileDialog::drawButtons() {
+    if (ImGui::Button(isSaving(mPurpose) ? "save" : "open")) enter();
     ImGui::SameLine();
     if (ImGui::Button("cancel")) close();
     if (mToReplace.empty()) return;
@@ -208,7 +240,7 @@ void FileDialog::drawButtons(std::vector<size_t> const& shown) {
 }
 
 void FileDialog::draw() {
-    pollReading();
+    poll();
     if (!mIsOpen) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFontSize();
@@ -218,17 +250,22 @@ void FileDialog::draw() {
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize;
     bool staysOpen = true;
     if (ImGui::Begin(titleOf(mPurpose), &staysOpen, kFlags)) {
-        const std::string filter = isSaving(mPurpose) || isPath(mField) ? "" : mField;
-        const std::vector<size_t> shown = matching(mList.entries, filter);
         drawPlace();
         drawRecent();
+        updateShown(); // of the folder that these two may have left
         const bool hasKeys = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
-        if (hasKeys) walk(shown);
-        if (hasKeys && (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter))) enter(shown);
+        if (hasKeys) walk();
+        if (hasKeys && (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter))) enter();
         if (hasKeys && isPressed(ImGuiKey_Escape)) close();
-        drawEntries(mList.entries.empty() ? std::vector<size_t>{} : shown); // enter() may have left the folder
-        if (drawField(hasKeys)) mSelected = 0, mToReplace.clear();
-        drawButtons(shown);
+        updateShown();
+        drawEntries();
+        if (drawField(hasKeys)) {
+            mSelected = 0;
+            mToReplace.clear();
+            dropQuestion();
+        }
+        updateShown();
+        drawButtons();
         mIsNew = false;
     }
     ImGui::End();

@@ -61,6 +61,14 @@ size_t bytesOfCharacter(std::string_view text) {
 
 } // namespace
 
+PathKind kindOfPath(std::filesystem::path const& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) return PathKind::Missing;
+    if (std::filesystem::is_directory(status)) return PathKind::Folder;
+    return std::filesystem::is_regular_file(status) ? PathKind::File : PathKind::Other;
+}
+
 bool endsAsAsked(std::string name, std::span<const std::string_view> endings) {
     std::ranges::transform(name, name.begin(), lower);
     return endings.empty() ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FolderList: what of a folder a file dialog shows.
+/// FolderList: what of a folder a file dialog shows, and what a path is.
 ///   Order    folders first, then files; by name, without regard to case, digits by their value: "view 9" before "view 10".
 ///   Without  hidden names, files that do not end as asked for, and what is neither file nor folder.
 ///   Limits   kMostEntries, in the order in which the system names them: isCut.
@@ -29,6 +29,14 @@ struct FolderList {
     std::string error{};
     bool isCut = false;
 };
+
+enum class PathKind : uint8_t {
+    Missing, ///< or what cannot be looked at
+    File,    ///< a regular one
+    Folder,
+    Other, ///< a pipe, a device
+};
+PathKind kindOfPath(std::filesystem::path const& path); ///< follows links
 
 /// `endings`: lower case, with the dot: ".glb"; files are compared without regard to case. None: all files.
 FolderList listFolder(std::filesystem::path const& folder, std::span<const std::string_view> endings);

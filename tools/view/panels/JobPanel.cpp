@@ -71,6 +71,10 @@ float drawLane(ImDrawList& list, LanePlace const& place, JobLane const& lane, fl
     return static_cast<float>(lane.rows) * place.row + place.row * 0.4f;
 }
 
+TimeWindow shownWindow(PanelState const& state, JobLanes const& jobs) {
+    return state.jobWindow ? *state.jobWindow : newestFrames(jobs, kFramesShown);
+}
+
 float heightOf(JobLanes const& lanes, float row) {
     float height = 0;
     for (JobLane const& lane : lanes.lanes) height += static_cast<float>(lane.rows) * row + row * 0.4f;
@@ -88,17 +92,17 @@ void followMouse(PanelState& state, LanePlace const& place, TimeWindow const& wh
     if (place.isHovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) state.jobWindow.reset();
 }
 
-void drawLanes(PanelState& state, JobLanes const& jobs) {
+void drawLanes(PanelState& state, JobLanes const& jobs, TimeWindow const& window) {
     const float line = ImGui::GetFontSize();
     LanePlace place{ .origin = ImGui::GetCursorScreenPos(), .names = line * 10, .row = line * 1.2f };
     place.width = std::max(ImGui::GetContentRegionAvail().x - place.names, 1.0f);
-    place.window = state.jobWindow.value_or(newestFrames(jobs, kFramesShown));
-    if (!(place.window.seconds() > 0)) return;
-    ImGui::InvisibleButton("lanes", { place.names + place.width, heightOf(jobs, place.row) });
+    place.window = window;
+    if (!(window.seconds() > 0)) return;
+    const ImVec2 size{ place.names + place.width, heightOf(jobs, place.row) };
+    ImGui::InvisibleButton("lanes", size);
     place.isHovered = ImGui::IsItemHovered();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.PushClipRect({ place.origin.x, place.origin.y },
-                      { place.origin.x + place.names + place.width, place.origin.y + heightOf(jobs, place.row) }, true);
+    list.PushClipRect(place.origin, { place.origin.x + size.x, place.origin.y + size.y }, true);
     float top = place.origin.y;
     for (JobLane const& lane : jobs.lanes) top += drawLane(list, place, lane, top);
     list.PopClipRect();
@@ -115,7 +119,7 @@ void drawJobTimeline(PanelFrame& frame) {
     tooltip("stays with the frames that are shown");
     JobLanes const& jobs = frame.inputs.jobs;
     if (jobs.isEmpty()) return quietText("nothing has been recorded yet");
-    const TimeWindow window = state.jobWindow.value_or(newestFrames(jobs, kFramesShown));
+    const TimeWindow window = shownWindow(state, jobs);
     ImGui::PushTextWrapPos(0);
     quietText(fmt::format("{} of {}; the wheel looks closer, a drag moves, a double click shows the newest {} frames",
                           millisecondsText(window.seconds() * 1e3), millisecondsText(jobs.whole.seconds() * 1e3),
@@ -123,7 +127,7 @@ void drawJobTimeline(PanelFrame& frame) {
     ImGui::PopTextWrapPos();
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoScrollWithMouse; // the wheel looks closer
     if (ImGui::BeginChild("job lanes", { 0, ImGui::GetContentRegionAvail().y * 0.7f }, false, kFlags))
-        drawLanes(state, jobs);
+        drawLanes(state, jobs, window);
     ImGui::EndChild();
 }
 

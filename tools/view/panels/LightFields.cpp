@@ -11,7 +11,7 @@ namespace filament::view {
 namespace {
 
 constexpr std::array<std::string_view, kLightKinds> kKindNames{ "sun", "point", "spot", "rectangle", "disc", "tube" };
-constexpr float kMostMeters = 1e4f, kMostIntensity = 1e9f, kQuarterTurn = 1.5707963f;
+constexpr float kMostMeters = 1e4f, kMostIntensity = 1e9f;
 
 struct FieldList {
     std::vector<LightField> fields;
@@ -47,8 +47,9 @@ struct FieldList {
     void add(SpotLight& light) {
         place(light.positionWorld);
         direction("direction", light.directionWorld);
-        number("inner cone, radians", light.innerConeRadians, 0, kQuarterTurn);
-        number("outer cone, radians", light.outerConeRadians, 0, kQuarterTurn);
+        number("inner cone, radians", light.innerConeRadians, 0, std::max(light.outerConeRadians - kLeastCone, 0.0f));
+        number("outer cone, radians", light.outerConeRadians, std::min(light.innerConeRadians + kLeastCone, kMostCone),
+               kMostCone);
         addPunctual(light);
     }
     void addPunctual(auto& light) {

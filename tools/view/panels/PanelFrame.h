@@ -25,6 +25,7 @@ struct PanelFrame {
     MaterialCost const& materialCost;
     LatencyMeter const& latency;
     PixelReport const& pixel;
+    FileDialog& fileDialog;
 };
 
 void drawScenePanel(PanelFrame& frame);

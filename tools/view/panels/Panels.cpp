@@ -73,12 +73,12 @@ void Panels::draw(Document& document, Stage& stage) {
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);
-    PanelFrame frame{ document, stage,    state,    requests,      inputs,  mNodes,
-                      mOptions, mHistory, mChanges, mMaterialCost, latency, pixel };
+    PanelFrame frame{ document, stage,    state,         requests, inputs, mNodes,    mOptions,
+                      mHistory, mChanges, mMaterialCost, latency,  pixel,  fileDialog };
     drawTabs("left", mLayout.left, kLeftTabs, frame);
     drawTabs("right", mLayout.right, kRightTabs, frame);
     drawLoadProgress(frame, mLayout.picture);
-    state.fileDialog.draw();
+    fileDialog.draw();
     drawShortcutList(state);
 }
 

@@ -64,8 +64,7 @@ struct PanelState {
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
     bool showsPanels = true, showsShortcuts = false;
     PathState path{};
-    RecordingState recording{};
-    FileDialog fileDialog{};
+    RecordingSettings recording{};
     FrameKind pictureKind = FrameKind::Png;       ///< of saved pictures; not Video
     std::string injectedDefect{}, defectFilter{}; ///< of PanelInputs::defects, into the other API; empty: none
     std::optional<TimeWindow> jobWindow{};        ///< of the timeline that is looked at; none: the newest frames
@@ -101,6 +100,7 @@ struct PanelInputs {
     CostPlot costs{};
     bool isCostOfOther = false; ///< the costs are of another scene, camera or size than those of the document
     JobLanes jobs{};
+    RecordingProgress recording{};
     std::vector<OfferedDefect> defects{};
     std::string compareMode{}, comparedWith{}, identical{}; ///< "wipe", "gles: llvmpipe", "100.0000 %"; empty: none
     bool isDefectActive = false;                            ///< the picture that is compared has it
@@ -119,6 +119,7 @@ public:
     LatencyMeter latency{}; ///< the program feeds it; the statistics panel shows it
     PixelReport pixel{};    ///< what the program found: the pixel panel shows it
     PanelInputs inputs{};
+    FileDialog fileDialog{}; ///< what it has chosen is the program's to take
     PanelLayout const& layout() const { return mLayout; }
     FrameHistory const& history() const { return mHistory; }
     ChangeMeter const& changes() const { return mChanges; }

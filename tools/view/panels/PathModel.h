@@ -28,12 +28,17 @@ struct PathState {
 /// What frames of a path are recorded to.
 enum class FrameKind : uint8_t { Png, Exr, Video };
 
-/// What the panel asks for, and what it shows while that is drawn.
-struct RecordingState {
+/// What the panel asks for.
+struct RecordingSettings {
     FrameKind kind = FrameKind::Png;
     int framesPerSecond = 30; ///< [1, 240]
+};
+
+/// What the panel shows while that is drawn.
+struct RecordingProgress {
     bool isRunning = false;
     uint32_t done = 0, total = 0; ///< frames; a total of 0: still loading
+    friend bool operator==(RecordingProgress const&, RecordingProgress const&) = default;
 };
 
 /// The path that is shown; a new one if the document has none. Valid until the list changes.

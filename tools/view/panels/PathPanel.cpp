@@ -103,16 +103,17 @@ void drawTime(PanelFrame& frame, CameraPath const& path) {
         scrubPath(frame.document, state, static_cast<double>(seconds));
 }
 
+void drawRecordingProgress(PanelFrame& frame) {
+    auto const& [isRunning, done, total] = frame.inputs.recording;
+    const float share = total > 0 ? static_cast<float>(done) / static_cast<float>(total) : 0.0f;
+    ImGui::ProgressBar(share, { -ImGui::GetFontSize() * 5, 0 }, fmt::format("{} of {} frames", done, total).c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("cancel")) frame.requests.stopsRecording = true;
+}
+
 void drawRecording(PanelFrame& frame) {
-    RecordingState& state = frame.state.recording;
-    if (state.isRunning) {
-        const float share = state.total > 0 ? static_cast<float>(state.done) / static_cast<float>(state.total) : 0.0f;
-        ImGui::ProgressBar(share, { -ImGui::GetFontSize() * 5, 0 },
-                           fmt::format("{} of {} frames", state.done, state.total).c_str());
-        ImGui::SameLine();
-        if (ImGui::Button("cancel")) frame.requests.stopsRecording = true;
-        return;
-    }
+    if (frame.inputs.recording.isRunning) return drawRecordingProgress(frame);
+    RecordingSettings& state = frame.state.recording;
     int kind = static_cast<int>(state.kind);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
     if (ImGui::Combo("##kind", &kind, "PNG\0EXR\0video\0")) state.kind = static_cast<FrameKind>(kind);
@@ -124,7 +125,7 @@ void drawRecording(PanelFrame& frame) {
 }
 
 void drawFileButtons(PanelFrame& frame) {
-    FileDialog& dialog = frame.state.fileDialog;
+    FileDialog& dialog = frame.fileDialog;
     if (!frame.document.paths.empty()) {
         if (ImGui::Button("save ...")) dialog.open(FilePurpose::SavePath, "camera-path.json");
         ImGui::SameLine();

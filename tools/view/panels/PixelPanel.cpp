@@ -11,7 +11,7 @@ const ImVec4 kDifferingColor{ 1, 0.35f, 0.3f, 1 };
 /// Numbers below each other if the column is too narrow for them.
 std::string fitted(std::string text) {
     if (ImGui::CalcTextSize(text.c_str()).x <= ImGui::GetContentRegionAvail().x) return text;
-    for (size_t at = text.find(", "); at != std::string::npos; at = text.find(", ", at)) text.replace(at, 2, ",\n");
+    for (size_t at = text.find(", "); at != std::string::npos; at = text.find(", ", at)) text[at + 1] = '\n';
     return text;
 }
 

@@ -201,21 +201,21 @@ TEST_P(ViewerFiles, ControlOOpensTheDialogAndKeysAreItsOwn) {
     headless->press('B'); // not the other API
     settle();
     EXPECT_EQ(viewer().stage().engine().device().backend, GetParam());
-    ASSERT_TRUE(state().fileDialog.isOpen());
+    ASSERT_TRUE(viewer().panels().fileDialog.isOpen());
     headless->press(kEscape);
     settle();
-    EXPECT_FALSE(state().fileDialog.isOpen());
+    EXPECT_FALSE(viewer().panels().fileDialog.isOpen());
     headless->press('O', { .control = true });
-    state().fileDialog.goTo(showcaseFiles().model.parent_path());
+    viewer().panels().fileDialog.goTo(showcaseFiles().model.parent_path());
     settle();
     for (const char c : showcaseFiles().model.filename().string())
         viewer().handle(TextEvent{ static_cast<uint32_t>(c) });
     settle();
     headless->press(kEnter);
     settle();
-    EXPECT_FALSE(state().fileDialog.isOpen());
-    ASSERT_EQ(state().fileDialog.recent.size(), 1u);
-    EXPECT_EQ(state().fileDialog.recent[0], showcaseFiles().model);
+    EXPECT_FALSE(viewer().panels().fileDialog.isOpen());
+    ASSERT_EQ(viewer().panels().fileDialog.recent.size(), 1u);
+    EXPECT_EQ(viewer().panels().fileDialog.recent[0], showcaseFiles().model);
     EXPECT_EQ(RecentFiles(folder / "state/recent.json").files().size(), 1u) << "for the next run";
 }
 
@@ -238,8 +238,8 @@ TEST_P(ViewerFiles, PathsAreRecordedPlayedSavedAndLoaded) {
     viewer().step(1.25);
     EXPECT_TRUE(isEqual(viewer().document().view.camera, sampled(path, 1.25)));
     headless->press(' ', { .shift = true });
-    state().fileDialog.goTo(folder);
-    state().fileDialog.open(FilePurpose::SavePath, "mine.json");
+    viewer().panels().fileDialog.goTo(folder);
+    viewer().panels().fileDialog.open(FilePurpose::SavePath, "mine.json");
     settle();
     headless->press(kEnter);
     settle();
@@ -270,7 +270,7 @@ TEST_P(ViewerFiles, RecordingGoesOnBesideTheViewer) {
     settle();
     EXPECT_THAT(viewer().takeMessages(), testing::Contains(HasSubstr("recorded 3 frames to")));
     EXPECT_TRUE(fs::exists(folder / "viewer-1.frames/frame-00002.png"));
-    EXPECT_FALSE(state().recording.isRunning);
+    EXPECT_FALSE(viewer().panels().inputs.recording.isRunning);
 }
 
 TEST_P(ViewerFiles, LatenciesAreMeasured) {

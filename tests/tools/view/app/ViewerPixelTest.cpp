@@ -64,9 +64,10 @@ TEST_P(ViewerPixelTest, ThePixelPanelHasTheValuesOfBothApis) {
     EXPECT_NE(row(report, "normal").values[0], "-");
     const std::string first = row(report, "position").values[0];
     EXPECT_NE(first, row(headless.at({ 470, 200 }), "position").values[0]) << "it follows the pointer";
-    if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES"))
+    if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES")) {
         EXPECT_TRUE(savePng(std::filesystem::path(folder) / fmt::format("pixel {}.png", toString(GetParam())),
                             headless.picture()));
+    }
     EXPECT_EQ(row(headless.at({ 340, 4 }), "object").values[0], "-") << "nothing is there";
     EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
 }
@@ -120,9 +121,10 @@ TEST_P(ViewerPixelTest, TheNumericsViewCountsItsMarks) {
         EXPECT_EQ(all, uint64_t{ kPictureSize.x } * kPictureSize.y);
     }
     EXPECT_GT((*headless.viewer->numerics().counts())[static_cast<size_t>(NumericsMark::Clipped)], 0u);
-    if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES"))
+    if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES")) {
         EXPECT_TRUE(savePng(std::filesystem::path(folder) / fmt::format("numerics {}.png", toString(GetParam())),
                             headless.picture()));
+    }
     headless.viewer->document().view.debugView = DebugView::None;
     headless.viewer->redraw();
     headless.settle();

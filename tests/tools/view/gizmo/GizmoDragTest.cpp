@@ -40,8 +40,54 @@ TEST(GizmoHandles, HaveTheSameSizeOnTheScreenWhereverTheObjectIs) {
     }
 }
 
+/// By search along the line, not by a formula: the distance has one minimum there.
+double apart(std::array<double2, 2> const& line, double2 pixel) {
+    double low = 0, high = 1;
+    const auto at = [&](double t) { return glm::length(line[0] + (line[1] - line[0]) * t - pixel); };
+    for (int i = 0; i < 60; ++i) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (at(a) < at(b) ? high : low) = at(a) < at(b) ? b : a;
+    }
+    return at((low + high) / 2);
+}
+
+/// A ray to the right crosses the outline of an area an odd number of times.
+bool isInside(std::vector<double2> const& area, double2 pixel) {
+    bool inside = false;
+    for (size_t i = 0; i < area.size(); ++i) {
+        const double2 a = area[i], b = area[(i + 1) % area.size()];
+        if ((a.y > pixel.y) == (b.y > pixel.y)) continue;
+        if (a.x + (b.x - a.x) * (pixel.y - a.y) / (b.y - a.y) > pixel.x) inside = !inside;
+    }
+    return inside;
+}
+
+/// Pixels between a place and what is drawn of a handle.
+double apart(Handle const& handle, double2 pixel) {
+    if (isInside(handle.area, pixel)) return 0;
+    double least = 1e9;
+    for (auto const& line : handle.lines) least = std::min(least, apart(line, pixel));
+    for (size_t i = 0; i < handle.area.size(); ++i)
+        least = std::min(least, apart({ handle.area[i], handle.area[(i + 1) % handle.area.size()] }, pixel));
+    return least;
+}
+
+/// What is grabbed at a pixel is the nearest handle, and only within kGrabPixels.
+void expectNearest(std::vector<Handle> const& handles, double2 pixel) {
+    const GizmoPart found = partAt(handles, pixel);
+    double nearest = 1e9;
+    for (Handle const& handle : handles) nearest = std::min(nearest, apart(handle, pixel));
+    if (found == GizmoPart::None) {
+        EXPECT_GT(nearest, kGrabPixels - 1e-6) << pixel.x << ", " << pixel.y;
+        return;
+    }
+    EXPECT_LT(nearest, kGrabPixels + 1e-6) << pixel.x << ", " << pixel.y;
+    EXPECT_LT(apart(*find(handles, found), pixel), nearest + 1e-6) << toString(found);
+}
+
 TEST(GizmoHandles, WhatIsDrawnCanBeGrabbedAndNothingElse) {
     Draw draw(2);
+    int taken = 0, missed = 0;
     for (int round = 0; round < kRounds / 4; ++round) {
         const RandomGizmo random(draw);
         for (const GizmoMode mode : { GizmoMode::Move, GizmoMode::Rotate, GizmoMode::Scale }) {
@@ -60,10 +106,16 @@ TEST(GizmoHandles, WhatIsDrawnCanBeGrabbedAndNothingElse) {
                 }
             }
             const double2 origin = *pixelOf(random.view, random.frame.originWorld);
-            EXPECT_EQ(partAt(handles, origin + double2(0, 5 * kHandlePixels)), GizmoPart::None);
+            for (int i = 0; i < 6; ++i) {
+                const double2 pixel = origin + draw.picture() * (1.5 * kHandlePixels);
+                expectNearest(handles, pixel);
+                ++(partAt(handles, pixel) == GizmoPart::None ? missed : taken);
+            }
         }
         EXPECT_TRUE(handlesOf(GizmoMode::Off, random.frame, random.view).empty());
     }
+    EXPECT_GT(taken, kRounds / 2);
+    EXPECT_GT(missed, kRounds / 2);
 }
 
 TEST(GizmoHandles, OfWhatIsBehindTheEyeThereAreNone) {
@@ -166,6 +218,23 @@ TEST(GizmoDrag, ARingSeenFromItsEdgeTurnsTheWayItIsPulled) {
         ++rings;
     }
     EXPECT_GT(rings, kRounds / 2);
+}
+
+TEST(GizmoDrag, PlanesDoNotTurnAndNothingOfALightScales) {
+    Draw draw(13);
+    for (int round = 0; round < 100; ++round) {
+        const RandomGizmo random(draw);
+        const double2 from = draw.picture() * 500.0, to = draw.picture() * 500.0;
+        for (const GizmoPart part : { GizmoPart::PlaneX, GizmoPart::PlaneY, GizmoPart::PlaneZ, GizmoPart::None,
+                                      GizmoPart::Direction, GizmoPart::Range, GizmoPart::InnerCone }) {
+            const GizmoDrag turn{ GizmoMode::Rotate, part, random.frame, random.view, from };
+            EXPECT_EQ(worldChange(turn, to), double4x4(1.0)) << toString(part);
+            const GizmoDrag scale{ GizmoMode::Scale, part, random.frame, random.view, from };
+            if (!isPlane(part)) {
+                EXPECT_EQ(scaleChange(scale, to), double3(1)) << toString(part);
+            }
+        }
+    }
 }
 
 TEST(GizmoDrag, ScaleIsTheRatioOfTheDistances) {

@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <time.h>
+
 #include <algorithm>
 #include <fstream>
 #include <thread>
@@ -22,6 +24,11 @@ fs::path folderOfTest() {
     fs::remove_all(folder);
     fs::create_directories(folder);
     return folder;
+}
+double threadSeconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 void write(fs::path const& file) { std::ofstream(file) << "text"; }
 
@@ -114,12 +121,35 @@ protected:
         dialog.goTo(mFolder);
         settle();
     }
-    void press(ImGuiKey key) {
+    /// One frame, in which nothing that the disk has to say can be known yet.
+    void pressOnly(ImGuiKey key) {
         ImGuiIO& io = ImGui::GetIO();
         io.KeysDown[key + 1] = true;
         frame();
         io.KeysDown[key + 1] = false;
+    }
+    void press(ImGuiKey key) {
+        pressOnly(key);
         settle();
+    }
+    /// Processor time of the fastest of some frames.
+    double secondsOfFrame() {
+        double least = 1e9;
+        for (int i = 0; i < 30; ++i) {
+            const double begin = threadSeconds();
+            frame();
+            least = std::min(least, threadSeconds() - begin);
+        }
+        return least;
+    }
+    /// The background of the selected row is drawn: it is not scrolled out of sight.
+    static bool isSelectionSeen() {
+        const ImU32 color = ImGui::GetColorU32(ImGuiCol_Header);
+        ImDrawData const& data = *ImGui::GetDrawData();
+        for (int i = 0; i < data.CmdListsCount; ++i)
+            for (ImDrawVert const& vertex : data.CmdLists[i]->VtxBuffer)
+                if (vertex.col == color) return true;
+        return false;
     }
     void type(const char* text) {
         ImGui::GetIO().AddInputCharactersUTF8(text);
@@ -197,6 +227,73 @@ TEST_F(FileDialogTest, SavingNamesTheFileAndAsksBeforeItReplaces) {
     open(FilePurpose::SavePicture, "light.exr");
     press(ImGuiKey_Enter);
     EXPECT_EQ(dialog.takeChosen()->file, mFolder / "light.exr");
+}
+
+TEST_F(FileDialogTest, PathsAreLookedUpBesideTheInterface) {
+    open();
+    type((mFolder / "cat.glb").c_str());
+    pressOnly(ImGuiKey_Enter);
+    EXPECT_TRUE(dialog.isReading()) << "the frame did not wait for the disk";
+    EXPECT_TRUE(dialog.isOpen());
+    settle();
+    EXPECT_EQ(dialog.takeChosen()->file, mFolder / "cat.glb");
+    open(FilePurpose::SavePicture, "new.png");
+    pressOnly(ImGuiKey_Enter);
+    EXPECT_TRUE(dialog.isReading());
+    settle();
+    EXPECT_EQ(dialog.takeChosen()->file, mFolder / "new.png");
+}
+
+TEST_F(FileDialogTest, ClosingDropsTheQuestionThatTheDiskHasNotAnswered) {
+    open(FilePurpose::SavePicture, "new.png");
+    pressOnly(ImGuiKey_Enter);
+    dialog.close();
+    EXPECT_FALSE(dialog.isReading());
+    settle();
+    EXPECT_FALSE(dialog.takeChosen().has_value());
+}
+
+TEST_F(FileDialogTest, AFolderOfThatNameIsEnteredAndNotReplaced) {
+    fs::create_directories(mFolder / "shots.png");
+    open(FilePurpose::SavePicture, "shots");
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(dialog.folder(), mFolder / "shots.png");
+    EXPECT_TRUE(dialog.isOpen());
+    EXPECT_FALSE(dialog.takeChosen().has_value());
+}
+
+TEST_F(FileDialogTest, TenThousandFilesCostAFrameNoMoreThanForty) {
+    const auto fill = [&](const char* name, int files) {
+        fs::create_directories(mFolder / name);
+        for (int i = 0; i < files; ++i) write(mFolder / name / (std::to_string(i) + ".glb"));
+        open();
+        dialog.goTo(mFolder / name);
+        settle();
+    };
+    fill("few", 40);
+    ASSERT_EQ(dialog.list().entries.size(), 40u);
+    const double few = secondsOfFrame();
+    fill("many", static_cast<int>(kMostEntries));
+    ASSERT_EQ(dialog.list().entries.size(), kMostEntries);
+    EXPECT_LT(secondsOfFrame(), 5 * few);
+    EXPECT_TRUE(isSelectionSeen()) << "the first row";
+    for (int i = 0; i < 12; ++i) press(ImGuiKey_PageDown);
+    EXPECT_TRUE(isSelectionSeen()) << "row 120";
+    press(ImGuiKey_Enter);
+    EXPECT_EQ(dialog.takeChosen()->file, mFolder / "many/120.glb");
+}
+
+TEST(FolderList, ToldApartAreFilesFoldersAndOthers) {
+    const fs::path folder = folderOfTest();
+    write(folder / "file");
+    fs::create_symlink("file", folder / "link");
+    fs::create_symlink("nowhere", folder / "broken");
+    EXPECT_EQ(kindOfPath(folder), PathKind::Folder);
+    EXPECT_EQ(kindOfPath(folder / "file"), PathKind::File);
+    EXPECT_EQ(kindOfPath(folder / "link"), PathKind::File);
+    EXPECT_EQ(kindOfPath(folder / "broken"), PathKind::Missing);
+    EXPECT_EQ(kindOfPath(folder / "file/below"), PathKind::Missing) << "a file is no folder";
+    EXPECT_EQ(kindOfPath("/dev/null"), PathKind::Other);
 }
 
 TEST_F(FileDialogTest, AFolderThatIsGoneSaysSo) {

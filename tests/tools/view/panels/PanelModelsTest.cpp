@@ -258,6 +258,24 @@ TEST(LightFields, EveryFieldPointsIntoItsLight) {
     }
 }
 
+TEST(LightFields, TheConesOfASpotStayInEachOther) {
+    Document document;
+    AnyLight& light = addLight(document, 2, {}).light;
+    auto& spot = std::get<SpotLight>(light);
+    for (const float outer : { 1e-3f, 0.2f, 1.0f, kMostCone }) {
+        spot.outerConeRadians = outer;
+        spot.innerConeRadians = outer / 2;
+        for (const bool isLeast : { false, true })
+            for (const std::string_view name : { "inner cone, radians", "outer cone, radians" }) {
+                const SpotLight before = spot;
+                for (LightField const& field : lightFields(light))
+                    if (field.name == name) *std::get<float*>(field.value) = isLeast ? field.least : field.most;
+                EXPECT_TRUE(check(document)) << name << " of a spot of " << outer;
+                spot = before;
+            }
+    }
+}
+
 TEST(LightFields, NewLightsShineWhereTheCameraLooksUnderNamesOfTheirOwn) {
     Document document;
     const Camera camera = Camera::lookAt({ 1, 2, 3 }, { 1, 2, -9 });

@@ -128,7 +128,7 @@ TEST(Panels, TheFileDialogLiesOverThePictureAndTakesTheKeyboard) {
         std::ofstream(folder / name) << name;
     for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
         PanelStage stage(backend);
-        view::FileDialog& dialog = stage.panels.state.fileDialog;
+        view::FileDialog& dialog = stage.panels.fileDialog;
         dialog.recent = { "/models/helmet.glb", "/skies/noon.hdr" };
         dialog.open(view::FilePurpose::Open);
         dialog.goTo(folder);

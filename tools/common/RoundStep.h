@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// RoundStep: steps that people read easily: those between the ticks of a plot, or of a drag that snaps.
+///   Thread  any.
+#pragma once
+
+#include <cmath>
+
+namespace filament {
+
+/// The smallest of 1, 2 and 5 times a power of ten that is at least `least`, so less than 2.5 times as much.
+/// `least` > 0, finite.
+inline double roundStep(double least) {
+    const double decade = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double factor : { 1.0, 2.0, 5.0 })
+        if (factor * decade >= least) return factor * decade;
+    return 10 * decade;
+}
+
+} // namespace filament
