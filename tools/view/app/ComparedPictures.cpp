@@ -43,13 +43,22 @@ CompareMode nextMode(CompareMode mode) {
     return mode == CompareMode::Flip ? CompareMode::Off : static_cast<CompareMode>(static_cast<int>(mode) + 1);
 }
 
+/// The path tracer ends when the scene that it may be loading is there: on another thread. An engine ends on its own.
+void ComparedPictures::endOther() {
+    if (mOther && mOpenedWith == CompareWith::PathTracer)
+        mAbandoned.add(Background<bool>([other = std::shared_ptr<PictureSource>(std::move(mOther))]() mutable {
+            other.reset();
+            return true;
+        }));
+    mOther.reset();
+}
+
 bool ComparedPictures::openSource(EngineOptions const& options) {
     const std::string wanted = with == CompareWith::OtherApi ? defect : std::string{};
     if (mOther && mOpenedWith == with && mOpenedDefect == wanted) return true;
-    mOther.reset();
+    endOther();
     mResult.reset();
-    if (mComparing) mAbandoned.add(*mComparing);
-    mComparing.reset();
+    mAbandoned.add(mComparing);
     mOpenedWith = with;
     mOpenedDefect = wanted;
     if (with == CompareWith::PathTracer) {
@@ -122,17 +131,15 @@ void ComparedPictures::compareNewest() {
 }
 
 bool ComparedPictures::takeCompared() {
-    if (!mComparing || !mComparing->isFinished()) return false;
-    Compared compared = mComparing->take();
-    mComparing.reset();
-    if (!compared.result) mOwn.reset(); // it is read again
-    if (!compared.result) return false;
-    mResult = std::move(compared.result);
+    std::optional<Compared> compared = takeFinished(mComparing);
+    if (compared && !compared->result) mOwn.reset(); // it is read again
+    if (!compared || !compared->result) return false;
+    mResult = std::move(compared->result);
     mResultNumber = mComparingNumber;
     mResultVersion = mComparingVersion;
     mIsFinal = mComparingIsFinal;
     mResultMode = mComparingMode;
-    if (mResultMode == mode) mOverlay = std::move(compared.overlay);
+    if (mResultMode == mode) mOverlay = std::move(compared->overlay);
     return true;
 }
 
@@ -205,9 +212,9 @@ void ComparedPictures::drawNumber(uint2 offset, uint2 size) const {
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("compared", nullptr, kFlags)) {
-        const std::string factor = mode == CompareMode::Difference
-                                           ? fmt::format(" x{:.0f}", amplificationFor(mResult->largestDifference))
-                                           : "";
+        const bool isAmplified = mode == CompareMode::Difference && mResult;
+        const std::string factor =
+                isAmplified ? fmt::format(" x{:.0f}", amplificationFor(mResult->largestDifference)) : "";
         ImGui::Text("%s%s | %s", toString(mode), factor.c_str(), mOther ? mOther->name().c_str() : "starting");
         if (isDefective()) ImGui::TextColored(kInjectedColor, "DEFECT INJECTED: %s", whatOf(mOpenedDefect).c_str());
         if (mResult && mResultNumber == mNumber)
@@ -226,13 +233,12 @@ void ComparedPictures::close(UiRenderer* ui) {
     if (ui && mTexture.get()) ui->remove(mTextureId);
     mTexture.reset();
     mTextureSize = uint2(0);
-    mOther.reset();
+    endOther();
     mPending = {};
     mOwn.reset();
     mResult.reset();
     mOverlay.reset();
-    if (mComparing) mAbandoned.add(*mComparing);
-    mComparing.reset();
+    mAbandoned.add(mComparing);
     mNumber = 0;
 }
 

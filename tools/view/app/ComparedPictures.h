@@ -72,6 +72,7 @@ private:
         std::optional<Image> overlay;
     };
     bool openSource(EngineOptions const& options);
+    void endOther();
     void readOwn(Stage& stage, SwapChain chain, uint2 offset);
     void compareNewest();
     bool takeCompared();

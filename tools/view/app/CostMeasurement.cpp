@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <thread>
 
@@ -17,7 +16,6 @@ namespace filament::view {
 namespace {
 
 constexpr uint32_t kGathered = 16; // frames, where a setting gathers them
-constexpr auto kLoadPause = std::chrono::milliseconds(2);
 
 EngineOptions headless(EngineOptions options) {
     options.display = {};
@@ -95,10 +93,7 @@ private:
         if (!stage) return stage.error();
         mStage = std::move(*stage);
         mStage->apply(mDocument);
-        while (mStage->progress().isLoading && !mIsCancelled) {
-            mStage->poll();
-            std::this_thread::sleep_for(kLoadPause);
-        }
+        mStage->finishLoading([this] { return mIsCancelled.load(); });
         if (mIsCancelled) return {};
         if (Result<void> shown = checkShown(); !shown) return shown;
         Engine& engine = mStage->engine();

@@ -10,8 +10,7 @@
 ///            turns: a round times each of them once, and begins with another one. The median of the rounds so far is
 ///            what counts, so other work of the machine hits all settings alike.
 ///   Clock    the device's, if it times its passes; else the driver thread's.
-///   Thread   all functions: one thread, which never waits, except in the destructor: for the frame that is being drawn, or
-///            the document that is being loaded.
+///   Thread   all functions: one thread, which never waits, except in the destructor: for the frame that is being drawn.
 ///   Fails    poll(): State::Failed with one line: no engine, a document that cannot be loaded, errors of the device.
 #pragma once
 

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 namespace filament::view {
 namespace {
 
@@ -41,15 +39,9 @@ std::vector<std::string> save(std::filesystem::path const& folder, Document cons
 
 bool FrameSaver::start(std::filesystem::path folder, Document document, Image shown, int workers) {
     if (isBusy()) return false;
-    mSaved = std::async(std::launch::async, [=, shown = std::move(shown)]() mutable {
-        return save(folder, document, std::move(shown), workers);
-    });
+    mSaved.emplace(
+            [=, shown = std::move(shown)]() mutable { return save(folder, document, std::move(shown), workers); });
     return true;
-}
-
-std::optional<std::vector<std::string>> FrameSaver::poll() {
-    if (!mSaved.valid() || mSaved.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-    return mSaved.get();
 }
 
 } // namespace filament::view

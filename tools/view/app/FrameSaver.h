@@ -6,11 +6,11 @@
 #pragma once
 
 #include "tools/view/document/Document.h"
+#include "tools/view/stage/Background.h"
 
 #include <filament/Image.h>
 
 #include <filesystem>
-#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,12 +21,12 @@ class FrameSaver {
 public:
     /// `shown`: the picture of the document without panels. False: one is being saved.
     bool start(std::filesystem::path folder, Document document, Image shown, int workers);
-    bool isBusy() const { return mSaved.valid(); }
+    bool isBusy() const { return mSaved.has_value(); }
     /// Once it is done: a line for each thing to know, the folder first.
-    std::optional<std::vector<std::string>> poll();
+    std::optional<std::vector<std::string>> poll() { return takeFinished(mSaved); }
 
 private:
-    std::future<std::vector<std::string>> mSaved;
+    std::optional<Background<std::vector<std::string>>> mSaved;
 };
 
 } // namespace filament::view

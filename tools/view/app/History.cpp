@@ -4,12 +4,12 @@
 namespace filament::view {
 namespace {
 
-/// What no step changes.
+/// What no step changes. Another model has other animations: with it, its playback comes back.
 void keepMoving(Document& document, Document const& current) {
     document.view.camera = current.view.camera;
     document.view.size = current.view.size;
     document.view.timeSeconds = current.view.timeSeconds;
-    document.playback = current.playback;
+    if (document.model.file == current.model.file) document.playback = current.playback;
 }
 
 bool isSameEdit(Document const& a, Document const& b) {
@@ -42,6 +42,9 @@ bool History::undo(Document& document) {
     note(document, false);
     return go(mBefore, mAfter, mNow, document);
 }
-bool History::redo(Document& document) { return go(mAfter, mBefore, mNow, document); }
+bool History::redo(Document& document) {
+    note(document, false); // an edit since the last frame is not written over
+    return go(mAfter, mBefore, mNow, document);
+}
 
 } // namespace filament::view

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// History: undo and redo of a Document. The camera, the playing time and the size of the picture are not edits: they stay
-/// as they are.
+/// History: undo and redo of a Document. The camera, the playback and the size of the picture are not edits: they stay
+/// as they are; the playback only while the model does.
 ///   Use      note() once a frame: an edit that is over becomes a step.
 ///   Memory   the last kSteps documents.   Thread: any; a plain value.
 #pragma once
@@ -19,7 +19,7 @@ public:
     /// `isEditing`: something is being dragged, say: steps are not made yet.
     void note(Document const& document, bool isEditing);
     bool undo(Document& document); ///< false: there is nothing
-    bool redo(Document& document);
+    bool redo(Document& document); ///< false: nothing was undone, or the document was edited since
     size_t undoSteps() const { return mBefore.size(); }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/Instruments.h"
 
+#include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/Defects.h"
 
 #include <filament/JobTimeline.h>
@@ -21,14 +22,11 @@ bool hasSamePicture(Document const& measured, Document const& now) {
     return other == now;
 }
 
-Backend otherApi(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
-
 } // namespace
 
 bool Instruments::pollJobs(Panels& panels, Stage& stage) {
-    if (mReading && mReading->isFinished()) {
-        panels.inputs.jobs = mReading->take();
-        mReading.reset();
+    if (auto jobs = takeFinished(mReading)) {
+        panels.inputs.jobs = std::move(*jobs);
         mIsOwnFrame = true;
         return true;
     }
@@ -49,7 +47,7 @@ bool Instruments::poll(Panels& panels, Stage& stage) {
 void Instruments::followDefect(Panels& panels, Backend own, ComparedPictures& compared) {
     if (mOfferedTo != own) { // the other API has become this one
         mOfferedTo = own;
-        panels.inputs.defects = defectsFor(otherApi(own));
+        panels.inputs.defects = defectsFor(otherThan(own));
         panels.state.injectedDefect.clear();
     }
     compared.defect = panels.state.injectedDefect;

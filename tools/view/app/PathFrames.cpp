@@ -10,8 +10,8 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <deque>
+#include <future>
 
 namespace filament::view {
 namespace {
@@ -161,7 +161,8 @@ Result<PathResult> drawPath(PathRequest const& request, PathProgress& progress) 
         auto stage = Stage::create({ .engine = request.engine, .watchesFiles = false });
         if (!stage) return stage.error();
         (*stage)->apply(request.document);
-        (*stage)->finishLoading();
+        (*stage)->finishLoading([&] { return progress.isCancelled.load(); });
+        if (progress.isCancelled) return fail(ErrorCode::Cancelled, "stopped while the files were being loaded");
         result.messages = (*stage)->takeMessages();
         if (Result<void> loaded = checkLoaded(request.document, **stage, result.messages); !loaded)
             return loaded.error();
@@ -180,21 +181,15 @@ Result<PathResult> drawPath(PathRequest const& request, PathProgress& progress) 
 }
 
 PathRecorder::~PathRecorder() {
-    cancel(); // the future's own end waits
+    cancel(); // the end of mLines waits
 }
 
 bool PathRecorder::start(PathRequest request) {
     if (isBusy()) return false;
     mProgress.done = mProgress.total = 0;
     mProgress.isCancelled = false;
-    mLines =
-            std::async(std::launch::async, [this, request = std::move(request)] { return record(request, mProgress); });
+    mLines.emplace([this, request = std::move(request)] { return record(request, mProgress); });
     return true;
-}
-
-std::optional<std::vector<std::string>> PathRecorder::poll() {
-    if (!mLines.valid() || mLines.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
-    return mLines.get();
 }
 
 } // namespace filament::view

@@ -12,15 +12,13 @@
 
 #include "tools/view/app/PictureFile.h"
 #include "tools/view/document/Document.h"
+#include "tools/view/stage/Background.h"
 
 #include <filament/Engine.h>
 
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
-#include <future>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,20 +60,20 @@ Result<void> check(PathRequest const& request);
 Result<PathResult> drawPath(PathRequest const& request, PathProgress& progress);
 
 /// drawPath() beside a viewer.
-///   Thread  one.   Life  the destructor cancels and waits for the frame that is being drawn.
+///   Thread  one.   Life  the destructor cancels and waits for the frame that is being drawn or encoded.
 class PathRecorder {
 public:
     ~PathRecorder();
     bool start(PathRequest request); ///< false: one is being recorded
     void cancel() { mProgress.isCancelled = true; }
-    bool isBusy() const { return mLines.valid(); }
+    bool isBusy() const { return mLines.has_value(); }
     PathProgress const& progress() const { return mProgress; }
     /// Once it is done: a line for each thing to know.
-    std::optional<std::vector<std::string>> poll();
+    std::optional<std::vector<std::string>> poll() { return takeFinished(mLines); }
 
 private:
     PathProgress mProgress;
-    std::future<std::vector<std::string>> mLines;
+    std::optional<Background<std::vector<std::string>>> mLines;
 };
 
 } // namespace filament::view

@@ -91,18 +91,18 @@ public:
 
     void run() {
         Clock::time_point last = Clock::now();
-        while (!mViewer.isClosed() && !isDone() && !tools::isInterrupted()) {
+        while (!isDone() && !tools::isInterrupted()) {
             for (InputEvent const& event : mWindow.takeEvents(mViewer.idleSeconds())) mViewer.handle(event);
             const Clock::time_point now = Clock::now();
             if (mOptions.frames > 0 && !mViewer.isLoading()) mViewer.redraw();
-            openPanels();
+            if (!mViewer.isClosed()) openPanels();
             mViewer.step(std::chrono::duration<double>(now - last).count());
             last = now;
-            followFullScreen();
             printMessages();
+            if (mViewer.isClosed()) return; // its stage may be gone
+            followFullScreen();
             noteFrames();
         }
-        if (mViewer.isClosed()) return; // its stage may be gone
         mViewer.stage().engine().waitIdle();
         noteFrames();
     }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace filament::view {
 namespace {
 
@@ -47,6 +49,17 @@ Result<reference::ReferenceScene> load(Document const& document, jobs::JobSystem
     return scene;
 }
 
+/// Of the lens, the film and the eye. What stands in for light that is traced (ambient occlusion, reflections of the screen)
+/// is not among them, nor is fog, which is traced.
+bool hasPictureEffects(Effects const& effects) {
+    return effects.bloom.enabled || effects.lensFlare.enabled || effects.depthOfField.enabled ||
+           effects.motionBlur.enabled || effects.autoExposure.enabled || effects.grading.enabled ||
+           effects.vignette.enabled || effects.grain.enabled || effects.chromaticAberration.enabled ||
+           effects.sharpening.enabled;
+}
+
+bool hasProfile(DocumentLight const& light) { return light.isOn && !light.profileFile.empty(); }
+
 } // namespace
 
 std::string untracedParts(Document const& document) {
@@ -57,6 +70,9 @@ std::string untracedParts(Document const& document) {
     if (!document.modelLights.empty()) parts.push_back("edits of the file's lights");
     if (!document.morphs.empty()) parts.push_back("morph weights");
     if (document.playback.animation) parts.push_back("animations");
+    if (std::ranges::any_of(document.lights, hasProfile)) parts.push_back("profiles of lights");
+    if (hasPictureEffects(document.view.effects)) parts.push_back("effects such as bloom");
+    if (!document.look.empty()) parts.push_back("the look");
     if (document.view.debugView != DebugView::None) parts.push_back("debug views");
     return parts.empty() ? std::string{} : fmt::format("the path tracer does not see {}", fmt::join(parts, ", "));
 }

@@ -2,6 +2,7 @@
 // Size: perform() is a table: an action a case.
 #include "tools/view/app/Viewer.h"
 
+#include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/panels/AnimationModel.h"
 #include "tools/view/panels/CameraModel.h"
@@ -104,7 +105,8 @@ void Viewer::closeStage() {
     mInstruments.closeEngine(mPanels);
     mCompared.close(mUiRenderer ? &*mUiRenderer : nullptr);
     mPictures.close();
-    mReadsFrame = false;
+    if (std::exchange(mReadsFrame, false)) note("the frame was not saved: the engine that drew it ended");
+    mGizmo.letGo(); // its generations belong to the stage
     mNumerics.close();
     mInspector.close();
     mUiRenderer.reset();
@@ -120,6 +122,7 @@ void Viewer::setBackend(Backend backend) {
         note(opened.error().message);
         if (Result<void> back = openStage(before); !back) {
             note(back.error().message);
+            saveDocumentFile(); // nothing else has it
             mIsClosed = true;
         }
     }
@@ -139,6 +142,7 @@ void Viewer::note(std::string message) {
 }
 
 void Viewer::handle(InputEvent const& event) {
+    if (!mStage) return;
     touch();
     mPanels.latency.input(secondsNow());
     if (std::holds_alternative<CloseEvent>(event)) mIsClosed = true;
@@ -307,7 +311,7 @@ void Viewer::perform(Action action) {
         if (mCompared.mode == CompareMode::Off) mCompared.mode = CompareMode::Wipe;
         break;
     case Action::ChangeBackend:
-        setBackend(mStage->engine().device().backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan);
+        setBackend(otherThan(mStage->engine().device().backend));
         break;
     case Action::SavePicture:
         savePicture();
@@ -331,7 +335,8 @@ double Viewer::idleSeconds() const {
                        (mPanels.requests.inspectsPixel && mInspector.isWaiting());
     const bool saves = mPictures.isBusy() || mSaver.isBusy() || mReadsFrame || mRecorder.isBusy();
     PanelState const& state = mPanels.state;
-    const bool waits = state.path.isPlaying || mPanels.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
+    const bool waits =
+            state.path.isPlaying || mPanels.fileDialog.isReading() || mPanels.latency.isWaiting(secondsNow());
     return moves || saves || waits ? kShortWait : kLongWait; // files are looked at four times a second
 }
 
@@ -394,7 +399,8 @@ void Viewer::followRequests() {
 
 /// Between frames, since an action may end what the last one shows.
 void Viewer::followActions() {
-    for (const Action action : std::exchange(mPanels.requests.actions, {})) perform(action);
+    for (const Action action : std::exchange(mPanels.requests.actions, {}))
+        if (mStage) perform(action);
 }
 
 /// The engine is opened again with a trace of its jobs, or without: what is compared goes on.
@@ -408,8 +414,9 @@ void Viewer::followRecording() {
 
 bool Viewer::step(double seconds) {
     const double begin = threadSeconds();
-    followActions();
-    followRecording();
+    if (mStage) followActions();
+    if (mStage) followRecording();
+    if (!mStage) return false;
     if (mInstruments.poll(mPanels, *mStage)) mFramesToDraw = std::max(mFramesToDraw, 1u);
     if (mHands.advance(seconds, mDocument.view.camera)) touch();
     play(seconds);
@@ -511,6 +518,9 @@ void Viewer::draw(double seconds) {
     mPanels.latency.sent(secondsNow());
 }
 
-Result<Image> Viewer::screenshot() { return mStage->renderer().waitPixels(mStage->renderer().readPixels(mChain)); }
+Result<Image> Viewer::screenshot() {
+    if (!mStage) return fail(ErrorCode::DeviceUnavailable, "there is no picture: the viewer has no device any more");
+    return mStage->renderer().waitPixels(mStage->renderer().readPixels(mChain));
+}
 
 } // namespace filament::view

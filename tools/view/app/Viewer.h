@@ -64,13 +64,15 @@ public:
 
     void perform(Action action);
     void redraw() { touch(); } ///< the next step() draws
-    /// The same document on the other API. It keeps the old one, with a message, if that fails.
+    /// The same document on this API. It keeps the old one, with a message, if that fails; if neither can be opened any
+    /// more, it saves the document, says where, and is closed.
     void setBackend(Backend backend);
     bool isClosed() const { return mIsClosed; }
-    bool isLoading() const { return mStage->progress().isLoading; }
+    bool isLoading() const { return mStage && mStage->progress().isLoading; }
     bool wantsFullScreen() const { return mIsFullScreen; }
 
     Document& document() { return mDocument; }
+    /// This and what needs it: not after setBackend() has closed the viewer.
     Stage& stage() { return *mStage; }
     Panels& panels() { return mPanels; }
     GizmoHands& gizmo() { return mGizmo; }
@@ -86,7 +88,7 @@ public:
     Percentiles latency() const { return mPanels.latency.milliseconds(); }
     /// Frames of this engine that were sent to the window; EngineStatistics::presents says how many are there.
     uint64_t askedPresents() const { return mPresents; }
-    /// The last frame as the window has it, with the panels. Waits for it.
+    /// The last frame as the window has it, with the panels. Waits for it. DeviceUnavailable: it was closed by setBackend().
     Result<Image> screenshot();
 
 private:

@@ -24,6 +24,7 @@ void Viewer::openPicture(std::filesystem::path const& file) {
 }
 
 void Viewer::open(std::filesystem::path const& file) {
+    mGizmo.letGo(); // it would bring back the edits from before its drag
     if (kindOf(file) == FileKind::Picture) return openPicture(file);
     const size_t paths = mDocument.paths.size();
     if (const Result<void> shown = showFile(mDocument, file); !shown) return note(shown.error().message);
@@ -67,6 +68,7 @@ void Viewer::copy(std::string const& text, const char* what) {
 void Viewer::paste() {
     Result<AnyText> text = anyFromJson(mInput.pasted(), "the clipboard");
     if (!text) return note(text.error().message);
+    mGizmo.letGo();
     const bool isPath = std::holds_alternative<CameraPath>(*text);
     showText(mDocument, std::move(*text));
     if (isPath) mPanels.state.path = { .path = mDocument.paths.size() - 1 };

@@ -70,6 +70,36 @@ TEST(History, ANewEditForgetsWhatWasUndone) {
     EXPECT_EQ(document.morphs.front().target, "b");
 }
 
+TEST(History, RedoDoesNotWriteOverAnEditThatWasNotNotedYet) {
+    Document document;
+    History history(document);
+    setMorph(document, "a", 1);
+    history.note(document, false);
+    EXPECT_TRUE(history.undo(document));
+    setMorph(document, "b", 1);
+    EXPECT_FALSE(history.redo(document));
+    EXPECT_EQ(document.morphs.front().target, "b");
+    EXPECT_TRUE(history.undo(document)) << "it has become a step";
+    EXPECT_TRUE(document.morphs.empty());
+}
+
+TEST(History, ThePlaybackComesBackWithItsModel) {
+    Document document;
+    document.model.file = "fox.glb";
+    document.playback = { .animation = 2, .seconds = 1, .isPlaying = true };
+    History history(document);
+    document.playback.seconds = 3;
+    Document other;
+    other.model.file = "helmet.glb";
+    document = other;
+    history.note(document, false);
+    EXPECT_TRUE(history.undo(document));
+    EXPECT_EQ(document.model.file, "fox.glb");
+    EXPECT_EQ(document.playback.animation, 2u);
+    EXPECT_TRUE(history.redo(document));
+    EXPECT_FALSE(document.playback.animation.has_value()) << "that of the helmet";
+}
+
 TEST(History, KeepsTheLastSteps) {
     Document document;
     History history(document);

@@ -107,6 +107,17 @@ TEST(PathFrames, FramesLookThroughTheKeys) {
     }
 }
 
+TEST(PathFrames, CancellingEndsTheLoadOfTheFilesToo) {
+    const fs::path folder = emptyFolder();
+    PathProgress progress;
+    progress.isCancelled = true;
+    const Result<PathResult> result = drawPath(requestFor(folder, Backend::Vulkan), progress);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
+    EXPECT_THAT(result.error().message, testing::HasSubstr("being loaded"));
+    EXPECT_EQ(progress.total, 0u) << "no frame was begun";
+}
+
 TEST(PathFrames, RequestsThatMakeNoSenseAreRefusedBeforeAnythingIsDrawn) {
     const fs::path folder = emptyFolder();
     const PathRequest good = requestFor(folder, Backend::Vulkan);

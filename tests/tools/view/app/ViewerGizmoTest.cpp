@@ -71,23 +71,34 @@ TEST_P(ViewerGizmoTest, EveryHandleOfANodeChangesItsTransformAndUndoIsOneStep) {
     if (!hands.viewer) return;
     hands.selectNode();
     const double4x4 camera = hands.viewer->document().view.camera.worldFromView;
+    const double4x4 matrix = hands.nodeMatrix();
     for (auto const& [key, mode] : { std::pair{ '1', "move" }, { '2', "rotate" }, { '3', "scale" } }) {
         hands.press(key);
+        int dragged = 0;
         for (int part = 1; part <= static_cast<int>(GizmoPart::Screen); ++part) {
             const std::vector<Handle> handles = hands.viewer->gizmo().handles(hands.viewer->gizmoScene());
             if (std::ranges::find(handles, static_cast<GizmoPart>(part), &Handle::part) == handles.end()) continue;
             const std::string what = fmt::format("{} {}", mode, toString(static_cast<GizmoPart>(part)));
-            const std::string before = toJson(hands.viewer->document());
+            const Document before = hands.viewer->document();
             const float2 from = hands.pixelOf(static_cast<GizmoPart>(part));
             hands.drag(from, from + float2(17, -23), 3);
             EXPECT_FALSE(hands.viewer->gizmo().isDragging());
-            EXPECT_EQ(hands.viewer->document().nodes.size(), 1u) << what;
-            EXPECT_NE(toJson(hands.viewer->document()), before) << what;
-            EXPECT_EQ(hands.viewer->document().view.camera.worldFromView, camera) << what;
+            Document after = hands.viewer->document();
+            ASSERT_EQ(after.nodes.size(), 1u) << what;
+            EXPECT_EQ(after.nodes[0].node, hands.viewer->panels().state.selectedNode) << what;
+            ASSERT_TRUE(after.nodes[0].parentFromNode.has_value()) << what;
+            EXPECT_NE(*after.nodes[0].parentFromNode, matrix) << what;
+            EXPECT_EQ(hands.nodeMatrix(), *after.nodes[0].parentFromNode) << what << " is seen";
+            EXPECT_EQ(after.view.camera.worldFromView, camera) << what;
+            after.nodes = before.nodes;
+            EXPECT_EQ(toJson(after), toJson(before)) << what << " changes the node alone";
             hands.press('Z', { .control = true });
-            EXPECT_EQ(toJson(hands.viewer->document()), before) << what << " is undone";
+            EXPECT_EQ(toJson(hands.viewer->document()), toJson(before)) << what << " is undone";
             hands.viewer->step(0.01);
+            EXPECT_EQ(hands.nodeMatrix(), matrix) << what << " is undone";
+            ++dragged;
         }
+        EXPECT_EQ(dragged, key == '2' ? 4 : 7) << mode << ": every handle is seen from here";
     }
     EXPECT_TRUE(hands.viewer->panels().state.selectedNode.has_value()) << "no drag is a click";
     EXPECT_THAT(hands.viewer->takeMessages(), testing::IsEmpty());
@@ -159,6 +170,22 @@ TEST_P(ViewerGizmoTest, ControlSnapsAndEscapeCancels) {
     hands.settle();
     hands.drag(from, from, 2); // grabbed, and not moved
     EXPECT_EQ(toJson(hands.viewer->document()), before);
+}
+
+TEST_P(ViewerGizmoTest, AFileThatIsDroppedEndsTheDrag) {
+    GizmoViewer hands(GetParam());
+    if (!hands.viewer) return;
+    hands.selectNode();
+    const float2 from = hands.pixelOf(GizmoPart::AxisY);
+    hands.viewer->handle(MouseMoveEvent{ from });
+    hands.viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });
+    hands.viewer->handle(MouseMoveEvent{ from + float2(0, -20) });
+    ASSERT_EQ(hands.viewer->document().nodes.size(), 1u);
+    hands.viewer->handle(DropEvent{ { showcaseFiles().model } });
+    EXPECT_FALSE(hands.viewer->gizmo().isDragging());
+    hands.viewer->handle(MouseMoveEvent{ from + float2(0, -40) });
+    EXPECT_TRUE(hands.viewer->document().nodes.empty()) << "edits of the last document do not come back";
+    hands.viewer->handle(MouseButtonEvent{ MouseButton::Left, false, {} });
 }
 
 TEST_P(ViewerGizmoTest, HoveredHandlesAreHighlighted) {

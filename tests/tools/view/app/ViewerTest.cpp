@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer without a window: events in, documents and pictures out, on both APIs.
 #include "tools/view/app/Viewer.h"
+#include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/tools/view/app/HeadlessViewer.h"
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
 
 namespace filament::view {
 namespace {
 
 class ViewerTest : public testing::TestWithParam<Backend> {};
 INSTANTIATE_TEST_SUITE_P(Apis, ViewerTest, testing::Values(Backend::Vulkan, Backend::Gles),
-                         [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& tested) { return std::string(toString(tested.param)); });
 
 TEST_P(ViewerTest, DrawsNothingWhileNothingChanges) {
     Headless headless(GetParam());
@@ -76,6 +81,53 @@ TEST_P(ViewerTest, EveryActionLeavesAViewerThatDraws) {
     }
     headless.viewer->perform(Action::Quit);
     EXPECT_TRUE(headless.viewer->isClosed());
+}
+
+/// For as long as it lives, Vulkan's loader finds no driver.
+class WithoutVulkan {
+public:
+    WithoutVulkan() {
+        for (const char* name : kNames) {
+            const char* value = std::getenv(name);
+            mBefore.push_back(value ? std::optional<std::string>(value) : std::nullopt);
+            setenv(name, "/nowhere/driver.json", 1);
+        }
+    }
+    WithoutVulkan(WithoutVulkan const&) = delete;
+    WithoutVulkan& operator=(WithoutVulkan const&) = delete;
+    ~WithoutVulkan() {
+        for (size_t i = 0; i < mBefore.size(); ++i)
+            mBefore[i] ? setenv(kNames[i], mBefore[i]->c_str(), 1) : unsetenv(kNames[i]);
+    }
+
+private:
+    static constexpr std::array<const char*, 2> kNames{ "VK_ICD_FILENAMES", "VK_DRIVER_FILES" };
+    std::vector<std::optional<std::string>> mBefore;
+};
+
+TEST(Viewer, WithoutAnyDeviceItKeepsTheDocumentInAFileAndCloses) {
+    ViewerOptions options = testOptions(Backend::Vulkan);
+    options.out = test::folderOfThisTest();
+    std::filesystem::remove_all(options.out);
+    Headless headless(options);
+    if (!headless.viewer) return;
+    headless.settle();
+    setMorph(headless.viewer->document(), "smile", 0.25f);
+    {
+        const WithoutVulkan gone;
+        headless.viewer->panels().state.recordsJobs = true; // the engine is opened again
+        EXPECT_FALSE(headless.viewer->step(0.01));
+    }
+    EXPECT_TRUE(headless.viewer->isClosed());
+    const Result<Document> kept = loadDocument(options.out / "viewer-1.json");
+    ASSERT_TRUE(kept.ok()) << kept.error().message;
+    EXPECT_TRUE(*kept == headless.viewer->document());
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::Contains(testing::HasSubstr("saved")));
+    headless.viewer->handle(MouseMoveEvent{ { 3, 4 } });
+    headless.press('B');
+    EXPECT_FALSE(headless.viewer->step(0.01)) << "nothing happens any more";
+    EXPECT_FALSE(headless.viewer->isLoading());
+    EXPECT_FALSE(headless.viewer->screenshot().ok());
 }
 
 TEST_P(ViewerTest, PicturesFollowTheSizeOfTheWindow) {
@@ -161,6 +213,22 @@ TEST_P(ViewerTest, ThePathTracerDrawsBesideTheViewer) {
     ASSERT_TRUE(headless.viewer->compared().result().has_value()) << "after its first pass";
     EXPECT_EQ(headless.viewer->compared().result()->pixels, 96u * 54);
     EXPECT_LT(headless.viewer->compared().result()->identical, 96u * 54) << "it sees what the engine approximates";
+    EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
+}
+
+TEST_P(ViewerTest, WhatItIsComparedWithMayChangeWhileThatStarts) {
+    Headless headless(GetParam());
+    if (!headless.viewer) return;
+    headless.settle();
+    headless.viewer->perform(Action::Compare);
+    for (int i = 0; i < 6; ++i) { // the path tracer, which loads its scene, and the other API
+        headless.viewer->perform(Action::CompareWith);
+        headless.viewer->step(0.01);
+    }
+    ASSERT_EQ(headless.viewer->compared().with, CompareWith::OtherApi);
+    headless.settle();
+    ASSERT_TRUE(headless.viewer->compared().result().has_value());
+    EXPECT_EQ(headless.viewer->compared().result()->percentage(), "100.0000 %");
     EXPECT_THAT(headless.viewer->takeMessages(), testing::IsEmpty());
 }
 
