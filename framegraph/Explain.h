@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// toText(), toGraphviz(), describePass(): the decisions of compile() and their reasons as text.
 ///   Out     toText: one line per pass (runs or culled, merged or not, and why), per attachment (load and store) and
-///           per texture (size, lifetime, which others share its memory), and their memory. toGraphviz: for `dot -Tsvg`; passes are
-///           boxes, textures ellipses; merged passes share a frame, culled ones are dashed.
+///           per texture (size, lifetime, which others share its memory), and their memory. toGraphviz: for `dot
+///           -Tsvg`; passes are boxes, textures ellipses; merged passes share a frame, culled ones are dashed.
 ///   Thread  one, while graph and plan live.  Memory: the returned string.
 #pragma once
 

@@ -154,8 +154,8 @@ public:
     void readSampled(TextureId texture, backend::TextureRange range = {});
     /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
     /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
-    /// `attachment`: for programs with fixed attachment numbers: inputs 0, 1, ..., then the slots of writeColor(). If the
-    /// merged pass would have other numbers, the pass is not merged.
+    /// `attachment`: for programs with fixed attachment numbers: inputs 0, 1, ..., then the slots of writeColor(). If
+    /// the merged pass would have other numbers, the pass is not merged.
     void readInput(TextureId texture, uint8_t attachment = kAnyAttachment, uint8_t level = 0, uint16_t layer = 0);
     /// Blits from it, reads it back, generates mips.
     void readTransfer(TextureId texture, backend::TextureRange range = {});

@@ -45,8 +45,8 @@ BufferUsage usageOf(BufferAccess const& access) {
     return access.writes ? BufferUsage{} : BufferUsage::TransferSource; // any buffer can be updated
 }
 
-/// Indices of the textures, the largest first, and of the same size the one that is used first: the order of requests to
-/// the pool. What is small then finds room in the memory of what is large.
+/// Indices of the textures, the largest first, and of the same size the one that is used first: the order of requests
+/// to the pool. What is small then finds room in the memory of what is large.
 std::span<uint32_t> bySize(FrameGraph const& graph, std::span<const Lifetime> lifetimes) {
     const std::span<uint32_t> numbers = graph.arena().array<uint32_t>(lifetimes.size());
     const std::span<uint64_t> bytes = graph.arena().array<uint64_t>(lifetimes.size());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// TransientPool: the textures, buffers and bind groups behind the transients of frame graphs, reused across passes and
 /// frames.
-///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture; others
-///           share memory where the device can (DeviceFeatures::sharedMemory). The two textures of a history never do.
+///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture;
+///           others share memory where the device can (DeviceFeatures::sharedMemory). The two textures of a history
+///           never do.
 ///   Thread  one at a time.
 ///   Memory  device memory of everything used by one of the last `keepFrames` graphs; small lists on the heap that stop
 ///           growing after warm-up.
@@ -122,8 +123,8 @@ private:
     bool isFree(PooledMemory const& memory, UseInterval use) const;
     /// How many groups before or after `use` nothing has it.
     uint32_t idleBeside(PooledMemory const& memory, UseInterval use) const;
-    /// Of those that are free and large enough, the one that is idle for the fewest groups beside `use`; a new one, if there
-    /// is none.
+    /// Of those that are free and large enough, the one that is idle for the fewest groups beside `use`; a new one, if
+    /// there is none.
     uint32_t memoryFor(backend::DeviceTextureDesc const& desc, UseInterval use);
     uint32_t newMemory(uint64_t bytes, bool isShareable);
     /// A texture that the driver knows; none, if there is none yet.

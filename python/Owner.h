@@ -60,8 +60,8 @@ public:
     };
 
     bool isOpen() const { return mEngine != nullptr; }
-    /// Destroys what is held, then the engine. Does nothing the second time. Raises ThreadError inside of another call: what
-    /// Python runs there (a handler of a signal, the items of a sequence) must not end what that call uses.
+    /// Destroys what is held, then the engine. Does nothing the second time. Raises ThreadError inside of another call:
+    /// what Python runs there (a handler of a signal, the items of a sequence) must not end what that call uses.
     void close();
     void useOnThisThread();
     /// Raises ClosedError if the interpreter waits for this call, to exit: between the steps of long work.

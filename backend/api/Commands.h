@@ -36,7 +36,8 @@ struct CmdDestroySurface { SurfaceHandle handle; };
 // Contents [O].
 /// Replaces bytes [offset, offset + bytes.size()) of a buffer.
 struct CmdUpdateBuffer { BufferHandle buffer; uint64_t offset = 0; std::span<const std::byte> bytes; };
-/// Replaces a rectangle of one level of `layerCount` layers. `bytes`: tightly packed rows, top row first, layer after layer.
+/// Replaces a rectangle of one level of `layerCount` layers. `bytes`: tightly packed rows, top row first, layer after
+/// layer.
 struct CmdUploadTexture {
     TextureHandle texture;
     uint8_t level = 0;
@@ -93,8 +94,9 @@ struct CmdDrawIndexed {                                                         
 struct CmdDispatch { uint32_t groupsX = 1, groupsY = 1, groupsZ = 1; };              // [O]
 
 // Windows.
-/// Shows a single-sampled RGBA8 or RGB10A2 texture in the window, as it is: its texel 0,0 in the upper left corner, black
-/// where the window is larger. May wait for the window system. A window that shows nothing (minimised) is skipped.
+/// Shows a single-sampled RGBA8 or RGB10A2 texture in the window, as it is: its texel 0,0 in the upper left corner,
+/// black where the window is larger. May wait for the window system. A window that shows nothing (minimised) is
+/// skipped.
 struct CmdPresent { SurfaceHandle surface; TextureHandle texture; };                 // [O]
 
 // Frames, measuring, names.

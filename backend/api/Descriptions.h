@@ -89,8 +89,8 @@ struct DeviceTextureDesc {
     uint16_t layers = 1; ///< array layers; a cube has 6 (+x -x +y -y +z -z, the order of both APIs)
     uint32_t width = 1, height = 1;
     std::string_view debugName;
-    /// Another texture, whose memory this one takes if it is large enough and of the right kind: of those that share it,
-    /// the one that a pass or a transfer wrote last has contents. The memory lives as long as one of them. With
+    /// Another texture, whose memory this one takes if it is large enough and of the right kind: of those that share
+    /// it, the one that a pass or a transfer wrote last has contents. The memory lives as long as one of them. With
     /// DeviceFeatures::sharedMemory only, and not together with TextureUsage::Transient.
     TextureHandle placedOn{};
 };

@@ -7,8 +7,8 @@
 ///           without a window system stay until the process ends: terminating one ends every context on it, including
 ///           those of other code, and unloads Mesa's driver, which costs the next context 24 ms of 31 (Mesa 22.3.6).
 ///   Thread  any. Holders of one display may come and go on several threads at once.
-///   Memory  an entry for each display of a window system that is held. The table is never destroyed, so that engines of
-///           static storage duration may end at any time.
+///   Memory  an entry for each display of a window system that is held. The table is never destroyed, so that engines
+///           of static storage duration may end at any time.
 ///   Fails   open(): DeviceUnavailable with the packages to install.
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Surface: a window that images are copied to.
-///   Rows    the only place that turns a picture over: row 0 is the top row of a texture, but the bottom row of a window.
+///   Rows    the only place that turns a picture over: row 0 is the top row of a texture, but the bottom row of a
+///           window.
 ///   Thread  the driver thread, context current.
 ///   Needs   a context on the display of the window (DriverOptions::display).
 ///   Fails   create(): Unsupported or Internal, with the window and the error of EGL. present() returns what it did; a

@@ -71,8 +71,8 @@ public:
     void execute(CmdDispatch const& command);
 
 private:
-    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped). Bits that
-    /// differ between processors count as a crash: they must not reach a picture.
+    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped). Bits
+    /// that differ between processors count as a crash: they must not reach a picture.
     enum class Harm : uint8_t { WrongResult, Crash };
     enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
 
@@ -110,8 +110,8 @@ private:
         std::string name;
     };
 
-    /// What is bound inside a pass, for draws, or outside, for dispatches; subpasses and the begin and end of a pass reset
-    /// it.
+    /// What is bound inside a pass, for draws, or outside, for dispatches; subpasses and the begin and end of a pass
+    /// reset it.
     struct Bound {
         PipelineHandle pipeline;
         std::array<BindGroupHandle, kMaxBindGroups> groups{};

@@ -7,8 +7,8 @@
 ///           kIdleFrames frames in a row did not need it, one of more than kKeptBytes after the first such frame.
 ///   Fails   record(), allocate(), keep(), append(): std::bad_alloc, and nothing has changed. reset(), rollBack() and
 ///           recordInReserve() never fail: a caller that runs out of memory in the middle can still end what it began.
-///   Names   every span and string_view given to record() inside a command is copied into the buffer. Large payloads that
-///           their owner gives away need no copy: keep() and recordAdopted().
+///   Names   every span and string_view given to record() inside a command is copied into the buffer. Large payloads
+///           that their owner gives away need no copy: keep() and recordAdopted().
 #pragma once
 
 #include "backend/api/Commands.h"

@@ -27,13 +27,14 @@ struct Quirks {
     bool spoilsFourthUniforms = false;
 
     /// Driver  lavapipe, found in Mesa 22.3.6.
-    /// What    compiles a stage anew for every draw that binds other uniforms, 3 to 4 ms each, where uniforms alone decide
-    ///         a condition: a material whose roughness is a parameter, say, and not a texture.
+    /// What    compiles a stage anew for every draw that binds other uniforms, 3 to 4 ms each, where uniforms alone
+    ///         decide a condition: a material whose roughness is a parameter, say, and not a texture.
     /// Why     it puts the values of such uniforms into the code (lvp_inline_uniforms), and gives up only where the
     ///         stage does not shrink to half. So its source reads; but it subtracts unsigned sizes, and goes on where
-    ///         the stage grows. Its shader cache hides that only as long as values stay the same. A condition that mixes
-    ///         a uniform with what varies is tried, too: every draw then copies the intermediate code of its stage, and
-    ///         keeps it as long as the pipeline, or for ever: 40 MB a frame for the 64 materials of the showcase.
+    ///         the stage grows. Its shader cache hides that only as long as values stay the same. A condition that
+    ///         mixes a uniform with what varies is tried, too: every draw then copies the intermediate code of its
+    ///         stage, and keeps it as long as the pipeline, or for ever: 40 MB a frame for the 64 materials of the
+    ///         showcase.
     /// Cure    hideUniformConditions().
     /// Cost    one operation for each such condition, on this driver only.
     /// Test    tests/filament_core/engine/CompilationsTest.cpp, tests/tools/view/app/WindowStormTest.cpp.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Texture: a VkImage with its memory and views, and the last use of every level and layer.
 ///   Thread  the driver thread.
-///   Memory  Device memory, which textures may share; tile memory for Transient attachments where the device has it. One
-///           view for sampling everything, and one for each part that a bind group has shown or a pass has attached.
+///   Memory  Device memory, which textures may share; tile memory for Transient attachments where the device has it.
+///           One view for sampling everything, and one for each part that a bind group has shown or a pass has
+///           attached.
 ///   Fails   create(): OutOfMemory with name and size, Unsupported with the format and usage that the device lacks.
 #pragma once
 

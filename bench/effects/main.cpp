@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// effects_bench [--frames N] [--size WxH] [--only TEXT] [--unseen] [--json FILE]: what effects cost where they are seen,
-// and that they cost nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one, then the
-// other first, and the ratio is that of each pair: its median, and the interval in which the true median lies with 95 %
-// certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program fails. The
-// last line is the time of a pass that fetches one texel a pixel: the floor below everything that works on whole pictures.
+// effects_bench [--frames N] [--size WxH] [--only TEXT] [--unseen] [--json FILE]: what effects cost where they are
+// seen, and that they cost nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one,
+// then the other first, and the ratio is that of each pair: its median, and the interval in which the true median lies
+// with 95 % certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program
+// fails. The last line is the time of a pass that fetches one texel a pixel: the floor below everything that works on
+// whole pictures.
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
 

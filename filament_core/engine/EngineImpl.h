@@ -204,8 +204,8 @@ struct Engine::Impl {
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);
-    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept. Of tables with a grading,
-    /// a look or other numbers the last ones are kept.
+    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept. Of tables with a
+    /// grading, a look or other numbers the last ones are kept.
     Texture toneTable(engine::ToneTableKey const& key);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);

@@ -37,8 +37,9 @@ public:
     void add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers);
     /// Frames whose replay has finished and whose timers have results.
     std::vector<FrameTimings> take();
-    /// Calls `visit(float2 scale, double milliseconds)` with the cost of each frame that has finished, once, oldest first:
-    /// that of its passes on the device, if there are timers, or else of its replay. A steady state allocates nothing.
+    /// Calls `visit(float2 scale, double milliseconds)` with the cost of each frame that has finished, once, oldest
+    /// first: that of its passes on the device, if there are timers, or else of its replay. A steady state allocates
+    /// nothing.
     template <class Visit>
     void visitFinished(bool hasTimers, Visit&& visit) {
         if (hasTimers)

@@ -2,8 +2,8 @@
 /// HandleTable: the objects of one type behind their handles, each with a `name`. Addresses are stable.
 ///   Thread  the app thread.
 ///   Life    retire() ends a handle; what it named lives on until releaseRetired() finds that nothing uses it.
-///   Fails   add(): std::bad_alloc, and the table is unchanged. A handle that is null, of another engine, or of something
-///           that was destroyed ends the process (ObjectHandles::refuse()).
+///   Fails   add(): std::bad_alloc, and the table is unchanged. A handle that is null, of another engine, or of
+///           something that was destroyed ends the process (ObjectHandles::refuse()).
 #pragma once
 
 #include "filament_core/scene/ObjectHandles.h"

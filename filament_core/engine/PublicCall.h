@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PublicCall: a public function of the engine, from its first line to its last. Messages about what the app gives name
 /// it (base/ApiCall.h).
-///   Fails   ends the process if the object was moved from, if its engine is gone, or on another thread than the engine's.
+///   Fails   ends the process if the object was moved from, if its engine is gone, or on another thread than the
+///           engine's.
 ///   Thread  any; that is what it is for.
 ///   Cost    a few loads and two words written: setTransform() of 10 000 nodes has it, too.
 #pragma once

@@ -3,7 +3,8 @@
 ///   In      add...() for everything that uses something.   Out: has...(), after sort().
 ///   Thread  the app thread.
 ///   Memory  keeps what it once needed. Adding throws std::bad_alloc.
-///   Cost    linear in the drawables of all scenes, and a sort; only in frames after a use ended while something is retired.
+///   Cost    linear in the drawables of all scenes, and a sort; only in frames after a use ended while something is
+///           retired.
 #pragma once
 
 #include "backend/api/Handles.h"

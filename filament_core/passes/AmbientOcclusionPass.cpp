@@ -62,8 +62,8 @@ OcclusionGrid gridOf(AmbientOcclusionResolution resolution, uint2 view) {
 
 float2 lastOf(uint2 size) { return { static_cast<float>(size.x - 1), static_cast<float>(size.y - 1) }; }
 
-/// How the rays of pixels are computed: rays = pixel * xy + zw, and (d * ray, -d) is the point of distance d. Of a parallel
-/// projection: (ray, -d).
+/// How the rays of pixels are computed: rays = pixel * xy + zw, and (d * ray, -d) is the point of distance d. Of a
+/// parallel projection: (ray, -d).
 float4 raysOf(float4x4 const& clip, uint2 size) {
     const double x = clip[0].x, y = clip[1].y;
     if (isParallel(clip)) {
@@ -83,8 +83,8 @@ struct OcclusionSource {
     OcclusionGrid grid;
     bool hasBentNormals;
 
-    /// Whether filters look up depths. Otherwise each texel knows its distance; it has no room beside a bent normal, and
-    /// those of a checkerboard do not lie along the axes of the blur.
+    /// Whether filters look up depths. Otherwise each texel knows its distance; it has no room beside a bent normal,
+    /// and those of a checkerboard do not lie along the axes of the blur.
     bool isFromDepth() const { return hasBentNormals || grid.code == 2; }
     Format resultFormat() const { return hasBentNormals ? Format::RGBA8 : Format::R8; }
     float4x4 const& clip() const { return context.packet.mainView().uniforms.clipFromView; }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Passes of debug views that draw the scene's surfaces, each once more and without light.
-///   addDebugSurfacePass  in the place of the colour pass: what the code of the materials gives, or how often it runs, in
-///                        FrameTargets::color as shaders/material/surface/debug_main.glsl says. Draws, their order and their
-///                        depth tests are those of the colour pass, so that their number is the frame's, unless effects of light make it draw a depth prepass; blending is not:
-///                        the last surface counts, which is the nearest one that passes its test.
-///   addTrianglePass      beside it: which triangle each pixel shows, for its edges. Surfaces that blend hide as others do.
+///   addDebugSurfacePass  in the place of the colour pass: what the code of the materials gives, or how often it runs,
+///                        in FrameTargets::color as shaders/material/surface/debug_main.glsl says. Draws, their order
+///                        and their depth tests are those of the colour pass, so that their number is the frame's,
+///                        unless effects of light make it draw a depth prepass; blending is not: the last surface
+///                        counts, which is the nearest one that passes its test.
+///   addTrianglePass      beside it: which triangle each pixel shows, for its edges. Surfaces that blend hide as others
+///                        do.
 ///   Demand   prepare::showsMaterials() and showsEdges().
 ///   Thread   the app thread.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// EffectMaterials: where a pass gets the engine's full-screen materials from, by the name of the file in shaders/post.
-///   In      the name, the values of all constants that the pass sets, always in the same order, and what the pass gives
-///           the material, which is checked when the material is made.
+///   In      the name, the values of all constants that the pass sets, always in the same order, and what the pass
+///           gives the material, which is checked when the material is made.
 ///   Out     the material. It lives as long as the engine.
 ///   Thread  the app thread, while passes are declared.
 ///   Memory  made at the first use. Finding one that was made allocates nothing.

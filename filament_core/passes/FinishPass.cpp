@@ -279,7 +279,8 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& f
                         .fillsTarget = true });
 }
 
-/// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their steps.
+/// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their
+/// steps.
 TextureId createUnfinished(FrameGraph& graph, Finish const& finish, uint2 size, std::string_view name) {
     const bool isEightBit =
             !finish.isSceneLinear && !finish.dithers && !finish.hasGrain && !finish.sharpens && !finish.hasTenBits;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Finish passes: the last ones of a picture: from scene-linear light to what the output stores.
-///   What    fringes of the lens, vignette, grading, tone mapper, grain and dither in one pass; after it FXAA (Lottes 2009),
-///           an upscaler and sharpening (ResolutionPass.h); the last one has the grain and the dither. A view that asks for a
-///           tone mapper alone gets a pass without the rest.
-///   Reads   targets.color, at the pixel that it writes alone, so that it can be a subpass of the colour pass; where the
-///           graph cannot merge it (MSAA, a device without subpass inputs) it samples instead. Same arithmetic, same bits.
+///   What    fringes of the lens, vignette, grading, tone mapper, grain and dither in one pass; after it FXAA (Lottes
+///           2009), an upscaler and sharpening (ResolutionPass.h); the last one has the grain and the dither. A view
+///           that asks for a tone mapper alone gets a pass without the rest.
+///   Reads   targets.color, at the pixel that it writes alone, so that it can be a subpass of the colour pass; where
+///           the graph cannot merge it (MSAA, a device without subpass inputs) it samples instead. Same arithmetic,
+///           same bits.
 ///   Draws   targets.output: display values by the view's tone mapper; light itself, if `isSceneLinear`.
 ///   Skips   what an output of light has already been drawn to.
 #pragma once

@@ -25,8 +25,8 @@ struct FullScreenInterface {
     std::span<const FullScreenParameter> values{};
 };
 
-/// Checks that the material has everything that the pass gives, and that the pass gives everything that the material has.
-/// Textures that the material's constants switch off (usedIf) may be missing.
+/// Checks that the material has everything that the pass gives, and that the pass gives everything that the material
+/// has. Textures that the material's constants switch off (usedIf) may be missing.
 ///   Fails   NotFound or InvalidArgument; one line that names the material, the pass and the parameter.
 Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreenInterface const& given);
 

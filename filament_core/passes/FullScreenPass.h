@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FullScreenPass: draws a material of the domain postprocess over every pixel of a target. An effect is one .mat file and
-/// one call:
+/// FullScreenPass: draws a material of the domain postprocess over every pixel of a target. An effect is one .mat file
+/// and one call:
 ///
 ///   FullScreenInput inputs[] = { { .name = "color", .texture = hdr }, { .name = "dirt", .image = dirt } };
 ///   FullScreenValue values[] = { { "strength", 0.04f } };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PassBlocks: the uniform blocks of a frame's passes, packed into one buffer: the size of a pass's target, the values of
-/// a full-screen effect.
+/// PassBlocks: the uniform blocks of a frame's passes, packed into one buffer: the size of a pass's target, the values
+/// of a full-screen effect.
 ///   Use     begin() once per frame, add() while passes declare themselves, upload() once before the graph is recorded,
 ///           entry() while it is recorded.
 ///   Memory  three buffers, used in turn, so that no frame overwrites data that an earlier frame still reads. They grow

@@ -17,8 +17,8 @@ framegraph::TextureId addPicturePasses(framegraph::FrameGraph& graph, FrameConte
                                        prepare::PictureCopy const& copy);
 
 /// Before the colour pass, if something reflects the picture: targets.picture is that of the last frame, as this frame
-/// sees its surfaces. The product of its alpha and the distance is 1 where the last frame showed the same surface. None,
-/// if there was no last frame.
+/// sees its surfaces. The product of its alpha and the distance is 1 where the last frame showed the same surface.
+/// None, if there was no last frame.
 void addReflectedPicture(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 /// After it: leaves this frame's picture, `color`, to the next one.
 void keepPicture(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,

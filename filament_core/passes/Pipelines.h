@@ -31,7 +31,8 @@ enum class DebugSlot : uint8_t {
     None,
     Values, ///< what their variants with kVariantDebug give
     Counts, ///< the same, added up
-    Edges, ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is behind
+    Edges,  ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is
+            ///< behind
 };
 
 /// Where a pipeline draws, and how lit materials are shaded there.
@@ -70,8 +71,8 @@ public:
     PipelineCache(backend::CommandStream& stream, scene::GeometryLayouts const& layouts)
             : mStream(stream), mLayouts(layouts) {}
 
-    /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame. What has a stencil state
-    /// gets slots of its own, because there are too many states for a key.
+    /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame. What has a stencil
+    /// state gets slots of its own, because there are too many states for a key.
     uint32_t slot(PassSlot const& slot);
     std::span<const PassSlot> slots() const { return mSlots; }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The last pass of a view that is a part of its target, or is drawn over what is there: puts the finished picture into
 /// its place.
-///   Why     all passes before it know only the view's own size, so that every effect is the same inside of a viewport as
-///           in a target of that size, to the bit.
+///   Why     all passes before it know only the view's own size, so that every effect is the same inside of a viewport
+///           as in a target of that size, to the bit.
 ///   Skips   views that fill their target: they draw to it themselves.
 #pragma once
 

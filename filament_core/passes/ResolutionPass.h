@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Resolution passes: a picture of fewer pixels becomes as large as the output; contrast between neighbours is raised.
-///   Reads   display values, or light if the output is light: it is compressed first, so that a lamp is not all there is.
+///   Reads   display values, or light if the output is light: it is compressed first, so that a lamp is not all there
+///           is.
 ///   Draws   `target`; the last pass of a frame also the grain and the dither, whose pixels are those of the output.
 ///   How     Quality::upscale; Effects::sharpening. docs/resolution.md has the formulas.
 ///   Cost    sharpening is a pass of its own: five look-ups of what another pass has made cost less than making it five

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Resolve pass: the samples of a pixel become its colour, weighted so that what is displayed is nearly the mean of what
-/// each sample alone would display (Quality::msaaResolve).
+/// Resolve pass: the samples of a pixel become its colour, weighted so that what is displayed is nearly the mean of
+/// what each sample alone would display (Quality::msaaResolve).
 ///   Reads   the colour pass's samples, one by one. NaN and infinite light stay in their pixel.
 ///   Draws   targets.color.
 ///   Skips   the pass, unless the frame needs Effect::MsaaResolve: the device then averages light, as it also does for

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shadow moments: what the filters vsm and evsm read instead of depths: two or four moments of the shadow maps, blurred,
-/// with mip levels (shaders/lib/moments.glsl).
+/// Shadow moments: what the filters vsm and evsm read instead of depths: two or four moments of the shadow maps,
+/// blurred, with mip levels (shaders/lib/moments.glsl).
 ///   Passes  "shadow moments", "shadow blur", "shadow mips": only over the tiles of maps that this frame draws. Tiles
 ///           that an earlier frame has drawn keep theirs.
 #pragma once

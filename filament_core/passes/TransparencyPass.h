@@ -3,9 +3,9 @@
 /// draws before and after.
 ///   Weighted  two passes over the surfaces: sums of their light by weight, and how much they cover together. One draw
 ///             over the picture. With several samples a pixel both are drawn with them, and composed once a pixel.
-///   Peeled    two passes for each layer but the last: the depth of what is nearest behind the layer before it, then the
-///             light of what has that depth, under the layers before it. What is farther than they are is drawn into the
-///             picture, sorted, by ColorPass; the layers come over it. Layers have one sample a pixel.
+///   Peeled    two passes for each layer but the last: the depth of what is nearest behind the layer before it, then
+///             the light of what has that depth, under the layers before it. What is farther than they are is drawn
+///             into the picture, sorted, by ColorPass; the layers come over it. Layers have one sample a pixel.
 ///   In        ViewPacket::anyOrder: nothing runs if it is empty.
 ///   Bits      as of other draws: a surface has the same depth in all of its passes, as in the depth prepass.
 ///   Cost      docs/transparency.md.

@@ -21,8 +21,8 @@ PixelBox coveredBy(scene::Renderables const& renderables, uint32_t renderable, V
 /// Pixels around what is covered, for filters that look at neighbours.
 inline constexpr uint32_t kCoverMargin = 8;
 
-/// Of `size`: all that the objects of the view cover, and kCoverMargin pixels around it. Begins and ends at even pixels,
-/// or with the view; never empty.
+/// Of `size`: all that the objects of the view cover, and kCoverMargin pixels around it. Begins and ends at even
+/// pixels, or with the view; never empty.
 backend::Rect coveredPixels(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewPacket const& view,
                             ViewSpace const& space, uint2 size);
 

@@ -24,7 +24,8 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
 /// memory.size() == list.bytes.
 void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::span<std::byte> memory);
 
-/// The vertex stage's data for one deformation and `weights` of its targets: those whose weight is not 0, in their order.
+/// The vertex stage's data for one deformation and `weights` of its targets: those whose weight is not 0, in their
+/// order.
 shader::MorphUniforms morphUniforms(scene::Deformation const& deformation, std::span<const float> weights);
 /// Its used bytes: up to the last target.
 uint32_t morphBytes(std::span<const float> weights);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FitShadows: the views from which shadow maps are drawn.
-///   Sun     parallel projections, each around the bounding sphere of a slice of the camera's frustum (Zhang et al. 2006,
-///           "Parallel-Split Shadow Maps"): turning the camera does not change its size. The slices divide the range of
-///           depth in which shadows can be seen. Centres move in steps of a sixteenth of a map, which is a whole number
-///           of texels: between two steps a map does not change at all, so a still scene under a moving camera is drawn
-///           again once in many frames. A scene that is smaller than the sphere is enclosed whole, and then the map
-///           does not depend on the camera.
+///   Sun     parallel projections, each around the bounding sphere of a slice of the camera's frustum (Zhang et al.
+///           2006, "Parallel-Split Shadow Maps"): turning the camera does not change its size. The slices divide the
+///           range of depth in which shadows can be seen. Centres move in steps of a sixteenth of a map, which is a
+///           whole number of texels: between two steps a map does not change at all, so a still scene under a moving
+///           camera is drawn again once in many frames. A scene that is smaller than the sphere is enclosed whole, and
+///           then the map does not depend on the camera.
 ///   Spot    one projection around its cone; cones wider than 60 degrees to each side take the faces of a cube.
 ///   Point   the six faces of a cube; those of areas, too, less the one behind an area that shines to one side.
 ///   Space   light space: the view space of the map; x right, y up, the light travels along -z. Double precision.
@@ -52,7 +52,8 @@ struct FittedShadow {
     float widthPerMeter = 0; ///< of the map, for each metre in front of the light, for others
 };
 
-/// Slices of `range` between logarithmic and uniform ones ("practical split scheme", Zhang et al. 2006, with weight 0.75).
+/// Slices of `range` between logarithmic and uniform ones ("practical split scheme", Zhang et al. 2006, with weight
+/// 0.75).
 std::array<DepthSlice, kMaxCascades> splitDepth(DepthSlice const& range, uint32_t count);
 
 /// One cascade. `scene`: everything that casts or receives, in light space.
@@ -75,8 +76,8 @@ float penumbraOfDepth(FittedShadow const& fitted, float sourceRadius);
 /// True: the depths of a map are reciprocal to the distance, not linear.
 inline bool isPerspective(FittedShadow const& fitted) { return fitted.depthMeters <= 0; }
 
-/// The ratio of the near plane to a distance beyond which nothing casts, for momentDepth(); 0 for parallel light. `world`:
-/// everything that casts, axis-aligned in the world.
+/// The ratio of the near plane to a distance beyond which nothing casts, for momentDepth(); 0 for parallel light.
+/// `world`: everything that casts, axis-aligned in the world.
 float nearOverFar(FittedShadow const& fitted, LightSpaceBox const& world);
 
 /// From positions relative to the main camera to texels of the atlas, in xy, and depth, in z; all times w.

@@ -60,8 +60,8 @@ struct TileAxes {
 /// plus a constant.
 std::optional<TileAxes> tileAxes(FroxelGrid const& grid, float4x4 const& clipFromView);
 
-/// The froxel of a point relative to the camera, as lightsNear() in shaders/material/surface/light_list.glsl computes it;
-/// none: all lights.
+/// The froxel of a point relative to the camera, as lightsNear() in shaders/material/surface/light_list.glsl computes
+/// it; none: all lights.
 std::optional<uint32_t> froxelAt(shader::FrameUniforms const& frame, float3 point);
 
 } // namespace filament::prepare

@@ -11,8 +11,8 @@
 
 namespace filament::prepare {
 
-/// How much a test is widened, for the rounding of the shaders and its own. Factors of the default; tests shrink them to
-/// prove that they are needed.
+/// How much a test is widened, for the rounding of the shaders and its own. Factors of the default; tests shrink them
+/// to prove that they are needed.
 struct FroxelMargins {
     float factor = 1;
 
@@ -20,7 +20,8 @@ struct FroxelMargins {
     float range() const { return 1e-5f * factor; }
     /// Of a place, relative to its distance from the camera: three products and their sum, in the shader and here.
     float place() const { return 1e-6f * factor; }
-    /// Of the cosine of a cone's angle: the offset is its multiple, rounded, and the direction has unit length within it.
+    /// Of the cosine of a cone's angle: the offset is its multiple, rounded, and the direction has unit length within
+    /// it.
     float cosine() const { return 2e-6f * factor; }
     /// Of a tile border, for each unit that the terms of its sum have.
     float tile() const { return 2e-6f * factor; }

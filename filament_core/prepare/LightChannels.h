@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightChannels: which lights of a view shine on which of its draws (<filament/Light.h>).
-///   How     shaders know nothing of channels. Draws with equal channels share a light list; where that is not the list of
-///           the view, they bind a second copy of its uniforms and are drawn with the variant that their lights select.
-///   Demand  if every light shares a channel with every lit draw, as by default, nothing is done: prepareView() compares
-///           the channels that all of them have.
+///   How     shaders know nothing of channels. Draws with equal channels share a light list; where that is not the list
+///           of the view, they bind a second copy of its uniforms and are drawn with the variant that their lights
+///           select.
+///   Demand  if every light shares a channel with every lit draw, as by default, nothing is done: prepareView()
+///           compares the channels that all of them have.
 ///   Shadows dropUnseenLights() runs before maps are fitted: a light that shines on nothing in view has none.
 ///           separateChannels() runs after that, because a light carries its maps into every list.
 ///   Bits    lists have the order of the scene. The same for any number of workers.

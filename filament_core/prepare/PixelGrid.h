@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PixelGrid: which boxes are so small that no triangle inside of them can cover the centre of a pixel: drawing them
-/// changes nothing. With one sample a pixel a device draws a triangle where it covers centres (Vulkan 1.3, section 28.8;
-/// OpenGL ES 3.2, section 13.7).
+/// changes nothing. With one sample a pixel a device draws a triangle where it covers centres (Vulkan 1.3, section
+/// 28.8; OpenGL ES 3.2, section 13.7).
 ///   In      boxes relative to the camera, in world axes, that contain all vertices.
 ///   Bits    the same on every CPU: Simd.h.
 ///   Margin  kMarginPixels on every side: for vertices that are rounded to 1/256 pixel, and for the rounding of their

@@ -38,8 +38,8 @@ private:
     uint32_t mNext, mEnd;
 };
 
-/// The axis of the profile's +X: across the direction, which stays where it is if a node with unequal scales turns the two
-/// towards each other.
+/// The axis of the profile's +X: across the direction, which stays where it is if a node with unequal scales turns the
+/// two towards each other.
 float3 sideOf(LightRecord const& light) {
     const float3 side = light.sideWorld - light.directionWorld * glm::dot(light.sideWorld, light.directionWorld);
     const float length = glm::length(side);

@@ -26,7 +26,8 @@ struct PlacedShadowMaps {
 PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapWish> wishes, ShadowAtlas const& held,
                                  uint32_t largestAtlas);
 
-/// Of an atlas with `size` texels a side: 4 B each for the depth, and 8 or 16 for moments and a third more for their mips.
+/// Of an atlas with `size` texels a side: 4 B each for the depth, and 8 or 16 for moments and a third more for their
+/// mips.
 uint64_t atlasBytes(uint32_t size, ShadowMoments moments);
 /// The largest atlas, in texels of a side, that takes no more than `bytes`; at least one of kSmallestShadowMap.
 uint32_t atlasSizeForBytes(uint64_t bytes, ShadowMoments moments);

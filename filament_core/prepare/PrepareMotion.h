@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// prepareMotion: which opaque objects in view did not stay where they were, so that the motion of the camera alone does
-/// not tell where the last picture shows them.
+/// prepareMotion: which opaque objects in view did not stay where they were, so that the motion of the camera alone
+/// does not tell where the last picture shows them.
 ///   In      the main view, and the last frame.
 ///   Out     a view of kind Motion: a draw for each of these objects, with two records: now, and in the last frame. And
-///           what moves them: transform, skin, morph targets, a vertex block that reads the time, a place in the view of
-///           a camera that moved.
+///           what moves them: transform, skin, morph targets, a vertex block that reads the time, a place in the view
+///           of a camera that moved.
 ///   Thread  the app thread.   Memory: the arena.   Bits: the order of the main view.   Fails: std::bad_alloc.
 #pragma once
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// preparePick: what may cover one pixel of a view, one draw for each object, so that each can be drawn by itself.
 ///   In      the current scene, the view without jitter, the pixel.
-///   Out     a packet with one view: its opaque draws are the candidates, also those that blend, in the order in which the
-///           view draws them. The uniforms are those of the view itself, so that what is drawn covers the same pixels.
+///   Out     a packet with one view: its opaque draws are the candidates, also those that blend, in the order in which
+///           the view draws them. The uniforms are those of the view itself, so that what is drawn covers the same
+///           pixels.
 ///   Limits  kMostCandidates; beyond, those whose boxes begin farthest away are left out.
 ///   Thread, memory, bits, fails: as prepareView().
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LightSelector: the lights that a view shades with: the brightest sun, which has its place in the uniforms, and a list
-/// of the others: further suns, and the punctual lights whose range reaches into the frustum.
+/// LightSelector: the lights that a view shades with: the brightest sun, which has its place in the uniforms, and a
+/// list of the others: further suns, and the punctual lights whose range reaches into the frustum.
 ///   Thread  the constructor: the thread that owns the arena. select(): any, once; it runs beside culling.
 ///   Memory  the arena, all in the constructor: 8 B per light, and 64 B per light that can be kept.
 ///   Out     in the order of the scene.

@@ -4,7 +4,8 @@
 ///   Map     a square of texels of one depth texture, the atlas: what one light sees in one direction. A sun has a map
 ///           for each cascade, a spot one, a point up to six.
 ///   Depth   reversed, as everywhere: 1 at the light, 0 far away.
-///   Moments for the filters vsm and evsm a second texture of the same size, with mip levels, that is made from the depths.
+///   Moments for the filters vsm and evsm a second texture of the same size, with mip levels, that is made from the
+///   depths.
 #pragma once
 
 #include "backend/api/Format.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SunDiscs: which suns a view shows in its sky, and where each pixel lies in their discs.
-///   In      the lights of the scene, and the view.   Out: a SunDisc for each sun whose disc or halo the view may contain.
-///   Disc    the luminance E / (pi sin^2 r) of a sun that gives E lux with the angular radius r; 0.001 degrees at least.
+///   In      the lights of the scene, and the view.
+///   Out: a SunDisc for each sun whose disc or halo the view may contain.
+///   Disc    the luminance E / (pi sin^2 r) of a sun that gives E lux with the angular radius r; 0.001 degrees at
+///           least.
 ///   Exact   in double precision. Pixels are counted from where the sun is in the picture, so that floats resolve the
 ///           smallest disc.
 ///   Thread  any; pure. Memory: the arena. Fails: std::bad_alloc.

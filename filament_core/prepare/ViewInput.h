@@ -14,8 +14,8 @@
 
 namespace filament::prepare {
 
-/// What a view is drawn for. Depth, Shadow and Motion draw what is opaque or masked, without lights: positions, bones and
-/// morph targets are all that such draws read, and masked materials their fragment stage.
+/// What a view is drawn for. Depth, Shadow and Motion draw what is opaque or masked, without lights: positions, bones
+/// and morph targets are all that such draws read, and masked materials their fragment stage.
 enum class ViewKind : uint8_t {
     Color,  ///< light: what a camera sees
     Depth,  ///< depth alone, of what a camera sees

@@ -11,7 +11,8 @@
 ///   Limits  2^20 - 1 nodes, any depth: nothing here is recursive.
 ///   Cost    add, setTransform: O(1). remove: its subtree. setParent: its subtree and the difference in depth. A world
 ///           transform on demand: O(1), or O(depth) while changes are pending. Updates: bench/filament_core/prepare.
-///   Fails   a stale handle (ObjectHandles::refuse()) and a cycle end the process. A transform that is not finite counts as zero.
+///   Fails   a stale handle (ObjectHandles::refuse()) and a cycle end the process. A transform that is not finite
+///           counts as zero.
 #pragma once
 
 #include "filament_core/scene/Affine.h"

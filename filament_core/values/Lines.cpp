@@ -13,8 +13,8 @@ struct LinePoint {
     float4 color;
 };
 
-/// Seen from any side, the first triangle is (left of the begin, right of the end, right of the begin). "Left" is towards the
-/// other end, so the sides of the two ends have opposite signs.
+/// Seen from any side, the first triangle is (left of the begin, right of the end, right of the begin). "Left" is
+/// towards the other end, so the sides of the two ends have opposite signs.
 void addSegment(LineQuads& quads, LinePoint const& begin, LinePoint const& end) {
     const auto first = static_cast<uint32_t>(quads.vertices.size());
     const auto add = [&](LinePoint const& at, LinePoint const& other, float side) {

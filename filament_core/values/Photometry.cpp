@@ -19,9 +19,9 @@ double checked(float quantity) {
 
 Candela candela(double value) { return { static_cast<float>(value) }; }
 
-// Lumens of a spot of one candela. The fall-off of KHR_lights_punctual is ((c - outer) / (inner - outer))^2 in the cosine
-// c of the angle; with d = inner - outer its integral over the sphere is 2 pi (1 - inner + d / 3). The engine's d is at
-// least 1e-3 (SelectLights.cpp), so narrower cones do not reach the full intensity.
+// Lumens of a spot of one candela. The fall-off of KHR_lights_punctual is ((c - outer) / (inner - outer))^2 in the
+// cosine c of the angle; with d = inner - outer its integral over the sphere is 2 pi (1 - inner + d / 3). The engine's
+// d is at least 1e-3 (SelectLights.cpp), so narrower cones do not reach the full intensity.
 double spotLumens(float innerConeRadians, float outerConeRadians) {
     FILAMENT_ASSERT(innerConeRadians >= 0 && innerConeRadians < outerConeRadians && outerConeRadians <= 1.5707964f,
                     "a spot has 0 <= inner < outer <= pi/2");

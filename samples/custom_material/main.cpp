@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// custom_material [vulkan|gles] [OUT.png]: weave.mat, which CMake compiles into the program: see filament_add_materials() in
-// ../CMakeLists.txt.
+// custom_material [vulkan|gles] [OUT.png]: weave.mat, which CMake compiles into the program: see
+// filament_add_materials() in ../CMakeLists.txt.
 #include <filament/filament.h>
 #include <materials/weave.h>
 

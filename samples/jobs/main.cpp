@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// jobs [WORKERS]: the job system alone, without graphics. Rows of a fractal are computed by all cores, letters are counted when
-// the rows are done, and a background job writes its line meanwhile. The result does not depend on the number of workers.
+// jobs [WORKERS]: the job system alone, without graphics. Rows of a fractal are computed by all cores, letters are
+// counted when the rows are done, and a background job writes its line meanwhile. The result does not depend on the
+// number of workers.
 #include <jobsystem/JobSystem.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// two_backends [OUT.png]: draws the same scene by Vulkan and by OpenGL ES and counts the pixels that differ. With Mesa's CPU
-// drivers there are none. The exit status is 1 if there are.
+// two_backends [OUT.png]: draws the same scene by Vulkan and by OpenGL ES and counts the pixels that differ. With
+// Mesa's CPU drivers there are none. The exit status is 1 if there are.
 #include <filament/filament.h>
 
 #include <cstdio>

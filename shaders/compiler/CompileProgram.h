@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compileProgram: compiles two GLSL 450 stages to SPIR-V for Vulkan and ESSL 3.10 for OpenGL ES. compileCompute does the
-/// same with a compute stage.
+/// compileProgram: compiles two GLSL 450 stages to SPIR-V for Vulkan and ESSL 3.10 for OpenGL ES. compileCompute does
+/// the same with a compute stage.
 ///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
 ///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
 ///   Exact   `exact` writes out the operations that Mesa expands differently for the two languages (ExactLowering.h)

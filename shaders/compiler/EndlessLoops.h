@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// findEndlessLoop: a block of a module that is reached, but from which no path leaves the function.
 ///   Why     no device may run such a loop: Mesa's cut it off after some iterations, each API after another count.
-///   In      valid SPIR-V of glslang. A branch on the constants true and false takes one way only; every other condition
-///           may become true and false.
+///   In      valid SPIR-V of glslang. A branch on the constants true and false takes one way only; every other
+///           condition may become true and false.
 ///   Out     where its head is, if the module has debug information; nothing if every loop has an exit.
 ///   Thread  any. Fails: never for a valid module. Cost: two walks over the blocks.
 #pragma once

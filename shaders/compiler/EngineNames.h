@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// EngineNames: keeps the engine's GLSL and the author's apart. Authors may use any name: where theirs is also one of the
-/// engine's, the engine's gets the prefix `filament_` in all texts of that material.
+/// EngineNames: keeps the engine's GLSL and the author's apart. Authors may use any name: where theirs is also one of
+/// the engine's, the engine's gets the prefix `filament_` in all texts of that material.
 ///   Why     only then, rather than always: no other material changes by a byte, and the texts stay readable.
 ///   Thread  any; the tables are made once. Cost: outlines of the engine's texts, 2 ms once.
 #pragma once

@@ -19,8 +19,8 @@ using Instruction = SpirvEditor::Instruction;
 constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180.0f;
 constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
 
-/// Mesa folds log2(exp2(x)), sqrt(exp2(x)), log2(pow(x, y)) and the like, but only functions that come from SPIR-V: those
-/// of ESSL are `precise`. The exact sum f(x) + 0.0 between two functions forbids it on both, and changes only -0.
+/// Mesa folds log2(exp2(x)), sqrt(exp2(x)), log2(pow(x, y)) and the like, but only functions that come from SPIR-V:
+/// those of ESSL are `precise`. The exact sum f(x) + 0.0 between two functions forbids it on both, and changes only -0.
 class FunctionChains {
 public:
     /// The instruction as it is, but with sums in front of such a function; 0: it is none.

@@ -3,13 +3,13 @@
 ///   Why     Mesa uses different front ends for SPIR-V and GLSL, which expand some operations differently; the last bit
 ///           of a dot product then depends on the API. After this pass both see additions and multiplications.
 ///   What    dot, matrix products, outer product, determinant, inverse, normalize, length, distance, reflect, refract,
-///           cross, faceforward, mix, step, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the hyperbolic
-///           functions and their inverses, division by a constant (multiplication by its rounded reciprocal), % of
-///           signed integers, and pow with a small whole exponent, which becomes products. Conversions to integers are
-///           clamped to their range, and bit casts of NaN give one pattern (docs/materials-undefined.md). Functions
-///           of functions, such as log(exp2(x)), are separated by a sum, so that no driver folds them. Minima, maxima,
-///           arcs and mod of values that follow from constants choose what they give for NaN and 0 themselves, because
-///           drivers compute constants by other rules than variables.
+///           cross, faceforward, mix, step, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the
+///           hyperbolic functions and their inverses, division by a constant (multiplication by its rounded
+///           reciprocal), % of signed integers, and pow with a small whole exponent, which becomes products.
+///           Conversions to integers are clamped to their range, and bit casts of NaN give one pattern
+///           (docs/materials-undefined.md). Functions of functions, such as log(exp2(x)), are separated by a sum, so
+///           that no driver folds them. Minima, maxima, arcs and mod of values that follow from constants choose what
+///           they give for NaN and 0 themselves, because drivers compute constants by other rules than variables.
 ///   In      valid SPIR-V; run it after the optimiser, which would restore some of the operations.
 ///   Limits  32-bit floats; modf, frexp and ldexp are not changed.
 ///   Thread  any. Fails: never for a valid module. Cost: one pass over the words.

@@ -49,9 +49,9 @@ Result<std::string> generateFragment(MaterialDefinition const& definition, Mater
 Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                   IncludeResolver const& includes);
 
-/// The fragment stage up to and including the author's code, with a main() that hands everything that material() sets to
-/// the output, for checkTextureConditions(). Of post-process materials, and of those that shade lights themselves: the
-/// whole stage.
+/// The fragment stage up to and including the author's code, with a main() that hands everything that material() sets
+/// to the output, for checkTextureConditions(). Of post-process materials, and of those that shade lights themselves:
+/// the whole stage.
 Result<std::string> generateObserver(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      IncludeResolver const& includes);
 

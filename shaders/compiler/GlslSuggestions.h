@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Makes the GLSL compiler's errors ones that authors can act on.
 ///   Out     one line for each line of the author's text that is wrong, in the order of the text: "file:line: reason",
-///           with what was probably meant. Errors in the engine's text, which follow from the author's, disappear behind
-///           those, or point to the author's block.
+///           with what was probably meant. Errors in the engine's text, which follow from the author's, disappear
+///           behind those, or point to the author's block.
 ///   Limits  50 lines. Thread: any.
 #pragma once
 

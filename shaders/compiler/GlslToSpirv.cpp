@@ -33,8 +33,8 @@ std::string_view placeIn(std::string_view line) {
     return end == std::string_view::npos ? std::string_view{} : line.substr(0, end);
 }
 
-/// glslang's log consists of lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end. Of several
-/// errors in a line of the source, all but the first mostly follow from it.
+/// glslang's log consists of lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end. Of
+/// several errors in a line of the source, all but the first mostly follow from it.
 std::vector<std::string_view> errorsIn(std::string_view logText) {
     constexpr std::string_view kPrefix = "ERROR: ";
     std::vector<std::string_view> errors;
@@ -223,8 +223,8 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
     Result<std::vector<uint32_t>> fast =
             runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
     if (!fast || goal != Optimization::Size) return fast;
-    // Constants of inlined code meet and fold; a function that is called once is always better inlined. So several lists
-    // compete, and none is the best for all materials.
+    // Constants of inlined code meet and fold; a function that is called once is always better inlined. So several
+    // lists compete, and none is the best for all materials.
     Result<std::vector<uint32_t>> best = fast;
     const auto compete = [&](std::span<const uint32_t> from) {
         Result<std::vector<uint32_t>> small = runPasses(from, registerSizePasses);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The tables of the material language as Markdown, made from the tables that the compiler itself reads: for
-/// docs/material-language.md, where each stands between <!-- begin: NAME --> and <!-- end: NAME -->. Also the words that an
-/// editor should know.
+/// docs/material-language.md, where each stands between <!-- begin: NAME --> and <!-- end: NAME -->. Also the words
+/// that an editor should know.
 ///   Thread  any.
 #pragma once
 

@@ -4,8 +4,8 @@
 ///           -> generate GLSL per variant (GlslGenerator) -> compile (CompileProgram) -> package.
 ///   Thread  any; with `jobs` the variants are compiled in parallel. The bytes do not depend on it.
 ///   Memory  the contents of the package, and some megabytes per thread while compiling.
-///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL; a line
-///           for each mistake, as far as one does not hide the next.
+///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL; a
+///           line for each mistake, as far as one does not hide the next.
 ///   Cost    about 50 ms per variant.
 #pragma once
 

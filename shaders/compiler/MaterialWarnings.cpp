@@ -19,8 +19,8 @@ bool isHidden(Parameter const& parameter) {
     return parameter.name == kMaskThresholdParameter || parameter.name == kDoubleSidedParameter;
 }
 
-/// Textures have a name of their own in the code, others the name of a member, which is taken for read wherever the word
-/// stands: this warns rather too little.
+/// Textures have a name of their own in the code, others the name of a member, which is taken for read wherever the
+/// word stands: this warns rather too little.
 void addUnusedParameters(MaterialDefinition const& definition, MaterialNeeds const& needs,
                          std::vector<std::string>& out) {
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {

@@ -270,8 +270,8 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
     return {};
 }
 
-// In the order of the guide; domain, fullScreenTriangle, wideLines, halfPrecision and clothDistribution are additions of
-// this engine.
+// In the order of the guide; domain, fullScreenTriangle, wideLines, halfPrecision and clothDistribution are additions
+// of this engine.
 constexpr std::array kProperties{
     StateProperty{ "name", "what messages and tools call it", readName, [] { return std::string("any text"); },
                    [](MaterialDefinition const& definition) { return definition.package.name; } },

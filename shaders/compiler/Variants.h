@@ -11,9 +11,9 @@
 
 namespace filament::shader {
 
-/// The bits that can change the code of such a material: no lights for unlit materials, kVariantHalf only if the material
-/// requests it, kVariantMerged for post-process materials with currentPixel parameters. Materials in object space can be
-/// deformed; opaque and masked ones leave depth.
+/// The bits that can change the code of such a material: no lights for unlit materials, kVariantHalf only if the
+/// material requests it, kVariantMerged for post-process materials with currentPixel parameters. Materials in object
+/// space can be deformed; opaque and masked ones leave depth.
 uint16_t selectableBits(MaterialDefinition const& definition);
 
 /// Ascending; always contains 0. `selectable`: see above.

@@ -33,9 +33,11 @@ enum AttributeLocation : uint8_t {
 // ---- bind groups
 // In the order of how seldom they change. What every program of the engine has: View; by what a material reads: Pass.
 inline constexpr uint32_t kGroupView = 0;     ///< buffers alone: what all draws of a view share, and windows of objects
-inline constexpr uint32_t kGroupPass = 1;     ///< the target, and the engine's textures: environment, what other passes drew
+inline constexpr uint32_t kGroupPass = 1;     ///< the target, and the engine's textures: environment, what other passes
+                                              ///< drew
 inline constexpr uint32_t kGroupMaterial = 2; ///< MaterialParams block (binding 0) and the material's textures (1..)
-inline constexpr uint32_t kGroupDeformation = 3; ///< of variants with kVariantSkinning only; read by the vertex stage only
+inline constexpr uint32_t kGroupDeformation = 3; ///< of variants with kVariantSkinning only; read by the vertex stage
+                                                 ///< only
 
 enum ViewBinding : uint8_t {
     kBindingFrame = 0,       ///< FrameUniforms, dynamic
@@ -51,7 +53,9 @@ enum PassBinding : uint8_t {
     kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
-    kBindingOcclusion = 6,   ///< sampler2D: where surfaces are peeled (TransparencyTerm), the depth of a layer; otherwise ambient occlusion of what is opaque, for lit materials; r: visibility; with bent normals gba: encodeLean() of the open direction
+    kBindingOcclusion = 6,   ///< sampler2D: where surfaces are peeled (TransparencyTerm), the depth of a layer;
+                             ///< otherwise ambient occlusion of what is opaque, for lit materials; r: visibility; with
+                             ///< bent normals gba: encodeLean() of the open direction
     kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels
@@ -63,34 +67,47 @@ struct FrameUniforms {
     float4x4 worldFromClip;
     float4x4 viewFromWorld;
     float4x4 clipFromView;
-    float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are absolute, not relative to it
+    float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are
+                                 ///< absolute, not relative to it
     float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: unused; w: depth of infinity
     float4 time;                 ///< x: seconds; y: what a double has beyond x; z: its fraction, [0, 1); w: unused
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
-    float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: first word of the profiles of the view, if it has some
+    float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: first word of the profiles of the
+                                 ///< view, if it has some
     std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
-    float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice, as depth bits >> shift
-    float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: first word of kLtcTable, if the view has areas
-    float4 fogMedium;            ///< x: logarithm of the density at the camera's height; y: fall-off a metre; z: metres where it begins, w: where it ends
-    float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is fog
-    float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed, towards the sun; w: exponent of the cosine
+    float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice,
+                                 ///< as depth bits >> shift
+    float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: first word of kLtcTable,
+                                 ///< if the view has areas
+    float4 fogMedium;            ///< x: logarithm of the density at the camera's height; y: fall-off a metre; z: metres
+                                 ///< where it begins, w: where it ends
+    float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is
+                                 ///< fog
+    float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed,
+                                 ///< towards the sun; w: exponent of the cosine
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
-    float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has them
-    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; z: metres from which on transparencyWeight() falls; w: unused
+    float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
+                                 ///< them
+    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; z:
+                                 ///< metres from which on transparencyWeight() falls; w: unused
 };
 
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind, or the DebugView whose value surfaces leave; w: mip levels that are added to those of materials' textures
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last
+                   ///< level of the picture behind, or the DebugView whose value surfaces leave; w: mip levels that are
+                   ///< added to those of materials' textures
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
-    float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they hit, metres; w: last level of the pyramid of distances
+    float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they
+                       ///< hit, metres; w: last level of the pyramid of distances
     float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none
-    float4 lastAlongView; ///< the distance along the view of the last frame: its product with a point of this frame's world, w = 1
+    float4 lastAlongView; ///< the distance along the view of the last frame: its product with a point of this frame's
+                          ///< world, w = 1
     float4 lastTime; ///< FrameUniforms::time of the last frame
 };
 
@@ -101,7 +118,9 @@ struct ShadowMapRecord {
     float4x4 atlasFromWorld; ///< from positions relative to the camera; xy: texels, z: depth, all times w
     float4 tile;             ///< texels; xy: first, zw: end; of the first channel
     float4 texel;            ///< width of a texel is x + y w metres; bias of a depth is z + w times the depth
-    float4 softness;         ///< x: radius of the penumbra for each unit of depth in between, in texels; y: colour channels, 1 or 3: those of green and blue lie to the right of `tile` and below it. Moments: z: see momentDepth(), w: radius of the blur in texels
+    float4 softness;         ///< x: radius of the penumbra for each unit of depth in between, in texels; y: colour
+                             ///< channels, 1 or 3: those of green and blue lie to the right of `tile` and below it.
+                             ///< Moments: z: see momentDepth(), w: radius of the blur in texels
 };
 
 struct ShadowUniforms {
@@ -115,7 +134,8 @@ inline constexpr uint32_t kObjectsPerWindow = 256;
 /// One instance: the rows of the affine transform from object to camera-relative world space.
 struct ObjectData {
     float4 row0, row1, row2;
-    float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance index; zw: unused
+    float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance
+                  ///< index; zw: unused
 };
 
 struct ObjectUniforms {
@@ -147,9 +167,12 @@ enum LightShape : uint8_t {
 /// A point, a spot, an area, or a sun besides the one of FrameUniforms; pre-exposed.
 struct PunctualLight {
     float4 positionRange;   ///< xyz: relative to the camera, or towards a sun, unit; w: 1 / range^2 (0: unlimited)
-    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns; LightShape of areas
+    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points,
+                            ///< -1 for suns; LightShape of areas
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
-    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n: face n, or cascade n of a sun, has a map; bit 6: these are a cube's; bit 7: it has contact shadows; w: its ProfiledLight + 1, 0: none
+    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n:
+                            ///< face n, or cascade n of a sun, has a map; bit 6: these are a cube's; bit 7: it has
+                            ///< contact shadows; w: its ProfiledLight + 1, 0: none
 };
 
 /// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float
@@ -186,7 +209,8 @@ struct BoneUniforms {
 inline constexpr uint32_t kMorphTextureWidth = 4096;
 
 struct MorphUniforms {
-    float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to 2
+    float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to
+                  ///< 2
     std::array<float4, kMaxMorphTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
 };
 
@@ -213,12 +237,15 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityLightProfiles = 1013, ///< 1: some light of the view has a profile
     kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
     kQualityScreenOcclusion = 1015, ///< 0: none; 1: visibility; 2: with bent normals
-    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it; 2: the level of the picture, as a negative number in red
-    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture; 2: -1 - the metres to what is hit, in red
+    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it; 2: the level of the picture,
+                                     ///< as a negative number in red
+    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture; 2: -1 - the metres to what is hit,
+                                      ///< in red
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
     kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
-    kQualityMipBias = 1021, ///< 1: materials' textures are read at other mip levels than pixels ask for; all surfaces have this one
+    kQualityMipBias = 1021, ///< 1: materials' textures are read at other mip levels than pixels ask for; all surfaces
+                            ///< have this one
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 

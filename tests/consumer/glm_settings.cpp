@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes vectors and matrices to the library and back, by value and by reference, with whatever settings of GLM this file is
-// compiled.
+// Passes vectors and matrices to the library and back, by value and by reference, with whatever settings of GLM this
+// file is compiled.
 #include <filament/filament.h>
 
 #include <cmath>

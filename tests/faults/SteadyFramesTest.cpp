@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that change what exists allocate nothing from the heap, on no thread: vertices, indices, texels, lights, nodes,
-// parameters, visibility.
+// Frames that change what exists allocate nothing from the heap, on no thread: vertices, indices, texels, lights,
+// nodes, parameters, visibility.
 #include "tests/faults/FailingAllocator.h"
 #include "tests/faults/FaultStage.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, reading a document of the viewer gives an error of one line that
-/// names the file, or a document that is valid and the same again when it is written and read.
+/// Shared by the fuzzer and the replay test: for any bytes, reading a document of the viewer gives an error of one line
+/// that names the file, or a document that is valid and the same again when it is written and read.
 #pragma once
 
 #include "base/Assert.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, the list of recent files is one of absolute paths without control
-/// characters, each once, and the same again when it is written and read.
+/// Shared by the fuzzer and the replay test: for any bytes, the list of recent files is one of absolute paths without
+/// control characters, each once, and the same again when it is written and read.
 #pragma once
 
 #include "base/Assert.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: whatever words of a module are changed, checkSpirv() accepts the package or
-/// names the reason; the same twice.
+/// Shared by the fuzzer and the replay test: whatever words of a module are changed, checkSpirv() accepts the package
+/// or names the reason; the same twice.
 #pragma once
 
 #include "base/Assert.h"

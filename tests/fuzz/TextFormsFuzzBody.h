@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, what is pasted into a viewer gives an error of one line that names
-/// its source, or a document, a camera or a camera path that is the same again when it is written and read.
+/// Shared by the fuzzer and the replay test: for any bytes, what is pasted into a viewer gives an error of one line
+/// that names its source, or a document, a camera or a camera path that is the same again when it is written and read.
 #pragma once
 
 #include "base/Assert.h"

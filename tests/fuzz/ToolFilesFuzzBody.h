@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, the readers of the tools' own files give contents or an error
-/// of one line that names the file. The first byte chooses the reader.
+/// Shared by the fuzzer and the replay test: for any bytes, the readers of the tools' own files give contents or an
+/// error of one line that names the file. The first byte chooses the reader.
 #pragma once
 
 #include "base/Assert.h"

@@ -89,6 +89,21 @@ class Report(unittest.TestCase):
                 self.assertEqual(done[0], status, done[1])
                 self.assertIn(words, done[1])
 
+    def test_comments_over_120_columns_fail_wherever_they_begin(self):
+        for files, status, words in [
+                ({"a.h": "// " + "x" * 117 + "\n"}, 0, "without a reason"),
+                ({"a.h": "\n// " + "x" * 118 + "\n"}, 1, "121 columns  a.h:2: wrap the comment at 120"),
+                ({"a.cpp": "int a = 1; ///< " + "x" * 120 + "\n"}, 1, "a.cpp:1: wrap"),
+                ({"a.inl": "// " + "\u00e9" * 117 + "\n"}, 0, "without a reason"),
+                ({"a.cpp": 'auto a = "https://' + "x" * 120 + '";\n'}, 0, "without a reason"),
+                ({"a.cpp": "const int a[] = { " + "1, " * 60 + "};\n"}, 0, "without a reason"),
+                ({"a.py": "# " + "x" * 140 + "\n"}, 0, "without a reason"),
+        ]:
+            with self.subTest(files):
+                done = run(files)
+                self.assertEqual(done[0], status, done[1])
+                self.assertIn(words, done[1])
+
     def test_a_reason_among_the_first_lines_excuses_a_file(self):
         self.assertEqual(run({"a.cpp": "// SPDX\n// Size: one table.\n" + function_of(90)})[0], 0)
         self.assertEqual(run({"a.cpp": "// Size:\n" + function_of(90)})[0], 1)

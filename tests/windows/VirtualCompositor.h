@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// VirtualCompositor: a Wayland compositor without a screen (Weston) for one test, and one window that fills its output.
+/// VirtualCompositor: a Wayland compositor without a screen (Weston) for one test, and one window that fills its
+/// output.
 ///   Out     wl_display*, wl_surface*; picture(): the output, as its own tool photographs it.
 ///   Life    the compositor ends with the object, and with this process.
 ///   Thread  one.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Page: the report as an HTML file, which tools/plot/plot.py makes from data: figures, tables, the command beside every
-/// number. The same data give the same page without a measurement: plot.py accuracy-page docs/accuracy -o docs/accuracy.html
-///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg; the page; in the folder of its name results.json, the
-///           fragments, and their pictures (PagePictures.h).
+/// Page: the report as an HTML file, which tools/plot/plot.py makes from data: figures, tables, the command beside
+/// every number. The same data give the same page without a measurement: plot.py accuracy-page docs/accuracy -o
+/// docs/accuracy.html
+///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg; the page; in the folder of its name results.json,
+///           the fragments, and their pictures (PagePictures.h).
 ///   Fails   Unreadable with the path, also if plot.py cannot make the page. Without its plots it is a warning.
 ///   Thread  one.
 #pragma once

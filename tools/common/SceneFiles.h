@@ -13,8 +13,8 @@ namespace filament::tools {
 Result<void> makeOutFolder(SceneOptions const& options);
 
 /// The files of the command line. Without a model the showcase is written into the folder of the pictures, and without
-/// environment and sun its sky. `--environment none` means none. An environment that the model itself brings comes before
-/// these, unless the command line names one: SceneOptions::environment is empty.
+/// environment and sun its sky. `--environment none` means none. An environment that the model itself brings comes
+/// before these, unless the command line names one: SceneOptions::environment is empty.
 Result<showcase::Files> chooseFiles(SceneOptions const& options);
 
 } // namespace filament::tools

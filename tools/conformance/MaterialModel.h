@@ -26,7 +26,8 @@ Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& 
 
 /// All values of a copy: the file's, the model's, its own; later ones replace earlier ones.
 tools::MaterialValues valuesOfCopy(MaterialModelFile const& model, SceneSpec const& spec, size_t copy);
-/// All copies of the scene, with a root each: those with values of their own as other instances of the stand's material.
+/// All copies of the scene, with a root each: those with values of their own as other instances of the stand's
+/// material.
 Result<std::vector<Node>> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec,
                                             tools::MaterialStand& stand);
 

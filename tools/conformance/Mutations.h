@@ -34,7 +34,8 @@ std::vector<std::string_view> mutationNames();
 bool isControl(std::string_view name);
 
 inline constexpr uint32_t kSmallestLevel = ~0u;
-/// Makes the red code of texel `texel` (counted by rows) of mip level `level` one off, in every RGBA8 texture that has it.
+/// Makes the red code of texel `texel` (counted by rows) of mip level `level` one off, in every RGBA8 texture that has
+/// it.
 std::unique_ptr<backend::StreamEdit> mipTexelEdit(uint32_t level, uint32_t texel);
 
 /// Adds `bias` to the level of every implicit texture fetch of a SPIR-V module.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SceneRaster: the raster state of a copy in a scene file, as Engine sets it for a material instance:
 ///   "colorWrite", "depthWrite", "depthCulling"   true or false;
-///   "stencil"   { "test": "equal", "onFail", "onDepthFail", "onPass": "replace", "reference", "readMask", "writeMask" },
-///               the same for both sides (Stencil.h has the words).
+///   "stencil"   { "test": "equal", "onFail", "onDepthFail", "onPass": "replace", "reference", "readMask", "writeMask"
+///               }, the same for both sides (Stencil.h has the words).
 ///   Fails   as JsonReader.
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LtcFit: fits linearly transformed cosines (shaders/lib/ltc.glsl) to the engine's GGX lobe. Heitz, Dupuy, Hill and
 /// Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
-///   Lobe    D V n.l of shaders/lib/brdf.glsl over its integral; the integral itself, and that with Schlick's factor, are
-///           in the DFG table (DfgTable.h), which shaders multiply by.
+///   Lobe    D V n.l of shaders/lib/brdf.glsl over its integral; the integral itself, and that with Schlick's factor,
+///           are in the DFG table (DfgTable.h), which shaders multiply by.
 ///   Error   the triangular discrimination, the integral of (f - g)^2 / (f + g), as a sum over directions that both
 ///           lobes distribute. It bounds from both sides what a light of any shape may gain or lose.
 ///   Method  Nelder and Mead 1965, "A Simplex Method for Function Minimization", begun at the neighbour's solution.

@@ -2,8 +2,8 @@
 /// matc: compiles one material definition (.mat) into a package (.fmat). Options.h has the command line.
 ///   Out     the same bytes for any number of threads. If there is an error, also a full disk, nothing is written: an
 ///           old package stays as it was.
-///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together. A material of the
-///           standard input lies in the current folder.
+///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together. A material of
+///           the standard input lies in the current folder.
 ///   Status  Options.h. The reason is on standard error, as the guide shows it (5.1): a line "ERROR: file:line: reason"
 ///           for each mistake, with the line of the author's file, and which material was not compiled.
 #include "filament_core/assets/files/FileBytes.h"

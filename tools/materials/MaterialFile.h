@@ -3,8 +3,8 @@
 ///   Show    one comment line of a .mat file may choose the mesh and the values of its parameters and constants:
 ///               // show: mesh=sphere tint=1,0.5,0.2 normalMap=brick/normal
 ///           mesh=sphere|plane|box|torus|scroll|lines|screen|billboard (MaterialMeshes.h); slab=true puts a grey
-///           block through the object; instances=N draws N numbered copies in a row. Every other key is a parameter or a
-///           constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
+///           block through the object; instances=N draws N numbered copies in a row. Every other key is a parameter or
+///           a constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
 ///           elements one after the other.
 ///   Thread  any.
 ///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the latest

@@ -162,8 +162,8 @@ DirectLights::Emitter DirectLights::emitterAt(Light const& light, double2 u) {
     return { light.position + light.halfX * at.x + light.halfY * at.y, light.axis };
 }
 
-/// The lux of one point of the area that stands for all of it: nits times the cosine over the squared distance, divided by
-/// its density, one over the area.
+/// The lux of one point of the area that stands for all of it: nits times the cosine over the squared distance, divided
+/// by its density, one over the area.
 DirectSample DirectLights::arrivingFromArea(Light const& light, double3 position, double2 u) {
     const Emitter emitter = emitterAt(light, u);
     const double3 toLight = emitter.position - position;

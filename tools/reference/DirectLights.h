@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DirectLights: suns, points and spots: light from a single direction each, with the engine's attenuation formulas and
-/// the candelas of photometric files; and rectangles, discs and tubes, of which each sample takes one point, every one as likely.
+/// the candelas of photometric files; and rectangles, discs and tubes, of which each sample takes one point, every one
+/// as likely.
 ///   Method  one light is chosen per point, in proportion to its illuminance there (luminance of lux, facing the light,
-///           unoccluded; of an area that of its whole at its centre). A light that cannot contribute is never chosen, and a
-///           single light is always chosen.
-///   Size    of suns, points and spots: light arrives from the centre; only its shadow ray goes to a point of the disc that
-///           the light shows there.
+///           unoccluded; of an area that of its whole at its centre). A light that cannot contribute is never chosen,
+///           and a single light is always chosen.
+///   Size    of suns, points and spots: light arrives from the centre; only its shadow ray goes to a point of the disc
+///           that the light shows there.
 ///   Units   lux at normal incidence times `factor`.
 ///   Memory  350 bytes per light. Thread: read-only after construction.
 #pragma once
@@ -20,8 +21,8 @@
 
 namespace filament::reference {
 
-/// What shines besides the environment and surfaces. Profiles of points and spots are in lists of their own, parallel to
-/// the lights; a missing or null one: none. Handles such as PointLight::profile mean nothing here.
+/// What shines besides the environment and surfaces. Profiles of points and spots are in lists of their own, parallel
+/// to the lights; a missing or null one: none. Handles such as PointLight::profile mean nothing here.
 struct LightSet {
     std::vector<SunLight> suns{}; ///< all of them shine
     std::vector<PointLight> points{};
@@ -49,7 +50,8 @@ public:
     DirectLights(LightSet const& lights, double factor);
 
     bool empty() const { return mLights.empty(); }
-    /// The luminance, times factor, that a camera sees of suns that show their disc: docs/lights.md, "A sun in the sky".
+    /// The luminance, times factor, that a camera sees of suns that show their disc: docs/lights.md, "A sun in the
+    /// sky".
     double3 discsIn(double3 direction) const;
     /// u chooses the light, `onArea` the point of an area; in [0, 1).
     DirectSample sample(double3 position, double u, double2 onArea = double2(0.5)) const;

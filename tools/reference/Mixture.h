@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Mixture: the two steps between a material's values at a point and its lobes.
-///   meetPart()       chooses the part of a mixture that a path meets: each has a plain meaning of its own, where one f0
-///                    and one colour for all of them would lose energy.
+///   meetPart()       chooses the part of a mixture that a path meets: each has a plain meaning of its own, where one
+///                    f0 and one colour for all of them would lose energy.
 ///   coverWithFilm()  gives the base the f0 of base and film towards the view, as the engine does
 ///                    (shaders/material/surface/iridescence.glsl); microfacets evaluate the film themselves.
 ///   Thread  any. Memory: none. Fails: never.

@@ -160,8 +160,8 @@ std::vector<std::string> const& warnings(TracedScene const& scene);
 
 Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                               jobs::JobSystem& jobs, Progress const& progress = {});
-/// The same pass by pass, for a viewer: after the last pass the bits are those of render() with these settings, before that
-/// those of render() that `progress` stopped there.
+/// The same pass by pass, for a viewer: after the last pass the bits are those of render() with these settings, before
+/// that those of render() that `progress` stopped there.
 ///   Thread  one at a time.   Life: `scene` must outlive it.
 class ProgressiveRender {
 public:
@@ -172,8 +172,8 @@ public:
     ProgressiveRender& operator=(ProgressiveRender&&) noexcept;
     ~ProgressiveRender();
 
-    /// False: `cancelled` was requested, which is asked before every pixel. What was done of the pass is then part of no
-    /// picture, and no pass may follow.
+    /// False: `cancelled` was requested, which is asked before every pixel. What was done of the pass is then part of
+    /// no picture, and no pass may follow.
     bool runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled = nullptr);
     bool isFinished() const; ///< all samples are taken
     RenderProgress progress() const;

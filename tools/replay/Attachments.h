@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Attachments as picture files: RGBA8 as PNG; RGBA16F as EXR, bit for bit; all others as EXR of 32-bit floats, in which
-/// components that the format lacks are 0.
+/// Attachments as picture files: RGBA8 as PNG; RGBA16F as EXR, bit for bit; all others as EXR of 32-bit floats, in
+/// which components that the format lacks are 0.
 ///   Thread  any.  Fails: Unreadable with path and reason; Internal for an attachment that was not read back.
 #pragma once
 

@@ -16,8 +16,8 @@ namespace filament::tools {
 
 using NamedTable = std::pair<std::string, std::string>; ///< name, text that ends with a line break
 
-/// All of them: those of the material language (shaders/compiler/LanguageTables.h), choices of quality, effects, grading,
-/// other choices of --set, debug views, glTF extensions.
+/// All of them: those of the material language (shaders/compiler/LanguageTables.h), choices of quality, effects,
+/// grading, other choices of --set, debug views, glTF extensions.
 std::vector<NamedTable> documentTables();
 
 /// The document with its tables replaced. `name` is for errors.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// filament-tables [--write] FILE...: the tables of documents, made from those that the programs read. Exit status 0: all
-// are current, or were written. 1: some are not, or a file is at fault.
+// filament-tables [--write] FILE...: the tables of documents, made from those that the programs read. Exit status 0:
+// all are current, or were written. 1: some are not, or a file is at fault.
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/CommandLine.h"
 #include "tools/common/Program.h"

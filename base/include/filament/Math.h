@@ -2,8 +2,8 @@
 /// The vector and matrix types of the public API: GLM's types under the names of the shading language.
 ///   Matrices are column-major and multiply column vectors; they are named `resultFromSource`.
 ///   Space is right-handed, +Y up, in metres; angles are in radians unless the name says degrees.
-///   Layout  the library was compiled with packed vectors, GLM's default. A file whose GLM_FORCE_... macros give them another
-///           size, alignment, type or way into functions is not compiled: it could not call the library.
+///   Layout  the library was compiled with packed vectors, GLM's default. A file whose GLM_FORCE_... macros give them
+///           another size, alignment, type or way into functions is not compiled: it could not call the library.
 #pragma once
 
 #include <glm/mat3x3.hpp>

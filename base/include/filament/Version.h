@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Version: which release of filament_core this is; CMake reads the numbers here.
-///   Compare the headers that a program was compiled with (kHeaderVersion) with the library that it runs with (version()).
-///   While the major number is 0, releases with another minor number may break programs, and the library's file has another
-///   name; a patch breaks nothing.
+///   Compare the headers that a program was compiled with (kHeaderVersion) with the library that it runs with
+///   (version()). While the major number is 0, releases with another minor number may break programs, and the library's
+///   file has another name; a patch breaks nothing.
 ///   Thread  any.   Fails: never.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// makeIcoSphere(): an icosahedron, divided. Kept apart from the other shapes because its texture has a seam that no edge
-// follows.
+// makeIcoSphere(): an icosahedron, divided. Kept apart from the other shapes because its texture has a seam that no
+// edge follows.
 #include "base/Result.h"
 
 #include <filament/Primitives.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of <filament/Primitives.h>. Everything is computed in double precision and rounded once, so that points that meet
-// have the same bits, and the last bit of a library's sine shows in no vertex.
+// Shapes of <filament/Primitives.h>. Everything is computed in double precision and rounded once, so that points that
+// meet have the same bits, and the last bit of a library's sine shows in no vertex.
 #include "base/Result.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 
@@ -61,7 +61,8 @@ struct Direction {
     double sine = 0, cosine = 1;
 };
 
-/// Of the angle pi/2 * (numerator / denominator + quarters), with exact quarter turns and the same bits in each quadrant.
+/// Of the angle pi/2 * (numerator / denominator + quarters), with exact quarter turns and the same bits in each
+/// quadrant.
 Direction directionAt(uint64_t numerator, uint64_t denominator, uint64_t quarters) {
     const uint64_t whole = numerator / denominator, rest = numerator % denominator;
     const double angle = kHalfTurn / 2 * static_cast<double>(rest) / static_cast<double>(denominator);
@@ -80,8 +81,8 @@ Direction directionAt(uint64_t numerator, uint64_t denominator, uint64_t quarter
 
 float4 frame(double3 normal, double3 tangent) { return tangentsOf(float3(normal), float3(tangent)); }
 
-/// Where a surface of revolution cuts the half plane of one angle. At radius 0 it is a point: each slice has its own vertex,
-/// half way between its meridians.
+/// Where a surface of revolution cuts the half plane of one angle. At radius 0 it is a point: each slice has its own
+/// vertex, half way between its meridians.
 struct ProfilePoint {
     double radius = 0, y = 0;
     Direction normal{}; ///< sine: away from the axis, cosine: up

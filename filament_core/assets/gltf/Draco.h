@@ -4,8 +4,8 @@
 ///   Out     vertices by attribute id, triangles as indices.
 ///   Thread  one mesh on one thread; different meshes on different threads.
 ///   Memory  the decoded mesh, until destruction.
-///   Limits  a damaged stream of 240 bytes can make the library loop for ten seconds, and nothing can interrupt it. So one
-///           stream of a file may be too slow (DracoPatience); those behind it are refused unread.
+///   Limits  a damaged stream of 240 bytes can make the library loop for ten seconds, and nothing can interrupt it. So
+///           one stream of a file may be too slow (DracoPatience); those behind it are refused unread.
 ///   Fails   Corrupt, naming the primitive; the mesh is then empty. Exceptions of the library do not escape.
 ///   Only Draco.cpp includes the library.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DracoPatience: how long the Draco streams of one file may take (Draco.h). Thread: shared by the jobs that decode them.
+/// DracoPatience: how long the Draco streams of one file may take (Draco.h). Thread: shared by the jobs that decode
+/// them.
 #pragma once
 
 #include <atomic>

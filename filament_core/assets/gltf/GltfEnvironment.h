@@ -3,14 +3,15 @@
 ///   In      a document whose buffers are loaded.
 ///   Out     radiance times the light's intensity, in the levels that the file has.
 ///   Images  a PNG with alpha is RGBD: radiance is colour / alpha, without a transfer curve. Others are sRGB.
-///   Space   the extension's faces form a left-handed cube, as cube maps of every API do, and the bottom row of a picture
-///           is the one that the APIs' tables call the first (README of the extension: "flipped"). The cube's z is turned
-///           round to make it right-handed: right, up and forward of a viewer in the cube are +X, +Y and -Z, those of a
-///           camera of glTF. The light's rotation turns the result. Irradiance coefficients are in the cube's space, too.
-///           glTF's direction of a point (s, t) of face f, both from -1 to 1, s to the right and t down, before rotation:
+///   Space   the extension's faces form a left-handed cube, as cube maps of every API do, and the bottom row of a
+///           picture is the one that the APIs' tables call the first (README of the extension: "flipped"). The cube's z
+///           is turned round to make it right-handed: right, up and forward of a viewer in the cube are +X, +Y and -Z,
+///           those of a camera of glTF. The light's rotation turns the result. Irradiance coefficients are in the
+///           cube's space, too. glTF's direction of a point (s, t) of face f, both from -1 to 1, s to the right and t
+///           down, before rotation:
 ///             +X ( 1, t,  s)   -X (-1, t, -s)   +Y (s, 1,  t)   -Y (s, -1, -t)   +Z (s, t, -1)   -Z (-s, t, 1)
-///   Coefficients  of irradiance: with the cosine lobe, without the constants of the basis, which is the real one without
-///           a phase: Y(1, -1) = +0.4886 y. A sky of radiance 1 has (pi * sqrt(4 pi), 0, ...).
+///   Coefficients  of irradiance: with the cosine lobe, without the constants of the basis, which is the real one
+///           without a phase: Y(1, -1) = +0.4886 y. A sky of radiance 1 has (pi * sqrt(4 pi), 0, ...).
 ///   Thread  decodeFace(): any, one call per face, all in parallel. The rest: one.
 ///   Memory  16 bytes per texel.  Limits: 2048 texels per side.
 ///   Fails   through the diagnostics, with the path of the field and the cure. Pixels with alpha 0 are black, with a

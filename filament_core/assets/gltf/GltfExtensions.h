@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfExtensions: the extensions of glTF 2.0 that the loader supports completely, and what it makes of each. The loader
-/// refuses files that require another one; docs/gltf.md has the table.
+/// GltfExtensions: the extensions of glTF 2.0 that the loader supports completely, and what it makes of each. The
+/// loader refuses files that require another one; docs/gltf.md has the table.
 ///   Thread  any; constant data.
 #pragma once
 

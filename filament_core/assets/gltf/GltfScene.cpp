@@ -14,8 +14,8 @@
 namespace filament::assets {
 namespace {
 
-// A scene and a device have 2^20 handles of a type. A primitive takes two buffers; if its positions are scaled, it takes
-// a node.
+// A scene and a device have 2^20 handles of a type. A primitive takes two buffers; if its positions are scaled, it
+// takes a node.
 constexpr size_t kMaxNodes = 500'000, kMaxPlacements = 500'000;
 
 bool isFinite(double4x4 const& matrix) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfTextures: the materials that a scene uses, and the images that they need.
 ///   In      a document, and the flags of its materials that are used.
-///   Out     materials in file order, and image jobs, one per image and use (images with the same bytes are one): an image used as colour and as data
-///           becomes two textures (sRGB and linear) from one decoding. If an extension expects a pair of maps in one
-///           texture and the file has two, they are packed, with one job per distinct pair. TextureRef::image is an
-///           index into the jobs' textures, in order.
+///   Out     materials in file order, and image jobs, one per image and use (images with the same bytes are one): an
+///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
+///           expects a pair of maps in one texture and the file has two, they are packed, with one job per distinct
+///           pair. TextureRef::image is an index into the jobs' textures, in order.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
 ///   Fails   a missing or broken image is an error that names it. The second map of a pair whose texture coordinates
 ///           or sampler differ from those of the first is dropped with a warning.

@@ -2,8 +2,8 @@
 /// GltfUri: reads the bytes that a URI of a glTF file refers to.
 ///   In      "data:...;base64,..." or a relative reference (RFC 3986, percent-encoded) and the folder of the model.
 ///   Safety  models are untrusted: only regular files inside the model's folder are opened, unless GltfFolder::from
-///           allows more. Absolute paths, ".." and links that leave the folder, and URIs with a scheme (http:, file:) are
-///           errors.
+///           allows more. Absolute paths, ".." and links that leave the folder, and URIs with a scheme (http:, file:)
+///           are errors.
 ///   Thread  any.
 ///   Limits  2 GiB per file.
 ///   Fails   NotFound, Unreadable, Corrupt (bad encoding), Unsupported (scheme); the message does not name the element.

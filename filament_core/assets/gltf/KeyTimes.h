@@ -3,10 +3,10 @@
 ///   In      a sampler with as many values as its times ask for; times may be any floats.
 ///   Out     times are finite and never decrease, and each key has the values that it had. Keys without a finite time
 ///           are left out, the others are sorted; of equal times all stay, in the order of the file.
-///   Why     other loaders play such files. gltfio sorts keys by time and keeps the last of equal ones (a map from times
-///           to keys); three.js plays the interval that contains the time, so that equal times are a jump. Both show
-///           the last of equal keys at its time. Before it this loader shows what three.js does: the way to the first
-///           of them, because exporters write two keys at one time for a cut.
+///   Why     other loaders play such files. gltfio sorts keys by time and keeps the last of equal ones (a map from
+///           times to keys); three.js plays the interval that contains the time, so that equal times are a jump. Both
+///           show the last of equal keys at its time. Before it this loader shows what three.js does: the way to the
+///           first of them, because exporters write two keys at one time for a cut.
 ///   Thread  any; pure.   Cost: one pass over the times of a sampler that is in order.
 #pragma once
 

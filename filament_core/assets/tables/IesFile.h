@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// IesFile: the light distribution of a luminaire, as manufacturers publish it: ANSI/IES LM-63 of 1986, 1991, 1995, 2002
-/// and 2019.
+/// IesFile: the light distribution of a luminaire, as manufacturers publish it: ANSI/IES LM-63 of 1986, 1991, 1995,
+/// 2002 and 2019.
 ///   In      the bytes of a file.   Out: candelas over a grid of angles.
-///   Read    photometric types A, B and C; any symmetry; angles at any distances; TILT=NONE and TILT=INCLUDE, of which the
-///           factor of an untilted luminaire counts. Keywords, lamps, sizes and watts are not used.
+///   Read    photometric types A, B and C; any symmetry; angles at any distances; TILT=NONE and TILT=INCLUDE, of which
+///           the factor of an untilted luminaire counts. Keywords, lamps, sizes and watts are not used.
 ///   Units   degrees; candelas, times the multiplier and ballast factors of the file.
 ///   Limits  16 MiB; 8192 angles each way and 2^20 candelas; 1e9 cd.
 ///   Fails   Corrupt, Unsupported: name, line, what was found, what was expected.
@@ -35,8 +35,8 @@ struct IesFile {
     std::vector<float> candelas;              ///< [horizontal * vertical.size() + vertical], >= 0
     float peak = 0;                           ///< the largest, > 0
 
-    /// Bilinear in the angles of the file, with its symmetry; 0 beyond its vertical angles, and beyond the horizontal ones
-    /// of types A and B. `direction`: unit, in the frame above.
+    /// Bilinear in the angles of the file, with its symmetry; 0 beyond its vertical angles, and beyond the horizontal
+    /// ones of types A and B. `direction`: unit, in the frame above.
     double candelasAt(double3 const& direction) const;
 };
 

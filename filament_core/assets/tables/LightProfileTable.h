@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightProfileTable: a light distribution as shaders read it: 16-bit shares of its peak over a regular grid of angles.
-///   In      an IesFile.   Out: words, two entries each, and what the grid covers. shaders/material/surface/profiles.glsl looks up.
-///   Grid    rows by the angle to forward, from 0 to the last one that the file has; columns around it, the full turn. As
-///           fine as the file's angles, down to half a degree and 2.5 degrees: files of type C whose angles are multiples of
-///           the steps keep their values, others are resampled.
+///   In      an IesFile.   Out: words, two entries each, and what the grid covers.
+///           shaders/material/surface/profiles.glsl looks up.
+///   Grid    rows by the angle to forward, from 0 to the last one that the file has; columns around it, the full turn.
+///           As fine as the file's angles, down to half a degree and 2.5 degrees: files of type C whose angles are
+///           multiples of the steps keep their values, others are resampled.
 ///   Memory  2 B an entry, at most 102 KiB.
 ///   Thread  any; pure. Fails: std::bad_alloc.
 #pragma once

@@ -7,7 +7,8 @@
 ///           std::fmod(seconds, model.animationSeconds(i)).
 ///   Thread  the app thread, between frames.
 ///   Memory  one handle per node of the model, and the pose.   Cost: proportional to the channels of the animation.
-///   Life    the animator keeps the model; the scene may be moved. It is used only while the nodes of the copy are there.
+///   Life    the animator keeps the model; the scene may be moved. It is used only while the nodes of the copy are
+///           there.
 ///   Fails   an animation index that the model lacks, or a copy whose nodes differ from the model's, is an assertion.
 #pragma once
 

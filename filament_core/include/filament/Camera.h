@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Camera: position and orientation, lens and exposure. A plain value.
 ///   Position and orientation are double precision: the image is the same a million kilometres from the origin.
-///   The depth buffer is reversed. A perspective lens has an infinite far plane, and only the near plane can be tuned; a
-///   parallel one ends at Lens::farMeters.
+///   The depth buffer is reversed. A perspective lens has an infinite far plane, and only the near plane can be tuned;
+///   a parallel one ends at Lens::farMeters.
 #pragma once
 
 #include <filament/Math.h>
@@ -21,22 +21,23 @@ struct Exposure {
     /// The factor for luminance in nits before tone mapping: 1 / (1.2 * 2^EV100).
     float factor() const;
 
-    /// The luminance in nits that a reflected-light meter reads as `ev100`: 2^(EV100 - 3), with the calibration constant
-    /// K = 12.5. For emissive colours given in EV (materials guide, 3.1.18).
+    /// The luminance in nits that a reflected-light meter reads as `ev100`: 2^(EV100 - 3), with the calibration
+    /// constant K = 12.5. For emissive colours given in EV (materials guide, 3.1.18).
     static float luminance(float ev100);
     /// The illuminance in lux that an incident-light meter reads as `ev100`: 2.5 * 2^EV100, with C = 250.
     static float illuminance(float ev100);
 };
 
-/// How the picture is projected. The plain values are those of a perspective lens that looks straight ahead; Lens::box()
-/// and Lens::offCenter() make others.
+/// How the picture is projected. The plain values are those of a perspective lens that looks straight ahead;
+/// Lens::box() and Lens::offCenter() make others.
 struct Lens {
     float verticalFovDegrees = 45.0f; ///< (0, 180); perspective only
     float nearMeters = 0.01f;         ///< distance of the near plane: > 0, or >= 0 for a parallel lens
     /// Height of the picture in metres, the same at any distance: a parallel (orthographic) lens. 0: a perspective one.
     float parallelMeters = 0;
     float farMeters = 1000; ///< > nearMeters; parallel only: beyond it nothing is drawn
-    /// Lens shift, in sizes of the picture: (1, 0) shows what would be just right of it, (0, 0.5) half a picture more above.
+    /// Lens shift, in sizes of the picture: (1, 0) shows what would be just right of it, (0, 0.5) half a picture more
+    /// above.
     float2 shift{ 0 };
     float aspect = 0; ///< width / height of what the picture shows; 0: that of the view, so that circles are round
 
@@ -44,11 +45,11 @@ struct Lens {
 
     /// A parallel lens that shows x in [left, right] and y in [bottom, top], in metres of the view's space.
     static Lens box(float left, float right, float bottom, float top, float nearMeters = 0, float farMeters = 1000);
-    /// A perspective lens whose picture shows x in [left, right] and y in [bottom, top] of the plane at distance 1: a part
-    /// of a wall of screens, or an eye beside the middle of its display.
+    /// A perspective lens whose picture shows x in [left, right] and y in [bottom, top] of the plane at distance 1: a
+    /// part of a wall of screens, or an eye beside the middle of its display.
     static Lens offCenter(float left, float right, float bottom, float top, float nearMeters = 0.01f);
-    /// The perspective lens of a camera, by its focal length and the height of its sensor or film, both > 0: the field of
-    /// view is 2 atan(height / (2 focal length)). 24 mm is the height of a full frame.
+    /// The perspective lens of a camera, by its focal length and the height of its sensor or film, both > 0: the field
+    /// of view is 2 atan(height / (2 focal length)). 24 mm is the height of a full frame.
     static Lens fromFocalLength(float millimeters, float sensorHeightMillimeters = 24, float nearMeters = 0.01f);
 };
 
@@ -61,12 +62,12 @@ struct Camera {
     static Camera lookAt(double3 eye, double3 at, Lens lens = {}, Exposure exposure = {}, double3 up = { 0, 1, 0 });
 
     double3 position() const { return double3(worldFromView[3]); }
-    /// Clip from view: +Y of the view is row 0 of the image. Perspective: z = near / distance (1 at the near plane, 0 at
-    /// infinity); parallel: z falls linearly from 1 at the near to 0 at the far plane. `aspect`: of the view; Lens::aspect
-    /// takes its place.
+    /// Clip from view: +Y of the view is row 0 of the image. Perspective: z = near / distance (1 at the near plane, 0
+    /// at infinity); parallel: z falls linearly from 1 at the near to 0 at the far plane. `aspect`: of the view;
+    /// Lens::aspect takes its place.
     float4x4 clipFromView(float aspect) const;
-    /// The inverse: the point that the picture shows at `clip` (x and y as above: (-1, -1) is its upper left corner) at a
-    /// distance along the view. In the space of the view; in double precision.
+    /// The inverse: the point that the picture shows at `clip` (x and y as above: (-1, -1) is its upper left corner) at
+    /// a distance along the view. In the space of the view; in double precision.
     double3 viewFromPicture(double2 clip, double distanceMeters, double aspect) const;
 };
 

@@ -14,8 +14,8 @@ namespace color {
 LinearColor linearFromSrgb(float3 encoded);
 float3 srgbFromLinear(LinearColor linear);
 
-/// Chromaticity of a black body, luminance 1: lamps. `kelvin` in [1000, 15000], anything else is an assertion. Krystek 1985
-/// (CIE 1960 UCS). Below 1900 K blue is outside of Rec. 709 and becomes 0.
+/// Chromaticity of a black body, luminance 1: lamps. `kelvin` in [1000, 15000], anything else is an assertion. Krystek
+/// 1985 (CIE 1960 UCS). Below 1900 K blue is outside of Rec. 709 and becomes 0.
 LinearColor fromTemperature(float kelvin);
 
 /// Chromaticity of a phase of daylight, luminance 1: suns and skies. `kelvin` is the correlated colour temperature, in

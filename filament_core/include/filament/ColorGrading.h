@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ColorGrading: how scene-referred light becomes the values of a display, as a plain value; part of View. docs/finish.md
-/// has the formulas. What comes before it, and after a camera, is Grading of Effects.h.
+/// ColorGrading: how scene-referred light becomes the values of a display, as a plain value; part of View.
+/// docs/finish.md has the formulas. What comes before it, and after a camera, is Grading of Effects.h.
 ///   Thread   any.   Fails: setColorGrading() for an unknown name or value, and says what is valid.
 #pragma once
 
@@ -44,8 +44,8 @@ enum class AgxLook : uint8_t {
 const char* toString(AgxLook look);
 std::optional<AgxLook> agxLookFromName(std::string_view name);
 
-/// ToneMapper::Generic: a x^c / (x^c + b), where c is the contrast, middle grey goes from `midGreyIn` to `midGreyOut` and
-/// `maximum` becomes white. Where no such curve exists (a low contrast with a low maximum), middle grey is darker.
+/// ToneMapper::Generic: a x^c / (x^c + b), where c is the contrast, middle grey goes from `midGreyIn` to `midGreyOut`
+/// and `maximum` becomes white. Where no such curve exists (a low contrast with a low maximum), middle grey is darker.
 struct ToneCurve {
     float contrast = 1.55f;    ///< exponent, [0.1, 5]
     float midGreyIn = 0.18f;   ///< light, [0.001, 1]

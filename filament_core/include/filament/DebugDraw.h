@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DebugDraw: lines, shapes and text that a program draws over a view to see what it computes. Fill it, give it to
 /// View::debugDraw, render, clear it.
-///   Space   Functions with `World` shapes take metres of the world and doubles. Those named screen... take pixels of the
-///           view, from its left and its top.
-///   Colour  as displays take it (sRGB), alpha not multiplied in: drawn after the tone mapper, so exposure and grading do
-///           not change it. In targets of light it is written as it is.
+///   Space   Functions with `World` shapes take metres of the world and doubles. Those named screen... take pixels of
+///           the view, from its left and its top.
+///   Colour  as displays take it (sRGB), alpha not multiplied in: drawn after the tone mapper, so exposure and grading
+///           do not change it. In targets of light it is written as it is.
 ///   Lines   are rectangles of constant width on the screen: both APIs draw the same pixels. Ends are cut off squarely.
 ///   Text    is a font of 5 x 7 pixels in cells of 6 x 9, of the characters 32 to 126; others are drawn as a box. '\n'
 ///           begins a line. Text in the world has its upper left corner where the point is seen.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DebugViews: what the colours of View::debugView mean, as values: for legends, and for programs that read such pictures.
-/// docs/debug-views.md says it in words.
+/// DebugViews: what the colours of View::debugView mean, as values: for legends, and for programs that read such
+/// pictures. docs/debug-views.md says it in words.
 ///   Colours  codes of sRGB, 0 to 255, as an RGBA8 or RGBA8Srgb target has them.
 ///   Thread   any; pure.   Memory: none.   Fails: never.
 #pragma once
@@ -15,8 +15,8 @@ namespace filament {
 
 using DebugColor = std::array<uint8_t, 3>; ///< red, green, blue
 
-/// What DebugView::Numerics marks in the scene-linear picture before it becomes half floats. Of a pixel for which several
-/// are true, the last one.
+/// What DebugView::Numerics marks in the scene-linear picture before it becomes half floats. Of a pixel for which
+/// several are true, the last one.
 enum class NumericsMark : uint8_t {
     None,       ///< the pixel is grey
     Denormal,   ///< a channel is below 2^-14 and not 0: half floats have less than 11 bits for it
@@ -36,20 +36,20 @@ std::optional<NumericsMark> numericsMarkOf(DebugColor color);
 
 /// How many pixels have a mark, by NumericsMark.
 using NumericsCounts = std::array<uint64_t, kNumericsMarks>;
-/// `rgba`: pixels of DebugView::Numerics, four bytes each; bytes beyond the last whole pixel do not count. Other colours
-/// count as None.
+/// `rgba`: pixels of DebugView::Numerics, four bytes each; bytes beyond the last whole pixel do not count. Other
+/// colours count as None.
 NumericsCounts countNumerics(std::span<const std::byte> rgba);
 
-/// Of DebugView::Luminance: `stops` above middle grey, a linear luminance of 0.18 before tone mapping. From 7 on: white;
-/// up to -7: black.
+/// Of DebugView::Luminance: `stops` above middle grey, a linear luminance of 0.18 before tone mapping. From 7 on:
+/// white; up to -7: black.
 DebugColor luminanceColor(int stops);
 
-/// Of DebugView::Overdraw, Froxels and Lights: a colour for each count up to 8, then two for each doubling up to 255, one
-/// from 256 on.
+/// Of DebugView::Overdraw, Froxels and Lights: a colour for each count up to 8, then two for each doubling up to 255,
+/// one from 256 on.
 DebugColor countColor(uint32_t count);
 
-/// Of DebugView::MipLevel: grey below 0, where a texel is larger than a pixel; then from dark purple to yellow at 10, where
-/// all of the texture is in a pixel. NaN is grey.
+/// Of DebugView::MipLevel: grey below 0, where a texel is larger than a pixel; then from dark purple to yellow at 10,
+/// where all of the texture is in a pixel. NaN is grey.
 DebugColor mipLevelColor(float level);
 
 } // namespace filament

@@ -57,22 +57,22 @@ struct ContactShadows {
     friend bool operator==(ContactShadows const&, ContactShadows const&) = default;
 };
 
-/// Light that lenses and eyes scatter around what is bright. It is taken from where it was: the picture as a whole is no
-/// brighter. Before tone mapping; in all directions alike.
+/// Light that lenses and eyes scatter around what is bright. It is taken from where it was: the picture as a whole is
+/// no brighter. Before tone mapping; in all directions alike.
 struct Bloom {
     bool enabled = false;
     float strength = 0.1f; ///< share of the light that is scattered, [0, 1]
     float radius = 0.1f;   ///< how far, as a share of the picture's height, [0.001, 1]: that of the widest of its lobes
     float threshold = 0;   ///< only what is brighter is scattered, by that much, [0, 1e4]; 1 is white
-    /// Of the lens, over the whole picture: what is brighter than the mean of all of it shows more of the scattered light,
-    /// what is darker less. A 2D texture of colours, with all of its mip levels; none: a clean lens.
+    /// Of the lens, over the whole picture: what is brighter than the mean of all of it shows more of the scattered
+    /// light, what is darker less. A 2D texture of colours, with all of its mip levels; none: a clean lens.
     Texture dirt{};
     float dirtStrength = 1; ///< share of the scattered light that the dirt scatters, [0, 1]
     friend bool operator==(Bloom const&, Bloom const&) = default;
 };
 
-/// What the surfaces of a lens reflect: ghosts, which are blurred images of what is bright, on the line from it through the
-/// middle of the picture; and a halo, a ring around it. The light is taken from where it was: none is added.
+/// What the surfaces of a lens reflect: ghosts, which are blurred images of what is bright, on the line from it through
+/// the middle of the picture; and a halo, a ring around it. The light is taken from where it was: none is added.
 struct LensFlare {
     bool enabled = false;
     float threshold = 4;         ///< only of what is brighter, by that much, [0, 1e4]; 1 is white
@@ -87,8 +87,8 @@ struct LensFlare {
     friend bool operator==(LensFlare const&, LensFlare const&) = default;
 };
 
-/// The blur of what a lens does not focus, by the aperture of the camera's exposure and the focal length of its field of
-/// view, for a sensor 24 mm high. What blends has the blur of what lies behind it.
+/// The blur of what a lens does not focus, by the aperture of the camera's exposure and the focal length of its field
+/// of view, for a sensor 24 mm high. What blends has the blur of what lies behind it.
 struct DepthOfField {
     bool enabled = false;
     float focusMeters = 2;   ///< distance along the view that is sharp, [0, 1e9]
@@ -98,8 +98,8 @@ struct DepthOfField {
     friend bool operator==(DepthOfField const&, DepthOfField const&) = default;
 };
 
-/// The blur of what moves while the shutter is open: surfaces that are opaque or masked, and everything if the camera does.
-/// What blends has the blur of what lies behind it.
+/// The blur of what moves while the shutter is open: surfaces that are opaque or masked, and everything if the camera
+/// does. What blends has the blur of what lies behind it.
 struct MotionBlur {
     bool enabled = false;
     float shutterDegrees = 180; ///< the part of a frame during which the shutter is open, of 360, [0, 360]
@@ -107,8 +107,9 @@ struct MotionBlur {
     friend bool operator==(MotionBlur const&, MotionBlur const&) = default;
 };
 
-/// Exposure that follows the picture: the mean luminance of the pixels between two percentiles becomes middle grey. On top
-/// of the camera's exposure. How fast it follows is measured in View::timeSeconds; the first frame is exposed at once.
+/// Exposure that follows the picture: the mean luminance of the pixels between two percentiles becomes middle grey. On
+/// top of the camera's exposure. How fast it follows is measured in View::timeSeconds; the first frame is exposed at
+/// once.
 struct AutoExposure {
     bool enabled = false;
     float lowPercentile = 0.4f, highPercentile = 0.95f; ///< darker and brighter pixels do not count, [0, 1]
@@ -118,10 +119,10 @@ struct AutoExposure {
     friend bool operator==(AutoExposure const&, AutoExposure const&) = default;
 };
 
-/// Colour grading of light before the tone mapper, in linear Rec. 2020: vision at night; exposure, white balance, channel
-/// mixer; shadows, midtones and highlights; slope, offset, power and contrast on the ACEScct logarithm; saturation and
-/// vibrance; curves. The neutral values of all fields together change nothing, and cost nothing. docs/finish.md has the
-/// formulas.
+/// Colour grading of light before the tone mapper, in linear Rec. 2020: vision at night; exposure, white balance,
+/// channel mixer; shadows, midtones and highlights; slope, offset, power and contrast on the ACEScct logarithm;
+/// saturation and vibrance; curves. The neutral values of all fields together change nothing, and cost nothing.
+/// docs/finish.md has the formulas.
 struct Grading {
     bool enabled = false;
     float nightAdaptation = 0; ///< [0, 1]: of an eye that sees by its rods; dark colours get brighter, bluer and paler

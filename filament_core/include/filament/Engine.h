@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Engine: one device, its driver thread, its workers, and every object created from them.
-///   Thread    one thread per engine (the app thread): the one that creates it, unless useOnThisThread() says otherwise.
-///             Several engines may run on several threads.
+///   Thread    one thread per engine (the app thread): the one that creates it, unless useOnThisThread() says
+///             otherwise. Several engines may run on several threads.
 ///   Wait      creating objects never waits for the driver thread. Engine::create() and the destructor do.
 ///   Errors    Engine::create() says why there is no device and what to install. Later, takeErrors() returns the errors
 ///             of the device (out of memory, a rejected shader), one line each; objects that depend on them are not
 ///             drawn.
 ///   Memory    if host memory runs out, functions that return a Result return OutOfMemory. Functions that return a
 ///             handle return none and add a line to takeErrors(). Nothing else changes. Destroying always works.
-///   Life      an object may be destroyed at any time: its handle ends at once, and what it names lives on until nothing
-///             uses it any more: no renderable, material instance, environment or render target.
+///   Life      an object may be destroyed at any time: its handle ends at once, and what it names lives on until
+///             nothing uses it any more: no renderable, material instance, environment or render target.
 ///   Misuse    a null handle, one whose object was destroyed, one of another engine or scene, another thread, or an
 ///             argument out of its range ends the process with one line: the function that was called, what for, and
 ///             what is wrong. destroy() of a null handle does nothing.
@@ -74,8 +74,8 @@ struct EngineOptions {
     /// Threads with cores of their own take them again each time they wake up: for systems that move processes between
     /// groups of cores, as Android does. One system call per wake-up.
     bool repinAfterWaits = false;
-    /// Of the windows that the engine presents to (SwapChainDesc::window); none: it opens no window system. With one, only
-    /// devices that can present to its windows are used.
+    /// Of the windows that the engine presents to (SwapChainDesc::window); none: it opens no window system. With one,
+    /// only devices that can present to its windows are used.
     NativeDisplay display{};
     bool validation = false; ///< check every stream, and enable the Vulkan validation layers or KHR_debug
     /// The engine's own shaders write their arithmetic out, so that both APIs draw the same bits. Off: the drivers
@@ -163,17 +163,17 @@ public:
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
-    // New contents, from the next frame on; frames before it show the old ones. Copied before the call returns, uploaded
-    // in the order of the calls; nothing waits. What does not fit ends the process; if memory runs out, the object keeps
-    // what it had, and takeErrors() says so.
+    // New contents, from the next frame on; frames before it show the old ones. Copied before the call returns,
+    // uploaded in the order of the calls; nothing waits. What does not fit ends the process; if memory runs out, the
+    // object keeps what it had, and takeErrors() says so.
 
     /// `data`: whole vertices. Bounds that renderables did not name follow.
     void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0);
     void update(IndexBuffer buffer, std::span<const std::byte> data, uint32_t firstIndex = 0);
     void update(Texture texture, TextureUpdate const& update);
 
-    /// New images of another size, without contents; a window keeps its image until the next present(). Pixels that were
-    /// asked for arrive.
+    /// New images of another size, without contents; a window keeps its image until the next present(). Pixels that
+    /// were asked for arrive.
     void resize(SwapChain swapChain, uint2 size);
 
     /// The textures of a render target, for parameters of materials. They are the app's own; depthOf() may be none.

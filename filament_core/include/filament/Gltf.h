@@ -39,8 +39,8 @@ struct GltfLoadOptions {
 struct GltfMemory {
     std::span<const std::byte> file{}; ///< not needed after the call; loadGltfAsync() copies it
     std::string name = "model";        ///< for Model::name() and messages
-    /// Gives the bytes of what the file names by a relative URI (percent-decoded, "textures/wood.png"), or says why there
-    /// are none. Called on the loading thread and on workers, also on several at once. None: files
+    /// Gives the bytes of what the file names by a relative URI (percent-decoded, "textures/wood.png"), or says why
+    /// there are none. Called on the loading thread and on workers, also on several at once. None: files
     /// that hold everything, in their binary chunk or in data URIs.
     std::function<Result<std::vector<std::byte>>(std::string_view uri)> resolve{};
 };
@@ -58,10 +58,11 @@ public:
     size_t renderableCount() const;
     /// The names of KHR_materials_variants, for Scene::setVariant().
     std::vector<std::string> const& variantNames() const;
-    /// The image-based light of the file's default scene (EXT_lights_image_based), with its rotation and intensity; null:
-    /// it names none. Scene::add() leaves it alone: a scene has one environment, and the program chooses it. The
+    /// The image-based light of the file's default scene (EXT_lights_image_based), with its rotation and intensity;
+    /// null: it names none. Scene::add() leaves it alone: a scene has one environment, and the program chooses it. The
     /// project's programs take this one unless they are told another:
-    ///     if (Environment const* light = model.environment()) scene.setEnvironment(*light, { .illuminance = Lux{ 30'000 } });
+    ///     if (Environment const* light = model.environment())
+    ///         scene.setEnvironment(*light, { .illuminance = Lux{ 30'000 } });
     /// As for every environment, EnvironmentSettings::illuminance says what radiance 1 stands for.
     Environment const* environment() const;
     std::vector<std::string> const& warnings() const; ///< unsupported extensions, repaired values

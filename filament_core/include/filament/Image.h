@@ -46,12 +46,12 @@ Result<Image> loadImage(std::filesystem::path const& path, ImageLoadOptions cons
 /// From memory. `name` is used in messages.
 Result<Image> loadImage(std::span<const std::byte> file, std::string_view name, ImageLoadOptions const& options = {});
 
-/// Its texture, with all of its mips: for Engine::create(). Refers to the pixels of the image, which must live and stay as
-/// they are until create() returns.
+/// Its texture, with all of its mips: for Engine::create(). Refers to the pixels of the image, which must live and stay
+/// as they are until create() returns.
 TextureDesc textureOf(Image const& image, std::string_view name = {});
 
-/// RGBA8, RGBA8Srgb (the same codes), or RGB10A2 as 16 bits a channel without alpha; codes of `space`, which the file names
-/// (sRGB; cICP, gAMA, cHRM). Errors: Unreadable with path and reason.
+/// RGBA8, RGBA8Srgb (the same codes), or RGB10A2 as 16 bits a channel without alpha; codes of `space`, which the file
+/// names (sRGB; cICP, gAMA, cHRM). Errors: Unreadable with path and reason.
 Result<void> savePng(std::filesystem::path const& path, Image const& image, OutputSpace space = OutputSpace::Srgb);
 /// RGBA16F only, stored as half floats; linear Rec. 709, which the file says.
 Result<void> saveExr(std::filesystem::path const& path, Image const& image);

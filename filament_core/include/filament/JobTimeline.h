@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// jobTimeline: what every thread of an engine did and when, for tools that draw it. The same events as those that
 /// Engine::writeJobTrace() writes into a file.
-///   In      an engine with EngineOptions::traceJobs; of one without it nothing is known. Recording costs two readings of the
-///           clock for each job, and nothing without the option.
+///   In      an engine with EngineOptions::traceJobs; of one without it nothing is known. Recording costs two readings
+///           of the clock for each job, and nothing without the option.
 ///   Time    seconds since the engine started, as in FrameTimings.
 ///   Thread  any, also while frames are drawn; the engine must not end or be moved meanwhile.
 ///   Cost    proportional to the events that a thread keeps, at most 65 535 each, not to `seconds`.
@@ -29,8 +29,8 @@ struct JobSpan {
     int64_t frame = -1; ///< of a phase; -1: none
 };
 
-/// One thread. The app thread has two of them: "app thread" for its phases, and one for its jobs under the name that the
-/// system knows it by.
+/// One thread. The app thread has two of them: "app thread" for its phases, and one for its jobs under the name that
+/// the system knows it by.
 struct JobTrack {
     std::string name{};           ///< "worker 0", "app thread", "driver thread"
     std::vector<JobSpan> spans{}; ///< by their beginnings; a span precedes those that it contains

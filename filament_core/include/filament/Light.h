@@ -89,8 +89,8 @@ struct SpotLight {
 //   Units     luminance, or by luminanceFromFlux() the luminous flux of the whole light. A luminance that is not a
 //             number, infinite or negative counts as 0. Sizes are finite and >= 0; without an area there is no light.
 //   Range     at the distance rangeMeters from its centre the light has faded to exactly zero; 0: unlimited.
-//   Shadows   those of a point in the middle of the area, which ShadowFilter::Pcss softens as those of a disc that shows
-//             as many square metres. A mesh that shows the light must not cast: it would stop all of it.
+//   Shadows   those of a point in the middle of the area, which ShadowFilter::Pcss softens as those of a disc that
+//             shows as many square metres. A mesh that shows the light must not cast: it would stop all of it.
 //   Nodes     turn and move them; a scale does not change their size.
 
 /// A rectangle around a position. Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly

@@ -2,13 +2,13 @@
 /// LoadTicket: a model or an environment that is being loaded, while frames go on.
 ///   In      what loadGltf() and loadEnvironment() take. Bytes in memory are copied.
 ///   Out     the same result as theirs, to the bit, whatever the number of workers.
-///   Thread  files are read, decoded and baked on background threads of the engine. poll() creates the engine's objects,
-///           a slice at a time: call it once a frame. All calls of a ticket belong to the thread of its engine
+///   Thread  files are read, decoded and baked on background threads of the engine. poll() creates the engine's
+///           objects, a slice at a time: call it once a frame. All calls of a ticket belong to the thread of its engine
 ///           (docs/objects.md). Without workers (EngineOptions::workers = 0) the first part runs inside
 ///           loadGltfAsync() and loadEnvironmentAsync().
 ///   Memory  the file, and about twice the result, until take(). Nothing at rest.
-///   Cancel  cancel(), or the end of the ticket: at any time, without waiting. A background thread stops before its next
-///           image, primitive or step; what was created is destroyed at once.
+///   Cancel  cancel(), or the end of the ticket: at any time, without waiting. A background thread stops before its
+///           next image, primitive or step; what was created is destroyed at once.
 ///   Life    a ticket may outlive its engine, which cancels what is still being loaded when it ends.
 ///   Errors  those of loadGltf() and loadEnvironment(), from take(); Cancelled after cancel(), or after the end of the
 ///           engine. Without memory to begin, loadGltfAsync() and loadEnvironmentAsync() throw std::bad_alloc.

@@ -4,8 +4,8 @@
 ///                const VertexBuffer vertices = engine.create(mesh.vertexBuffer());
 ///                const IndexBuffer indices = engine.create(mesh.indexBuffer());
 ///   Winding  counter-clockwise seen from the front, which is the side that the normals point to.
-///   Uv       u to the right and v upwards: (0, 0) is the lower left corner of a picture, as materials with `flipUV : true`
-///            take it, the default of .mat files. glTF counts v downwards and needs `flipUV : false`.
+///   Uv       u to the right and v upwards: (0, 0) is the lower left corner of a picture, as materials with `flipUV :
+///            true` take it, the default of .mat files. glTF counts v downwards and needs `flipUV : false`.
 ///   Thread   any; plain values and pure functions.   Memory: 64 B a vertex, 4 B an index.
 ///   Fails    InvalidArgument names the function, the vertex or triangle, and the rule. std::bad_alloc.
 #pragma once
@@ -42,10 +42,11 @@ struct Mesh {
     float3 boundsMax() const;
 };
 
-/// Normals of a smooth surface: those of the triangles around a vertex, weighted by their angle there (Thürmer and Wüthrich
-/// 1998, "Computing Vertex Normals from Polygonal Facets"). Vertices in the same place with different normals stay apart:
-/// only triangles that share the vertex itself count. A vertex without a triangle that has an area keeps its normal.
-/// InvalidArgument: an index beyond the vertices, indices that are not triangles, a position that is not finite.
+/// Normals of a smooth surface: those of the triangles around a vertex, weighted by their angle there (Thürmer and
+/// Wüthrich 1998, "Computing Vertex Normals from Polygonal Facets"). Vertices in the same place with different normals
+/// stay apart: only triangles that share the vertex itself count. A vertex without a triangle that has an area keeps
+/// its normal. InvalidArgument: an index beyond the vertices, indices that are not triangles, a position that is not
+/// finite.
 Result<void> computeNormals(Mesh& mesh);
 
 /// `tangents` from positions, normals and uv, as MikkTSpace defines them (Mikkelsen 2008): normal maps baked by other
@@ -55,10 +56,10 @@ Result<void> computeNormals(Mesh& mesh);
 /// InvalidArgument: as computeNormals(), and an uv that is not finite.
 Result<void> computeTangents(Mesh& mesh);
 
-// ---- Attribute::Tangents: the frame as a unit quaternion that rotates x to the tangent and z to the normal. q and -q are
-// the same rotation, so the sign of w is free to say whether the bitangent is cross(normal, tangent) or its opposite (Frey
-// and Herzeg 2011, "Spherical Skinning with Dual Quaternions and QTangents"). |w| is at least 1 / 32767, so that the sign
-// survives in VertexFormat::Short4N, too.
+// ---- Attribute::Tangents: the frame as a unit quaternion that rotates x to the tangent and z to the normal. q and -q
+// are the same rotation, so the sign of w is free to say whether the bitangent is cross(normal, tangent) or its
+// opposite (Frey and Herzeg 2011, "Spherical Skinning with Dual Quaternions and QTangents"). |w| is at least 1 / 32767,
+// so that the sign survives in VertexFormat::Short4N, too.
 
 struct TangentFrame {
     float3 tangent{ 1, 0, 0 }, bitangent{ 0, 1, 0 }, normal{ 0, 0, 1 }; ///< unit vectors at right angles
@@ -67,8 +68,8 @@ struct TangentFrame {
 /// Vectors of any length and angle. What is zero, parallel or not finite is replaced: the result is always a frame.
 /// `handedness` < 0: the bitangent is -cross(normal, tangent).
 float4 tangentsOf(float3 normal, float3 tangent, float handedness = 1);
-/// With any tangent (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"): for materials without normal maps and
-/// anisotropy.
+/// With any tangent (Duff et al. 2017, "Building an Orthonormal Basis, Revisited"): for materials without normal maps
+/// and anisotropy.
 float4 tangentsFromNormal(float3 normal);
 std::vector<float4> tangentsFromNormals(std::span<const float3> normals);
 /// As the shaders decode it. Any numbers; a frame only for results of the functions above.

@@ -2,12 +2,12 @@
 /// ModelCopy: what one copy of a model in a scene consists of, by the names of its file, and what can be changed of it
 /// without touching other copies.
 ///   In      the root that Scene::add(model) returned.
-///   Names   are those of the file: they may be empty and need not be unique. Where a name is asked for, all that have it
-///           are meant, or the first one if only one can be; NotFound lists names that are near.
+///   Names   are those of the file: they may be empty and need not be unique. Where a name is asked for, all that have
+///           it are meant, or the first one if only one can be; NotFound lists names that are near.
 ///   Out     what is still there: parts that the program removed are left out. Lists are new at every call.
 ///   Thread  the app thread, between frames.
-///   Life    a plain value that refers to the scene, which may be moved, and to the copy. Using it once one of them is gone
-///           ends the process (docs/objects.md).
+///   Life    a plain value that refers to the scene, which may be moved, and to the copy. Using it once one of them is
+///           gone ends the process (docs/objects.md).
 ///   Cost    proportional to the parts of the model. Frames do not pay for copies that nobody changes.
 ///
 ///   Result<ModelCopy> car = ModelCopy::of(scene, root);
@@ -86,8 +86,8 @@ public:
     Result<std::vector<Renderable>> renderables(std::string_view meshOrNode) const;
 
     std::vector<CopyMaterial> materials() const;
-    /// Of all variants, with instances that this copy shares with no other one, made at the first call; each primitive of
-    /// the copy that shows the shared one shows its own from now on. A material that is used with and without vertex
+    /// Of all variants, with instances that this copy shares with no other one, made at the first call; each primitive
+    /// of the copy that shows the shared one shows its own from now on. A material that is used with and without vertex
     /// colours, or by volumes of several scales, has several instances. They live as long as the copy: do not destroy
     /// them, and give them to nothing else that lives longer.
     Result<std::vector<MaterialInstance>> ownMaterials(std::string_view material);

@@ -52,10 +52,10 @@ using Node = ObjectHandle<struct NodeObject>;             ///< of one Scene
 using Layers = uint8_t;
 inline constexpr Layers kDefaultLayers = 1, kAllLayers = 0xFF;
 
-/// The place of a renderable among what is drawn in an order: what blends, and what is opaque but does not test depth or
-/// leave it. Smaller priorities are drawn first, then smaller blend orders, then what is farther from the camera; those
-/// that agree in all of this keep the order of the scene. What refracts the picture and leaves depth has no place.
-/// Quality::transparency composes in any order only what has the default place.
+/// The place of a renderable among what is drawn in an order: what blends, and what is opaque but does not test depth
+/// or leave it. Smaller priorities are drawn first, then smaller blend orders, then what is farther from the camera;
+/// those that agree in all of this keep the order of the scene. What refracts the picture and leaves depth has no
+/// place. Quality::transparency composes in any order only what has the default place.
 struct DrawPlace {
     static constexpr uint8_t kLastPriority = 7;
     uint8_t priority = 4;    ///< [0, kLastPriority]
@@ -242,22 +242,22 @@ struct RenderTargetDesc {
     /// texels are those of RGBA8, and samplers decode them. OpenGL ES needs EXT_sRGB_write_control for it: without, the
     /// texture is not created, and takeErrors() says so.
     Texture color{};
-    /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where nothing
-    /// is. What blends leaves none. None: nobody asks.
+    /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where
+    /// nothing is. What blends leaves none. None: nobody asks.
     Texture depth{};
     bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb
     std::string name{};
 };
 
-/// A ring of images that frames are drawn to and read back from. With a window, Renderer::present() shows the image drawn
-/// last in it, bit by bit.
+/// A ring of images that frames are drawn to and read back from. With a window, Renderer::present() shows the image
+/// drawn last in it, bit by bit.
 struct SwapChainDesc {
     uint2 size{ 1280, 720 };       ///< pixels, >= 1
     uint32_t imageCount = 2;       ///< [1, 4]
     Format format = Format::RGBA8; ///< RGBA8, RGB10A2 (display) or RGBA16F (scene-linear, without tone mapping); no
                                    ///< RGBA8Srgb: its codes are those of RGBA8
-    /// Of EngineOptions::display; none: headless. Its images are RGBA8, or RGB10A2 for displays of 10 bits. Destroy the swap
-    /// chain before the window.
+    /// Of EngineOptions::display; none: headless. Its images are RGBA8, or RGB10A2 for displays of 10 bits. Destroy the
+    /// swap chain before the window.
     NativeWindow window{};
     PresentMode presentMode = PresentMode::Fifo; ///< Fifo where the window has no such mode
     std::string name{};

@@ -4,8 +4,8 @@
 ///   Units    metres, or those of your scene: lengths are finite and in [1e-15, 1e15].
 ///   Closed   every shape but the plane, and those without caps, is closed: seen from outside all triangles are
 ///            counter-clockwise, each edge belongs to two triangles, and vertices that meet there have the same bits.
-///   Uv       u to the right and v upwards, seen from outside; in [0, 1] (makeIcoSphere() says where not). Around an axis
-///            u = 0.5 + atan2(x, z) / 2 pi: the middle of a picture is at +z, its seam at -z.
+///   Uv       u to the right and v upwards, seen from outside; in [0, 1] (makeIcoSphere() says where not). Around an
+///            axis u = 0.5 + atan2(x, z) / 2 pi: the middle of a picture is at +z, its seam at -z.
 ///   Normals  those of the shape itself, not of its triangles; the tangent is the direction in which u grows.
 ///   Colour   white.
 ///   Limits   65 536 segments each way and 2^24 vertices.
@@ -43,9 +43,9 @@ struct UvSphereShape {
 };
 Result<Mesh> makeUvSphere(UvSphereShape const& shape = {});
 
-/// An icosahedron with a corner at each pole, its triangles divided into four `subdivisions` times: nearly equal triangles
-/// everywhere. The texture coordinates are those of the UV sphere; of triangles that cross the seam, u goes on to at most
-/// 1.5, for samplers that repeat.
+/// An icosahedron with a corner at each pole, its triangles divided into four `subdivisions` times: nearly equal
+/// triangles everywhere. The texture coordinates are those of the UV sphere; of triangles that cross the seam, u goes
+/// on to at most 1.5, for samplers that repeat.
 struct IcoSphereShape {
     float radius = 0.5f;
     uint32_t subdivisions = 3; ///< [0, 8]: 20 * 4^n triangles

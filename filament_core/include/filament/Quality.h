@@ -156,11 +156,11 @@ enum class RefractionSource : uint8_t {
 enum class TransparencyOrder : uint8_t {
     Sorted, ///< object by object, the farthest first
     /// In any order, as a mean that weights what is near most: McGuire and Bavoil 2013, "Weighted Blended
-    /// Order-Independent Transparency". For many thin layers, such as smoke and leaves: nothing flickers when objects pass
-    /// each other.
+    /// Order-Independent Transparency". For many thin layers, such as smoke and leaves: nothing flickers when objects
+    /// pass each other.
     Weighted,
-    /// Pixel by pixel, the nearest layers first (Everitt 2001, "Interactive Order-Independent Transparency"): exact, also
-    /// where surfaces intersect, up to Quality::transparencyLayers.
+    /// Pixel by pixel, the nearest layers first (Everitt 2001, "Interactive Order-Independent Transparency"): exact,
+    /// also where surfaces intersect, up to Quality::transparencyLayers.
     Peeled,
 };
 

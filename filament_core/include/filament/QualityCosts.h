@@ -69,8 +69,8 @@ struct CostMeasurement {
     std::vector<std::string> choices{}; ///< names; empty: all choices
 };
 
-/// Measures one scene on the engine's backend; the view's quality provides the values of the other choices. The scene is
-/// still, so shadow maps are drawn once and kept: their filters have a price, drawing them has none. Draws about
+/// Measures one scene on the engine's backend; the view's quality provides the values of the other choices. The scene
+/// is still, so shadow maps are drawn once and kept: their filters have a price, drawing them has none. Draws about
 /// 30 pictures, each with its own programs, then rounds * 30 frames, which takes seconds to minutes. The other
 /// backend's times stay 0; see addBackend(). Fails: InvalidArgument for an unknown choice; errors of the device.
 Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, View const& view,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// RenderPreset: settings of a whole view by name: the approximations of shading, which effects run, and how exactly.
 ///   Use      applyPreset(view, *renderPresetFromName("balanced")); then change what should differ.
-///   Scope    sets View::quality and View::samples, and switches bloom and motion blur. What effects look like (how strong,
-///            how far), and those that are a matter of taste, stay as they are: grading, fog, depth of field, vignette, ...
+///   Scope    sets View::quality and View::samples, and switches bloom and motion blur. What effects look like (how
+///            strong, how far), and those that are a matter of taste, stay as they are: grading, fog, depth of field,
+///            vignette, ...
 ///   Demand   as always: an effect runs only if something visible asks for it.
 ///   Thread: any.   Fails: never.
 #pragma once

@@ -100,9 +100,9 @@ public:
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
-    /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before it
-    /// have not reached the window yet: then it waits for the first of them, so that the app is never further ahead. A
-    /// swap chain without a window, or without a picture: nothing happens.
+    /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before
+    /// it have not reached the window yet: then it waits for the first of them, so that the app is never further ahead.
+    /// A swap chain without a window, or without a picture: nothing happens.
     void present(SwapChain swapChain);
     /// Whether present() would not wait: an app that has other work can do that first.
     bool mayPresent(SwapChain swapChain) const;
@@ -120,11 +120,11 @@ public:
     std::optional<Image> takePixels(PixelTicket ticket);
     Result<Image> waitPixels(PixelTicket ticket);
 
-    /// Asks what a pixel of the view shows, as the scene is now: bones, morph targets, holes of masked materials and layers
-    /// count. What blends is hit wherever its geometry is, however transparent. Draws that one pixel of everything that
-    /// may cover it, in a submission of its own; frames cost nothing for it. `pixel`: from the left and from the top of
-    /// the view, below View::size. A ticket of 0 means out of memory. Up to 4096 renderables along the pixel are tried,
-    /// the nearest first. docs/views.md, "Picking".
+    /// Asks what a pixel of the view shows, as the scene is now: bones, morph targets, holes of masked materials and
+    /// layers count. What blends is hit wherever its geometry is, however transparent. Draws that one pixel of
+    /// everything that may cover it, in a submission of its own; frames cost nothing for it. `pixel`: from the left and
+    /// from the top of the view, below View::size. A ticket of 0 means out of memory. Up to 4096 renderables along the
+    /// pixel are tried, the nearest first. docs/views.md, "Picking".
     PickTicket pick(Scene const& scene, View const& view, uint2 pixel);
     /// None: not answered yet. A hit without a renderable also when the device was lost.
     std::optional<PickHit> takePick(PickTicket ticket);

@@ -2,10 +2,10 @@
 /// ResolutionController: how many pixels a frame can afford, from what finished frames took. Renderer has one for views
 /// with Resolution::dynamic; a program that times its frames in its own way can use another.
 ///   How     the median of the last frames of the same size, whose time is taken to grow with their pixels. Beyond the
-///           target the picture shrinks to what should fit; it grows only to what should leave the headroom free. Between
-///           the two nothing changes, so noise below the headroom moves nothing.
-///   Steps   scales are multiples of 1/32 of Resolution::scale, of both axes or (not `uniform`) of the area, so that few
-///           sizes of targets exist.
+///           target the picture shrinks to what should fit; it grows only to what should leave the headroom free.
+///           Between the two nothing changes, so noise below the headroom moves nothing.
+///   Steps   scales are multiples of 1/32 of Resolution::scale, of both axes or (not `uniform`) of the area, so that
+///           few sizes of targets exist.
 ///   Settles within three changes of `history` frames each, once the load is constant: docs/resolution.md.
 ///   Memory  none but itself.   Thread: one at a time.   Fails: never; times that are no numbers count as none.
 #pragma once

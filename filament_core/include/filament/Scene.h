@@ -4,8 +4,8 @@
 ///   Thread  the app thread, also for const functions: bounds() and Renderer::render() first update transforms. Do not
 ///           change the scene while Renderer::render runs (it returns once it has read the scene).
 ///   Memory  one array per field; adding and removing are O(1).
-///   Life    what the scene shows may be destroyed: the scene keeps it until it is removed or replaced. Handles of a scene
-///           name things of that scene only.
+///   Life    what the scene shows may be destroyed: the scene keeps it until it is removed or replaced. Handles of a
+///           scene name things of that scene only.
 #pragma once
 
 #include <filament/Box.h>
@@ -55,8 +55,8 @@ struct RenderableDesc {
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0; ///< 0: all
-    /// Of the positions, in object space, without skin and morph targets. Not given: those of all vertices of the buffer,
-    /// which follow Engine::update().
+    /// Of the positions, in object space, without skin and morph targets. Not given: those of all vertices of the
+    /// buffer, which follow Engine::update().
     float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax;
     double4x4 worldFromObject{ 1.0 };     ///< affine; must stay the identity if there is a node
     Node node{};                          ///< gives the renderable its transform; none: worldFromObject
@@ -104,10 +104,11 @@ public:
     void set(Light light, RectLight const& desc);
     void set(Light light, DiscLight const& desc);
     void set(Light light, TubeLight const& desc);
-    /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they have.
+    /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they
+    /// have.
     void setGeometry(Renderable renderable, GeometryDesc const& geometry);
-    /// In object space, as of RenderableDesc. What is outside of them may be missing at the edges of the view, in shadow
-    /// maps and in effects that look for objects.
+    /// In object space, as of RenderableDesc. What is outside of them may be missing at the edges of the view, in
+    /// shadow maps and in effects that look for objects.
     void setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax);
     /// Hidden renderables are not drawn and cast no shadows; they keep everything else. Visible by default.
     void setVisible(Renderable renderable, bool isVisible);
@@ -121,8 +122,9 @@ public:
     void setLightChannels(Light light, LightChannels channels);
     /// For all renderables attached to the node or below it: a copy of a model, for example.
     void setLightChannels(Node node, LightChannels channels);
-    /// Gives the layers named by `select` the values that they have in `layers`; the others stay. So a part of a program
-    /// can have a layer of its own, and need not know of the rest: setLayers(lamp, kHud, 0) hides the lamp there.
+    /// Gives the layers named by `select` the values that they have in `layers`; the others stay. So a part of a
+    /// program can have a layer of its own, and need not know of the rest: setLayers(lamp, kHud, 0) hides the lamp
+    /// there.
     void setLayers(Renderable renderable, Layers select, Layers layers);
     /// For all renderables attached to the node or below it: a copy of a model, for example.
     void setLayers(Node node, Layers select, Layers layers);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// StencilState: what a surface asks of the stencil values of the picture, and what it leaves there. A view has one value
-/// of 8 bits for each sample, 0 in the beginning; they exist only in frames in which a visible surface has a state.
+/// StencilState: what a surface asks of the stencil values of the picture, and what it leaves there. A view has one
+/// value of 8 bits for each sample, 0 in the beginning; they exist only in frames in which a visible surface has a
+/// state.
 ///   Use      Engine::setStencil(). Portals, outlines, cut-outs of interfaces: docs/views.md.
 ///   Order    what is opaque and changes values is drawn before everything else, what only tests them in its usual
 ///            place; what blends keeps its place in either case.

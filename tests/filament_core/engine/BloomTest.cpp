@@ -44,9 +44,9 @@ double varianceOf(Image const& image) {
 }
 
 // A level's lobe: of the weights 1, 3, 3, 1 on the way down, of two look-ups between texels on the way up. All texels
-// of a level are looked up a quarter off the centre of one of the smaller one: 7/16 of its width squared. A look-up d of
-// a texel's width off its centre widens the lobe by d (1 - d), which is 3/16 of half the picture and in the mean 11/64
-// of a quarter, for the one look-up at the end. The weights of a quarter, 1 to 7, move light by 1.75 or 3.75.
+// of a level are looked up a quarter off the centre of one of the smaller one: 7/16 of its width squared. A look-up d
+// of a texel's width off its centre widens the lobe by d (1 - d), which is 3/16 of half the picture and in the mean
+// 11/64 of a quarter, for the one look-up at the end. The weights of a quarter, 1 to 7, move light by 1.75 or 3.75.
 double varianceOfLevels(int levels, BloomResolution resolution) {
     const bool isQuarter = resolution == BloomResolution::Quarter;
     const int first = isQuarter ? 1 : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A section: a material that cuts what it draws at a plane of the view, as docs/views.md shows. Light, shadows, depths and
-// picks are those of the part that is left.
+// A section: a material that cuts what it draws at a plane of the view, as docs/views.md shows. Light, shadows, depths
+// and picks are those of the part that is left.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 namespace filament {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes from frame to frame has Mesa's Vulkan driver compile nothing: it may compile a stage anew for every value
-// of the uniforms that alone decide a condition, which takes seconds a frame. Counted in files of its shader cache.
+// What changes from frame to frame has Mesa's Vulkan driver compile nothing: it may compile a stage anew for every
+// value of the uniforms that alone decide a condition, which takes seconds a frame. Counted in files of its shader
+// cache.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/scenes/Sphere.h"
@@ -45,7 +46,8 @@ private:
     std::optional<std::string> mBefore;
 };
 
-/// Spheres of several materials, with textures and without, in the light of a sky, a sun and a lamp, of which everything changes in each frame.
+/// Spheres of several materials, with textures and without, in the light of a sky, a sun and a lamp, of which
+/// everything changes in each frame.
 class ChangingScene {
 public:
     explicit ChangingScene(test::MaterialStage& stage)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Debug views of effects of the picture on both APIs: circles of confusion, the weight of gathered frames, the histogram
-// of auto exposure, each beside its closed form.
+// Debug views of effects of the picture on both APIs: circles of confusion, the weight of gathered frames, the
+// histogram of auto exposure, each beside its closed form.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 

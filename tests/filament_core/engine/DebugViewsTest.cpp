@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// View::debugView on both APIs: what its colours say of a pixel is what the CPU finds for the point that the pixel shows.
+// View::debugView on both APIs: what its colours say of a pixel is what the CPU finds for the point that the pixel
+// shows.
 #include "backend/layers/Captured.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/prepare/FroxelGrid.h"
@@ -261,8 +262,8 @@ View streetView(uint32_t cascades) {
     return view;
 }
 
-/// shadows.glsl on the CPU: the first cascade whose tile contains a point and all of a filter around it; -1: none. Nothing
-/// at a border.
+/// shadows.glsl on the CPU: the first cascade whose tile contains a point and all of a filter around it; -1: none.
+/// Nothing at a border.
 std::optional<int> cascadeOf(shader::ShadowUniforms const& shadows, double3 const& point) {
     for (int i = 0; i < static_cast<int>(shadows.sun.y); ++i) {
         shader::ShadowMapRecord const& map = shadows.maps[static_cast<size_t>(shadows.sun.x) + static_cast<size_t>(i)];

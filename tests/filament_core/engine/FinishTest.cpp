@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What finishes a picture: grading, vignette, grain, fringes and auto exposure, each beside its closed form, with the same
-// bits on both APIs.
+// What finishes a picture: grading, vignette, grain, fringes and auto exposure, each beside its closed form, with the
+// same bits on both APIs.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 

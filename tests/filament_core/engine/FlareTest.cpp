@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens flare on both APIs: where ghosts and halo lie, how much light is in them, that light is moved and none added, and
-// that it costs nothing where there is none.
+// Lens flare on both APIs: where ghosts and halo lie, how much light is in them, that light is moved and none added,
+// and that it costs nothing where there is none.
 #include "filament_core/passes/FlarePass.h"
 #include "tests/filament_core/engine/LampStage.h"
 
@@ -248,8 +248,8 @@ TEST(LensFlare, IsFiniteAtItsEndsAndInAllSizes) {
     }
 }
 
-/// Only what is not a number shows that; its flare is none, and that of an infinity one of the brightest light. The next
-/// frame knows nothing of it.
+/// Only what is not a number shows that; its flare is none, and that of an infinity one of the brightest light. The
+/// next frame knows nothing of it.
 TEST(LensFlare, KeepsWhatIsNoNumberWhereItIs) {
     for (const char* light : { "vec3(uintBitsToFloat(0x7FC00000u))", "vec3(uintBitsToFloat(0x7F800000u))" }) {
         for (const Backend backend : test::kBothApis) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One texel of light that is no number, infinite, or the brightest there is, under every effect of the picture alone and
-// under all of them: the others stay finite, and a frame later it is forgotten. The list of effects is generated from the
-// options, so new ones are in it.
+// One texel of light that is no number, infinite, or the brightest there is, under every effect of the picture alone
+// and under all of them: the others stay finite, and a frame later it is forgotten. The list of effects is generated
+// from the options, so new ones are in it.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 

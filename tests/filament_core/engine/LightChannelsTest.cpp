@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light channels in pictures: what a square shows under many lights is, to the bit, what it shows under those that share
-// a channel with it.
+// Light channels in pictures: what a square shows under many lights is, to the bit, what it shows under those that
+// share a channel with it.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light profiles in pictures: each pixel of a wall shows the share that the file gives its direction, constant profiles are
-// plain lights to the bit, and what nobody needs is not there.
+// Light profiles in pictures: each pixel of a wall shows the share that the file gives its direction, constant profiles
+// are plain lights to the bit, and what nobody needs is not there.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/tables/LightProfileTable.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
@@ -133,7 +133,8 @@ struct Wall {
     Patch patch;
 };
 
-// The files of the conformance scenes: every type and symmetry. Half floats and the place of pixels round to a thousandth.
+// The files of the conformance scenes: every type and symmetry. Half floats and the place of pixels round to a
+// thousandth.
 TEST_P(LightProfiles, EveryPixelOfAWallShowsTheShareOfItsDirection) {
     prepare::Random random(7);
     const auto axis = [&] {

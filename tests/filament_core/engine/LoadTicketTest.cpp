@@ -35,7 +35,8 @@ FileBytes bytesAt(std::filesystem::path const& path) {
     return bytesOfText(text);
 }
 
-/// Three textured triangles side by side, in files that their .gltf names: three pictures, three meshes, six steps and one.
+/// Three textured triangles side by side, in files that their .gltf names: three pictures, three meshes, six steps and
+/// one.
 constexpr const char* kTriangles = R"({ "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0, 1, 2 ] } ],
     "extensionsUsed": [ "KHR_materials_unlit" ],
     "nodes": [ { "mesh": 0 }, { "mesh": 1, "translation": [ 1, 0, 0 ] }, { "mesh": 2, "translation": [ 2, 0, 0 ] } ],

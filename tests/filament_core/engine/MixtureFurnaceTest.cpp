@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnace of partly metallic glTF materials with every combination of layers, with and without transmission: white
-// matter that absorbs nothing is invisible, whatever part of its light is reflected, scattered or let through.
+// White furnace of partly metallic glTF materials with every combination of layers, with and without transmission:
+// white matter that absorbs nothing is invisible, whatever part of its light is reflected, scattered or let through.
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"

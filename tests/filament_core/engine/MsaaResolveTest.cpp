@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How four samples become a pixel: a lamp covers as much of what is displayed as it covers of the pixel, however bright it
-// is, beside supersampling of what is displayed.
+// How four samples become a pixel: a lamp covers as much of what is displayed as it covers of the pixel, however bright
+// it is, beside supersampling of what is displayed.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <filament/Renderer.h>

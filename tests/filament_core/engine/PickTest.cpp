@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picking against rays that the test casts itself, on both APIs: every pixel of small pictures of boxes and spheres; holes
-// of masked materials, bones, glass, layers.
+// Picking against rays that the test casts itself, on both APIs: every pixel of small pictures of boxes and spheres;
+// holes of masked materials, bones, glass, layers.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of one view on the surfaces of another, in the same frame: colours, depths and mips of render targets, on both
-// APIs. Row 0 is at the top.
+// Pictures of one view on the surfaces of another, in the same frame: colours, depths and mips of render targets, on
+// both APIs. Row 0 is at the top.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
@@ -184,8 +184,8 @@ TEST_P(RenderTargetsTest, ASquareShowsTheLightOfAnSrgbPicture) {
     }
 }
 
-// Display-referred and scene-linear targets side by side, each square a texel a pixel of a parallel lens: the top rows of
-// all are the top row of what shows them.
+// Display-referred and scene-linear targets side by side, each square a texel a pixel of a parallel lens: the top rows
+// of all are the top row of what shows them.
 TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDrawsThem) {
     constexpr Format kFormats[] = { Format::RGBA8, Format::RGB10A2, Format::RGBA16F, Format::RGBA8Srgb };
     std::vector<Owned<RenderTarget>> films;

@@ -255,7 +255,8 @@ TEST(Sharpening, LeavesEvenPicturesBlackAndWhiteAlone) {
     }
 }
 
-/// A pixel of 0.6 in 0.5: between black and white there is room for a weight of -min(0.5 / 2.4, 0.4 / 2), at most -3/16.
+/// A pixel of 0.6 in 0.5: between black and white there is room for a weight of -min(0.5 / 2.4, 0.4 / 2), at most
+/// -3/16.
 TEST(Sharpening, RaisesContrastByTheLargestWeightThatThereIsRoomFor) {
     const auto valueOf = [](Image const& image, uint32_t x, uint32_t y) { return bytePixel(image, x, y).x * 255; };
     for (const float strength : { 0.25f, 1.0f }) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every filter of shadow maps has to pass on both APIs: planes that do not shadow themselves, shadows that begin at
-// what casts them, penumbrae and blurs of known width, edges that stand still, and extremes.
+// What every filter of shadow maps has to pass on both APIs: planes that do not shadow themselves, shadows that begin
+// at what casts them, penumbrae and blurs of known width, edges that stand still, and extremes.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <numbers>

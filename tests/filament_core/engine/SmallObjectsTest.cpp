@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that cover no centre of a pixel are left out, and the picture stays as it is, bit by bit: beside the same objects
-// that may not be left out.
+// Objects that cover no centre of a pixel are left out, and the picture stays as it is, bit by bit: beside the same
+// objects that may not be left out.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Suns in the sky: the light of the disc and of its halo against closed forms, wherever the sun is and however small; and
-// what stays as it is without them.
+// Suns in the sky: the light of the disc and of its halo against closed forms, wherever the sun is and however small;
+// and what stays as it is without them.
 #include "backend/layers/Captured.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"

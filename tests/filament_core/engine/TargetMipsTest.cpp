@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mips of render targets of RGBA8Srgb: means of light by area, encoded again, compared with doubles for sizes that halve
-// evenly and for those that do not.
+// Mips of render targets of RGBA8Srgb: means of light by area, encoded again, compared with doubles for sizes that
+// halve evenly and for those that do not.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 

@@ -102,7 +102,8 @@ TEST(TemporalUpscaling, IsLeftToTheFilterIfThereIsOne) {
     EXPECT_NE(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
 }
 
-/// Depth of field and reflections work on pixels that have depths; bloom, exposure and what finishes the picture on all.
+/// Depth of field and reflections work on pixels that have depths; bloom, exposure and what finishes the picture on
+/// all.
 TEST(TemporalUpscaling, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {

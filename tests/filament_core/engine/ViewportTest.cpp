@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several views in one target: a view has in its viewport the bits that it has alone, whatever its effects, and the rest
-// of the target stays as it was.
+// Several views in one target: a view has in its viewport the bits that it has alone, whatever its effects, and the
+// rest of the target stays as it was.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <gmock/gmock.h>

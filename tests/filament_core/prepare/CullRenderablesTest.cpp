@@ -27,7 +27,8 @@ struct CullTest : testing::Test, BoxScene {
         return cullRenderables(jobs, arena, renderables(), space, ViewKind::Color, counts);
     }
 
-    /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN; in layers.
+    /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN; in
+    /// layers.
     void addMixture(uint32_t count) {
         const auto* look = material();
         Random random(count + 1);

@@ -204,8 +204,8 @@ TEST(FitShadows, AxesAreRigidForAnyDirection) {
     }
 }
 
-// A light of radius r at distance d, with a caster at c: similar triangles make the penumbra r (d - c) / c wide, to each
-// side of the edge.
+// A light of radius r at distance d, with a caster at c: similar triangles make the penumbra r (d - c) / c wide, to
+// each side of the edge.
 TEST(PenumbraOfDepth, FollowsSimilarTriangles) {
     Random random(4);
     for (int i = 0; i < 200; ++i) {

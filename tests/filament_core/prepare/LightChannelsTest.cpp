@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lights each draw gets: random masks against the rule itself, and nothing at all where everything shares channel 0.
+// Which lights each draw gets: random masks against the rule itself, and nothing at all where everything shares channel
+// 0.
 #include "filament_core/prepare/LightChannels.h"
 #include "shaders/package/Package.h"
 #include "tests/filament_core/prepare/BoxScene.h"

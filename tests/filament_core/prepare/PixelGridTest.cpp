@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of every size, beside centres of pixels and on them, in double precision: no box that misses all centres contains
-// one, and most of those that contain none are found.
+// Boxes of every size, beside centres of pixels and on them, in double precision: no box that misses all centres
+// contains one, and most of those that contain none are found.
 #include "filament_core/prepare/ViewConstants.h"
 
 #include "tests/filament_core/prepare/BoxScene.h"

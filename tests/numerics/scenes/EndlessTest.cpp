@@ -81,8 +81,8 @@ double growthPerRound(double before, double after, int rounds) {
     return perRound;
 }
 
-/// Repeats rounds until so many of them in a row left nothing behind. Drivers and the heaps of threads grow by up to 2 MiB
-/// a few times, when pages are touched for the first time; leaks grow in every round.
+/// Repeats rounds until so many of them in a row left nothing behind. Drivers and the heaps of threads grow by up to 2
+/// MiB a few times, when pages are touched for the first time; leaks grow in every round.
 template <class Rounds>
 void expectFlat(int count, Rounds&& run) {
     constexpr int kTries = 5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What --set accepts besides quality, effects and grading: every choice of the table is one, with the value that it has at first.
+// What --set accepts besides quality, effects and grading: every choice of the table is one, with the value that it has
+// at first.
 #include "tools/common/SceneChoices.h"
 
 #include <gmock/gmock.h>

@@ -65,7 +65,8 @@ TEST(Machines, AreChosenByNameOrAllThatAreNotEmulated) {
     EXPECT_THAT(unknown.error().message, HasSubstr("pentium"));
 }
 
-// ---------------------------------------------------------------------------------------------- a program that misbehaves
+// ---------------------------------------------------------------------------------------------- a program that
+// misbehaves
 
 /// Answers like filament-conformance, but behaves as the names of the cases say.
 constexpr const char* kActor = R"sh(#!/bin/sh

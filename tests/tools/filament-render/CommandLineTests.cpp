@@ -192,7 +192,8 @@ TEST_F(CommandLine, SteadyFramesWithShadowsTakeNothingFromTheHeap) {
             auto const& run = report["backends"][backend];
             EXPECT_EQ(decisionOf(run["decisions"], "shadows")["state"], "needed") << more;
             EXPECT_GE(run["steady"]["frames"], 10) << backend;
-            // What a blur needed goes 16 frames after the only frame that blurred: a driver notes it in a list that grows.
+            // What a blur needed goes 16 frames after the only frame that blurred: a driver notes it in a list that
+            // grows.
             const int atMost = more.find("vsm") == std::string::npos ? 0 : 1;
             EXPECT_LE(run["steady"]["heapAllocations"], atMost) << backend << ' ' << more;
         }

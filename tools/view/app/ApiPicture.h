@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ApiPicture: the document on an engine of its own, without a window; with a defect in its commands, if one is asked for.
+/// ApiPicture: the document on an engine of its own, without a window; with a defect in its commands, if one is asked
+/// for.
 ///   Thread  the main thread.
 ///   Fails   create(): as Engine::create().
 #pragma once

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ComparedPictures: the viewer's picture and that of the other API, or of the path tracer, as a live number and as what lies over the picture:
-/// a wipe, or a map of differences.
-///   Use      once a frame, after the scene and before the interface: follow(); between ImGui's NewFrame() and Render():
-///            draw().
+/// ComparedPictures: the viewer's picture and that of the other API, or of the path tracer, as a live number and as
+/// what lies over the picture: a wipe, or a map of differences.
+///   Use      once a frame, after the scene and before the interface: follow(); between ImGui's NewFrame() and
+///            Render(): draw().
 ///   Places   the viewer's picture is a part of the window, at `offset`. Events count pixels of the picture.
-///   Waits    for nothing: pictures are compared on another thread, one pair at a time. The destructor waits for the last.
+///   Waits    for nothing: pictures are compared on another thread, one pair at a time. The destructor waits for the
+///            last.
 ///   Memory   two pictures on the host, and a texture of the map.
 ///   Thread   the main thread.
 #pragma once
@@ -36,7 +37,8 @@ public:
     std::string defect{};      ///< of defectsFor(), in the commands of the other API; empty: none
     float wipePosition = 0.5f; ///< of the width: the other API's picture is to the right
 
-    /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine. Whether there is news.
+    /// Starts the other API, or the path tracer, if a mode wants it. `options` are those of the viewer's own engine.
+    /// Whether there is news.
     bool follow(Document const& document, Stage& stage, SwapChain chain, uint2 offset, EngineOptions const& options);
     /// Whether the event moves the line of the wipe, which the pointer may drag.
     bool handle(InputEvent const& event, uint2 size);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CostMeasurement: draws a document with every setting of quality, beside the viewer, and times and compares its pictures
-/// step by step: see CostPlot.h.
-///   Engine   its own, without a window, on a thread of its own. The document is as it was at start(); the viewer may go on.
+/// CostMeasurement: draws a document with every setting of quality, beside the viewer, and times and compares its
+/// pictures step by step: see CostPlot.h.
+///   Engine   its own, without a window, on a thread of its own. The document is as it was at start(); the viewer may
+///            go on.
 ///   Picture  one of each setting, as a new stage draws it; of 16 frames, if the setting gathers them (TAA).
-///   Error    from the reference that start() was given (the path tracer's picture), else from the picture of the most exact
-///            setting: QualityPreset::Reference, gathered over 16 frames (TAA), so that its edges are smooth.
-///   Steps    in the first round each setting's picture is compared and its first time taken, so points appear one by one.
-///   Time     the second frame after each change of setting: programs, tables and shadow maps are then there. Settings take
-///            turns: a round times each of them once, and begins with another one. The median of the rounds so far is
-///            what counts, so other work of the machine hits all settings alike.
+///   Error    from the reference that start() was given (the path tracer's picture), else from the picture of the most
+///            exact setting: QualityPreset::Reference, gathered over 16 frames (TAA), so that its edges are smooth.
+///   Steps    in the first round each setting's picture is compared and its first time taken, so points appear one by
+///            one.
+///   Time     the second frame after each change of setting: programs, tables and shadow maps are then there. Settings
+///            take turns: a round times each of them once, and begins with another one. The median of the rounds so far
+///            is what counts, so other work of the machine hits all settings alike.
 ///   Clock    the device's, if it times its passes; else the driver thread's.
-///   Thread   all functions: one thread, which never waits, except in the destructor: for the frame that is being drawn.
+///   Thread   all functions: one thread, which never waits, except in the destructor: for the frame that is being
+///            drawn.
 ///   Fails    poll(): State::Failed with one line: no engine, a document that cannot be loaded, errors of the device.
 #pragma once
 

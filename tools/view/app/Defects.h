@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Defects: the mutations of the conformance suite (tools/conformance/Mutations.h), for the viewer to inject into the engine
-/// that its picture is compared with.
+/// Defects: the mutations of the conformance suite (tools/conformance/Mutations.h), for the viewer to inject into the
+/// engine that its picture is compared with.
 ///   Thread  any.
 #pragma once
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameSaver: saves frames of a document for filament-replay, on a thread of its own.
-///   Out     a folder with the commands of both APIs (record/SavedFrame.h), the document, and the picture as it was shown.
+///   Out     a folder with the commands of both APIs (record/SavedFrame.h), the document, and the picture as it was
+///           shown.
 ///   Thread  the main thread; the engines that draw it again live on the other one.
 ///   Life    the destructor waits for a frame that is being saved.
 #pragma once

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// NumericsCounter: how many pixels DebugView::Numerics marks in the frame that is shown, and the legend of its colours.
+/// NumericsCounter: how many pixels DebugView::Numerics marks in the frame that is shown, and the legend of its
+/// colours.
 ///   Use      after each frame, before the interface is drawn over it: follow(); in every step: poll(); between ImGui's
 ///            NewFrame() and Render(): draw().
-///   Counts   the marks of the picture itself (<filament/DebugViews.h>), so that they agree with what is seen. They come a frame
-///            or two later; until they are those of the newest frame, the legend says so.
+///   Counts   the marks of the picture itself (<filament/DebugViews.h>), so that they agree with what is seen. They
+///            come a frame or two later; until they are those of the newest frame, the legend says so.
 ///   Places   the picture is a part of the window, at `offset`.
 ///   Waits    never.   Memory: a picture while it is read back.
 ///   Thread   the main thread.

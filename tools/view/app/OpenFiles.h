@@ -15,8 +15,8 @@ namespace filament::view {
 enum class FileKind : uint8_t { Model, Environment, Document, Picture, Unknown };
 FileKind kindOf(std::filesystem::path const& file);
 
-/// A model loses the edits of the last one; a camera path is added. The size of the picture stays. A picture is nothing to
-/// show by itself: it is a texture's.
+/// A model loses the edits of the last one; a camera path is added. The size of the picture stays. A picture is nothing
+/// to show by itself: it is a texture's.
 Result<void> showFile(Document& document, std::filesystem::path const& file);
 /// A document, a camera (with the exposure of the text), or a path that is added.
 void showText(Document& document, AnyText text);

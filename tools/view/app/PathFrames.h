@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PathFrames: draws a document along a camera path, at a fixed frame rate, to numbered pictures or to a video.
-///   Frames   frame k shows the time k / framesPerSecond: the camera of the path, View::timeSeconds and a playing animation
-///            move by that, whatever the drawing takes. Effects that gather frames gather these. So the same document and
-///            path have the same bits on both APIs and on every run.
+///   Frames   frame k shows the time k / framesPerSecond: the camera of the path, View::timeSeconds and a playing
+///            animation move by that, whatever the drawing takes. Effects that gather frames gather these. So the same
+///            document and path have the same bits on both APIs and on every run.
 ///   Out      frame-00000.png and so on, in a folder that is made if it is missing. Older files with such names are
 ///            replaced; others stay.
 ///   Thread   any: it makes an engine of its own, without a window, that ends before it returns.

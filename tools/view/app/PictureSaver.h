@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureSaver: pictures of what a viewer shows, without its panels, that nobody waits for: drawn into an image of their own,
-/// read back over the next frames, encoded on another thread.
-///   Use      save() or read(), then poll() once a step; close() before the engine ends: what has not been read is lost.
+/// PictureSaver: pictures of what a viewer shows, without its panels, that nobody waits for: drawn into an image of
+/// their own, read back over the next frames, encoded on another thread.
+///   Use      save() or read(), then poll() once a step; close() before the engine ends: what has not been read is
+///            lost.
 ///   Thread   the main thread.   Memory: the pictures on their way.
 ///   Life     the destructor waits for pictures that are being encoded.
 ///   Fails    lines of poll().

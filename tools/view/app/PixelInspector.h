@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PixelInspector: what both APIs have for the pixel under the pointer: it draws the document on two engines of its own,
-/// which read back everything inside of a frame (backend/layers/Captured.h), and asks them what is seen there.
-///   Use      every step: follow(). Off, it has no engines and costs nothing; it starts with the first follow() that is on.
+/// PixelInspector: what both APIs have for the pixel under the pointer: it draws the document on two engines of its
+/// own, which read back everything inside of a frame (backend/layers/Captured.h), and asks them what is seen there.
+///   Use      every step: follow(). Off, it has no engines and costs nothing; it starts with the first follow() that is
+///            on.
 ///   Draws    two frames on each engine for every document, one after the other; a pick for every pixel.
 ///   Waits    never, but for the start of the engines.
 ///   Memory   the pictures and those attachments of one frame of each API that have the pixels of the picture.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// RecentFiles: the files that were opened last, kept between runs.
 ///   Where    $XDG_STATE_HOME/filament-view/recent.json, or ~/.local/state/... (XDG Base Directory Specification 0.8).
-///   Text     a list of absolute paths, newest first. Whatever the file holds, reading it gives a list: what is no such path
-///            is left out.
+///   Text     a list of absolute paths, newest first. Whatever the file holds, reading it gives a list: what is no such
+///            path is left out.
 ///   Limits   kMostRecent files of at most kLongestPath bytes; a file above 1 MiB is not read.
 ///   Thread   one.
 ///   Fails    add(): Unreadable, the list is then kept in this program alone.

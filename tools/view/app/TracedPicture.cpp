@@ -49,8 +49,8 @@ Result<reference::ReferenceScene> load(Document const& document, jobs::JobSystem
     return scene;
 }
 
-/// Of the lens, the film and the eye. What stands in for light that is traced (ambient occlusion, reflections of the screen)
-/// is not among them, nor is fog, which is traced.
+/// Of the lens, the film and the eye. What stands in for light that is traced (ambient occlusion, reflections of the
+/// screen) is not among them, nor is fog, which is traced.
 bool hasPictureEffects(Effects const& effects) {
     return effects.bloom.enabled || effects.lensFlare.enabled || effects.depthOfField.enabled ||
            effects.motionBlur.enabled || effects.autoExposure.enabled || effects.grading.enabled ||

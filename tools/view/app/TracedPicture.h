@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TracedPicture: the document as the path tracer sees it: the same camera, lights and exposure, all bounces, better with
-/// every pass. Behind it the same tone mapper.
-///   Shows    the file's own nodes, materials and lights, with the variant; the environment; lights that the document adds.
-///            Edits of nodes, materials and the file's lights, animations, profiles of lights, the look and effects of the
-///            picture but fog are not traced: a message says so, once.
+/// TracedPicture: the document as the path tracer sees it: the same camera, lights and exposure, all bounces, better
+/// with every pass. Behind it the same tone mapper.
+///   Shows    the file's own nodes, materials and lights, with the variant; the environment; lights that the document
+///            adds. Edits of nodes, materials and the file's lights, animations, profiles of lights, the look and
+///            effects of the picture but fog are not traced: a message says so, once.
 ///   Thread   the main thread; rays are traced on one other thread of lower priority.
 #pragma once
 

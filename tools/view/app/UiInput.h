@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// UiInput: passes InputEvents to Dear ImGui's current context.
-///   Order    ImGui 1.86 looks at the mouse and the keys once a frame. Events that one look would confuse wait for the next
-///            frame: a button or a key that was pressed and released in one, or a pointer that moved on after a click.
-///   Out      pass(): the interface wants the event for itself: the pointer is over a panel, or a text is being edited, as
-///            of the last frame.
+///   Order    ImGui 1.86 looks at the mouse and the keys once a frame. Events that one look would confuse wait for the
+///            next frame: a button or a key that was pressed and released in one, or a pointer that moved on after a
+///            click.
+///   Out      pass(): the interface wants the event for itself: the pointer is over a panel, or a text is being edited,
+///            as of the last frame.
 ///   Thread   that of the context.
 #pragma once
 
@@ -23,7 +24,8 @@ struct Clipboard {
 
 class UiInput {
 public:
-    /// Tells the current context which keys edit texts, and where texts are copied to. It must not be used after this ends.
+    /// Tells the current context which keys edit texts, and where texts are copied to. It must not be used after this
+    /// ends.
     explicit UiInput(Clipboard clipboard = {});
     UiInput(UiInput const&) = delete;
     UiInput& operator=(UiInput const&) = delete;

@@ -2,12 +2,12 @@
 /// VideoFile: makes a video of numbered PNG frames with the ffmpeg command.
 ///   Words    are handed to ffmpeg without a shell, so names may have any characters; '%', which ffmpeg's patterns use,
 ///            is doubled.
-///   Colour   frames are sRGB; the video is BT.709 in limited range, 4:2:0, and says so. An odd side gets one more column
-///            or row of black.
+///   Colour   frames are sRGB; the video is BT.709 in limited range, 4:2:0, and says so. An odd side gets one more
+///            column or row of black.
 ///   Out      the file, replaced as a whole when it is complete.
 ///   Thread   any.
-///   Fails    one line: InvalidArgument (the ending), NotFound (no ffmpeg, and how to get it), Unreadable (what ffmpeg said
-///            last), Cancelled.
+///   Fails    one line: InvalidArgument (the ending), NotFound (no ffmpeg, and how to get it), Unreadable (what ffmpeg
+///            said last), Cancelled.
 #pragma once
 
 #include "base/Result.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Viewer: one window: the document that it shows, the stage that draws it, hands on its camera, and the panels over it.
-///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain, and
-///            tests act by events.
-///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads. While files load and
-///            nothing else happens it draws their progress four times a second: the device may be the processor that
-///            loads them.
+/// Viewer: one window: the document that it shows, the stage that draws it, hands on its camera, and the panels over
+/// it.
+///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain,
+///            and tests act by events.
+///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads. While files load
+///            and nothing else happens it draws their progress four times a second: the device may be the processor
+///            that loads them.
 ///   Picture  Document::view.size is what the panels leave free of the window; events count pixels of the window.
 ///   Waits    for nothing: if the window lags behind, step() comes back without drawing.
 ///   Thread   the main thread.
@@ -88,7 +89,8 @@ public:
     Percentiles latency() const { return mPanels.latency.milliseconds(); }
     /// Frames of this engine that were sent to the window; EngineStatistics::presents says how many are there.
     uint64_t askedPresents() const { return mPresents; }
-    /// The last frame as the window has it, with the panels. Waits for it. DeviceUnavailable: it was closed by setBackend().
+    /// The last frame as the window has it, with the panels. Waits for it. DeviceUnavailable: it was closed by
+    /// setBackend().
     Result<Image> screenshot();
 
 private:

@@ -65,8 +65,9 @@ double integralOfCos(double a, double b, double t) {
 }
 double integralOfSin(double a, double b, double t) { return integralOfCos(a - std::numbers::pi / 2, b, t); }
 
-/// Where a velocity of the camera's axes leads while heading and elevation turn at constant rates. With v after the roll,
-/// R_x(e) v = (x, y cos e - z sin e, y sin e + z cos e), and R_y(h) turns x and z; products of sines and cosines are sums.
+/// Where a velocity of the camera's axes leads while heading and elevation turn at constant rates. With v after the
+/// roll, R_x(e) v = (x, y cos e - z sin e, y sin e + z cos e), and R_y(h) turns x and z; products of sines and cosines
+/// are sums.
 double3 way(Angles const& from, double headingRate, double elevationRate, double3 v, double t) {
     const double h = from.heading, e = from.elevation, hRate = headingRate, eRate = elevationRate;
     const double sumCos = integralOfCos(h + e, hRate + eRate, t), lessCos = integralOfCos(h - e, hRate - eRate, t);
@@ -119,8 +120,8 @@ void forEachCorner(Box const& box, glm::dmat3 const& turn, Visit const& visit) {
     }
 }
 
-/// A point at depth e.z - z is in the picture between the slopes l and r if e.x + l (e.z - z) <= x <= e.x + r (e.z - z). All
-/// corners are if most(x + r z) - r e.z <= e.x <= least(x + l z) - l e.z, which leaves a place for e.x once
+/// A point at depth e.z - z is in the picture between the slopes l and r if e.x + l (e.z - z) <= x <= e.x + r (e.z -
+/// z). All corners are if most(x + r z) - r e.z <= e.x <= least(x + l z) - l e.z, which leaves a place for e.x once
 /// e.z >= (most - least) / (r - l): there the box touches both edges.
 struct Axis {
     double low, high; ///< slopes

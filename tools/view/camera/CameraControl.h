@@ -4,7 +4,8 @@
 ///   Picture   places are clip coordinates as in Camera::viewFromPicture(): (-1, -1) is the upper left corner, and
 ///             `aspect` is width / height of the view. pictureFromPixel() converts.
 ///   Distance  along the view, in metres, > 0: of what the hand holds. Ask Renderer::pick(), or take distanceTo().
-///   Up        of the world, +Y. Only orbited(), flown(), turned(), framedAlong() and withPlaceOf() change the direction of the view.
+///   Up        of the world, +Y. Only orbited(), flown(), turned(), framedAlong() and withPlaceOf() change the
+///             direction of the view.
 ///   Lens      perspective and parallel, shifted or not. Exposure stays.
 ///   Thread    any.   Fails: never, for finite arguments.
 #pragma once
@@ -46,9 +47,9 @@ Camera flown(Camera const& camera, FlyKeys const& keys, FlySpeed const& speed, d
 /// Turns in place: the view follows the mouse, up to the poles.
 Camera turned(Camera const& camera, double rightRadians, double upRadians);
 
-/// Moves back or forth, and across, until the box just fits: it touches two opposite edges of the picture, less `margin` of
-/// their distance from its middle, [0, 1), or is a hundredth of its diagonal away (long boxes, wide lenses). The planes of
-/// the lens move if they would cut the box. An empty box: the same camera.
+/// Moves back or forth, and across, until the box just fits: it touches two opposite edges of the picture, less
+/// `margin` of their distance from its middle, [0, 1), or is a hundredth of its diagonal away (long boxes, wide
+/// lenses). The planes of the lens move if they would cut the box. An empty box: the same camera.
 Camera framed(Camera const& camera, Box const& box, double aspect, double margin = 0.05);
 /// As framed(), of the view along an axis: from the front is (0, 0, -1), from above (0, -1, 0), seen with -Z up.
 Camera framedAlong(Camera const& camera, double3 directionWorld, Box const& box, double aspect, double margin = 0.05);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PathSampling: the camera of a CameraPath at a time. It passes through every key at its time; position, turn, lens and
-/// exposure have continuous speeds.
+/// PathSampling: the camera of a CameraPath at a time. It passes through every key at its time; position, turn, lens
+/// and exposure have continuous speeds.
 ///   Position  cubic between keys, with the tangents of the parabola through three neighbours (Bessel): exact for
 ///             motions with a constant acceleration.
-///   Turn      Kim, Kim and Shin 1995, "A General Construction Scheme for Unit Quaternion Curves": the cubic Hermite curve
-///             of rotations.
-///   Lens      logarithms of sizes: zooms are even. What is not a size (the kind of lens, a fixed aspect) is that of the
-///             key before.
+///   Turn      Kim, Kim and Shin 1995, "A General Construction Scheme for Unit Quaternion Curves": the cubic Hermite
+///             curve of rotations.
+///   Lens      logarithms of sizes: zooms are even. What is not a size (the kind of lens, a fixed aspect) is that of
+///             the key before.
 ///   Thread    any; pure.   Cost: logarithmic in the number of keys.
 #pragma once
 

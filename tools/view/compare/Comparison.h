@@ -35,12 +35,12 @@ struct PictureComparison {
 
 Result<PictureComparison> compare(Image const& a, Image const& b);
 
-/// Root mean square of the differences of red, green and blue: codes divided by the largest one, or light. 0: they look the
-/// same. A component that is not a number counts as a difference of 1.
+/// Root mean square of the differences of red, green and blue: codes divided by the largest one, or light. 0: they look
+/// the same. A component that is not a number counts as a difference of 1.
 Result<double> rmsError(Image const& a, Image const& b);
 
-/// |a - b| of red, green and blue, `amplification` > 0 times, clamped. Alpha is 1. A component that is not a number in one
-/// of the two alone is 1.
+/// |a - b| of red, green and blue, `amplification` > 0 times, clamped. Alpha is 1. A component that is not a number in
+/// one of the two alone is 1.
 Result<Image> differenceMap(Image const& a, Image const& b, float amplification = 16);
 
 struct FlipMap {
@@ -74,8 +74,8 @@ struct PictureRect {
     uint2 offset{ 0 }, size{ 0 };
 };
 
-/// For two views that are drawn into one target, each with all of its picture (a split); none: that side is empty. A wipe
-/// shows a part of each picture, so it is composed of finished ones: wiped().
+/// For two views that are drawn into one target, each with all of its picture (a split); none: that side is empty. A
+/// wipe shows a part of each picture, so it is composed of finished ones: wiped().
 struct SplitRects {
     std::optional<PictureRect> a, b;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// checkNumerics: pixels of a scene-linear picture that no display can show right, counted and marked.
 ///   In      linear Rec. 709: RGBA16F, or floats before they are rounded to halves. Alpha is not looked at.
-///   Kinds   of a pixel the worst one of red, green and blue, in the order of NumericKind. Halves cannot exceed their own
-///           range, so OutOfHalf is found in floats only, except for the largest half itself: what was clamped.
+///   Kinds   of a pixel the worst one of red, green and blue, in the order of NumericKind. Halves cannot exceed their
+///           own range, so OutOfHalf is found in floats only, except for the largest half itself: what was clamped.
 ///   Thread  any; pure.   Cost: about 5 ms per megapixel.
 ///   Fails   InvalidArgument for other formats and byte counts.
 #pragma once

@@ -2,8 +2,8 @@
 /// PixelReport: what two engines have for one pixel of the same frame: what is displayed, what is seen there, and every
 /// attachment of the frame graph, as texts with a mark where bits differ.
 ///   In       frames as FrameCapture reads them, with their pictures.
-///   Smaller  attachments are looked at where their texels cover the pixel. Those of other shapes (shadow maps, tables) have
-///            no pixel of the picture; they are counted.
+///   Smaller  attachments are looked at where their texels cover the pixel. Those of other shapes (shadow maps, tables)
+///            have no pixel of the picture; they are counted.
 ///   Thread   any; pure functions.
 ///   Fails    never: what one of the two does not have is "-", and differs.
 #pragma once
@@ -58,8 +58,8 @@ struct InspectedFrame {
     std::optional<PixelSurface> surface{}; ///< of the pixel; none: not known yet
 };
 
-/// The texel of an attachment that covers a pixel of a view; none: its size is not that of the view or a half, a quarter ...
-/// of it, rounded up or down.
+/// The texel of an attachment that covers a pixel of a view; none: its size is not that of the view or a half, a
+/// quarter ... of it, rounded up or down.
 std::optional<uint2> texelOf(uint2 pixel, uint2 view, uint2 attachment);
 
 /// Null: not there yet. `pixel` is below the size of the view.

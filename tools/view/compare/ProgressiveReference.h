@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ProgressiveReference: the path tracer on a thread of its own, while a viewer goes on drawing.
-///   Use     setScene() once per document, setView() whenever camera, size or settings change; each frame takePicture().
-///   Out     a picture after every pass, the newest one only. After the last pass its bits are those of filament-reference
-///           with the same settings, whatever was asked before.
+///   Use     setScene() once per document, setView() whenever camera, size or settings change; each frame
+///           takePicture().
+///   Out     a picture after every pass, the newest one only. After the last pass its bits are those of
+///           filament-reference with the same settings, whatever was asked before.
 ///   Thread  all functions: one thread, which never waits: neither for a pass nor for the loading of a scene. Rays are
 ///           traced on one other thread, of lower priority.
 ///   Cancel  setView(), stop() and the destructor end a pass within the time of one pixel: under 50 ms. A scene that is

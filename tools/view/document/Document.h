@@ -28,7 +28,8 @@
 
 namespace filament::view {
 
-/// Of a spot, in radians: its outer cone at most, and the outer one beyond the inner one at least, where a hand sets them.
+/// Of a spot, in radians: its outer cone at most, and the outer one beyond the inner one at least, where a hand sets
+/// them.
 inline constexpr float kMostCone = std::numbers::pi_v<float> / 2, kLeastCone = 0.001f;
 
 struct DocumentModel {
@@ -58,8 +59,8 @@ struct MaterialEdit {
     ParameterValue value = 0.0f;
 };
 
-/// A picture in the place of a texture of all materials with this name, in this copy of the model. A glTF material reads
-/// the maps that its file has; others are set and not seen.
+/// A picture in the place of a texture of all materials with this name, in this copy of the model. A glTF material
+/// reads the maps that its file has; others are set and not seen.
 struct TextureEdit {
     std::string material{}, parameter{};
     std::filesystem::path file{}; ///< as loadImage() takes it
@@ -156,7 +157,8 @@ std::string toJson(Document const& document);
 /// ("view.camera.lens.nearMeters") and what is expected there; unknown fields, too, with the nearest name. What is
 /// returned passes check().
 Result<Document> documentFromJson(std::string_view text, std::string_view name);
-/// Replaces the file in one step: an error (a full disk) leaves what was there. Unreadable, with the path and the reason.
+/// Replaces the file in one step: an error (a full disk) leaves what was there. Unreadable, with the path and the
+/// reason.
 Result<void> saveDocument(std::filesystem::path const& file, Document const& document);
 Result<Document> loadDocument(std::filesystem::path const& file);
 
@@ -176,8 +178,8 @@ void setMorph(Document& document, std::string_view target, float weight);
 /// Removes edits that change nothing.
 void removeIdleEdits(Document& document);
 
-/// The playback after `elapsedSeconds`, in an animation that takes `durationSeconds`; it stops or starts again at its ends.
-/// Two steps give what one of both lengths gives, to rounding.
+/// The playback after `elapsedSeconds`, in an animation that takes `durationSeconds`; it stops or starts again at its
+/// ends. Two steps give what one of both lengths gives, to rounding.
 Playback advanced(Playback const& playback, double elapsedSeconds, double durationSeconds);
 
 } // namespace filament::view

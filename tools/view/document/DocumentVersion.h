@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The version of the files of documents: it grows when a field changes its meaning or goes. New fields leave it: they have
-/// defaults.
+/// The version of the files of documents: it grows when a field changes its meaning or goes. New fields leave it: they
+/// have defaults.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of them:
-/// comparing, writing, reading, checking, and tests that change each one.
+/// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of
+/// them: comparing, writing, reading, checking, and tests that change each one.
 ///   Complete  a member that is added to a struct and not listed here does not compile: isComplete().
 ///   Texts     Quality, Effects and ColorGrading have names and texts of their own (qualityChoices() and so on).
 #pragma once

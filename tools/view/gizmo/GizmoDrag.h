@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GizmoDrag: what a drag of a handle makes of an object. A drag is what was grabbed, from where and where the pointer is
-/// now: neither the way between the two nor time matters.
+/// GizmoDrag: what a drag of a handle makes of an object. A drag is what was grabbed, from where and where the pointer
+/// is now: neither the way between the two nor time matters.
 ///   Move, rotate   what was grabbed stays under the pointer, on its line, plane or ring.
 ///   Scale          grows with the distance from the origin, in [kLeastScale, kMostScale].
 ///   Snap           whole steps (GizmoSteps) from where the drag began; of a light's direction, cones and range: whole

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GizmoHandles: the handles around a node or a light, as lines and areas of pixels: what is drawn is what can be grabbed.
+/// GizmoHandles: the handles around a node or a light, as lines and areas of pixels: what is drawn is what can be
+/// grabbed.
 ///   Size     the same on the screen wherever the object is: GizmoFrame::pixels, with every lens.
-///   Left out handles that cannot be dragged as they are seen: arrows along the view, planes seen from their edge, and all of
-///            them if the object is not in front of the eye.
+///   Left out handles that cannot be dragged as they are seen: arrows along the view, planes seen from their edge, and
+///            all of them if the object is not in front of the eye.
 ///   Thread   any; pure functions.   Fails: never.
 #pragma once
 

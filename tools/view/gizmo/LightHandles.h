@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightHandles: handles of lights beside those that move and turn anything: direction, range and cones of spots.
-///   Space    a light of the document is in the world; one of a model's file is in the space of its node, whose axes count as
-///            Scene counts them: directions turn with it, metres stay metres.
+///   Space    a light of the document is in the world; one of a model's file is in the space of its node, whose axes
+///            count as Scene counts them: directions turn with it, metres stay metres.
 ///   Where    a sun has no place: its handles are where the caller says.
-///   Limits   cones keep SpotLight's order, inner < outer <= 90 degrees; a range stays above 0. A light without a range has
-///            no handle for one.
+///   Limits   cones keep SpotLight's order, inner < outer <= 90 degrees; a range stays above 0. A light without a range
+///            has no handle for one.
 ///   Thread   any; pure functions.   Fails: never, for lights that check() accepts.
 #pragma once
 

@@ -2,9 +2,9 @@
 /// PictureRays: from pixels to the world and back, and where a ray meets the lines, planes and spheres that hands drag
 /// along.
 ///   Pixels   from the left and the top of the view; (0, 0) is the upper left corner of its first pixel.
-///   Limits   what a ray meets is at most kFarthest times as far away as the line or plane is from the eye, or as a parallel
-///            picture is high. Beyond the vanishing point of a line or the horizon of a plane, where a ray meets nothing,
-///            the answer is that limit: no drag jumps to the other side.
+///   Limits   what a ray meets is at most kFarthest times as far away as the line or plane is from the eye, or as a
+///            parallel picture is high. Beyond the vanishing point of a line or the horizon of a plane, where a ray
+///            meets nothing, the answer is that limit: no drag jumps to the other side.
 ///   Thread   any; pure functions.   Fails: never, for finite arguments.
 #pragma once
 

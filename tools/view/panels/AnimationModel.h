@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// AnimationModel: animations, variants and morph targets of the model that is drawn, and what their panel does to a Document.
+/// AnimationModel: animations, variants and morph targets of the model that is drawn, and what their panel does to a
+/// Document.
 ///   Thread  the app thread.
 #pragma once
 

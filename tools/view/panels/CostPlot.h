@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CostPlot: what settings of quality cost in one scene: the time of a frame and the error of its picture, a point for each;
-/// and the geometry of the plot that a panel draws.
-///   Points   a point has the whole quality that was measured, so that a click makes exactly that the document's setting.
+/// CostPlot: what settings of quality cost in one scene: the time of a frame and the error of its picture, a point for
+/// each; and the geometry of the plot that a panel draws.
+///   Points   a point has the whole quality that was measured, so that a click makes exactly that the document's
+///            setting.
 ///   Error    root mean square of the differences of red, green and blue from the reference, as displayed, in [0, 1].
 ///   Thread   any; values.   Fails: never.
 #pragma once
@@ -23,8 +24,8 @@ struct QualitySetting {
     uint8_t samples = 1; ///< View::samples
 };
 
-/// The view's own setting first, then each value of each choice that differs from it, samples, and the presets of quality.
-/// Values that give the same quality as an earlier one are left out.
+/// The view's own setting first, then each value of each choice that differs from it, samples, and the presets of
+/// quality. Values that give the same quality as an earlier one are left out.
 std::vector<QualitySetting> settingsToMeasure(View const& view);
 
 bool hasSetting(View const& view, QualitySetting const& setting);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FileDialog: chooses a file to open, or a name to save to, in a window of the interface.
-///   Keys     typing filters; up and down select; Enter opens the folder or takes the file. While saving, what is typed is
-///            the name, and Enter takes it; Backspace in an empty field goes to the folder above; Escape closes. A path that
-///            is typed is gone to.
-///   Disk     folders are listed, and paths looked up, on threads of their own: a slow disk delays the dialog, no frame.
-///            What is typed or clicked before the answer drops the question.
+///   Keys     typing filters; up and down select; Enter opens the folder or takes the file. While saving, what is typed
+///            is the name, and Enter takes it; Backspace in an empty field goes to the folder above; Escape closes. A
+///            path that is typed is gone to.
+///   Disk     folders are listed, and paths looked up, on threads of their own: a slow disk delays the dialog, no
+///            frame. What is typed or clicked before the answer drops the question.
 ///   Use      open(), draw() once a frame, takeChosen().
 ///   Thread   that of ImGui's context.
 ///   Life     its end waits for what is being read.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FolderList: what of a folder a file dialog shows, and what a path is.
-///   Order    folders first, then files; by name, without regard to case, digits by their value: "view 9" before "view 10".
+///   Order    folders first, then files; by name, without regard to case, digits by their value: "view 9" before "view
+///            10".
 ///   Without  hidden names, files that do not end as asked for, and what is neither file nor folder.
 ///   Limits   kMostEntries, in the order in which the system names them: isCut.
 ///   Thread   any.   Fails: never: `error` says in one line why nothing is there.

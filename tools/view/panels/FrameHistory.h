@@ -83,8 +83,8 @@ struct Timeline {
     double milliseconds = 0; ///< from the first beginning to the last end
 };
 
-/// The app prepares and records, then the driver thread replays. What only has a length (the device's passes, the mean load
-/// of the workers) is shown from the beginning of what caused it.
+/// The app prepares and records, then the driver thread replays. What only has a length (the device's passes, the mean
+/// load of the workers) is shown from the beginning of what caused it.
 Timeline timelineOf(std::span<const FrameTimings> timings);
 
 } // namespace filament::view

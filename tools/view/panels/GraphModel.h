@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GraphModel: the frame graph as boxes and arrows, from Renderer::graphviz() and Renderer::decisions().
 ///   In      the text that the engine writes; other text gives an empty graph, never an error.
-///   Layout  passes in columns: each one right of everything that it reads (the longest path from a beginning), in the order
-///           of the frame from top to bottom within a column. Sizes are in units of one box.
+///   Layout  passes in columns: each one right of everything that it reads (the longest path from a beginning), in the
+///           order of the frame from top to bottom within a column. Sizes are in units of one box.
 ///   Arrows  from the pass that wrote a texture last to the one that reads or continues it, with the texture's name.
 ///   Thread  any; values.   Cost: proportional to the text.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobLanes: jobTimeline() as what a panel draws: a lane for each thread, in which spans that contain each other lie in rows
-/// below each other, and the window of time that is looked at.
-///   Layout  of all spans, once for each reading, so that rows stay while the window moves. visibleBars() then picks what a
-///           frame has to draw.
+/// JobLanes: jobTimeline() as what a panel draws: a lane for each thread, in which spans that contain each other lie in
+/// rows below each other, and the window of time that is looked at.
+///   Layout  of all spans, once for each reading, so that rows stay while the window moves. visibleBars() then picks
+///           what a frame has to draw.
 ///   Time    seconds of the engine.
 ///   Thread  any; values.   Fails: never.   Cost: layOutJobs(): spans times rows; visibleBars(): spans of the lane.
 #pragma once
@@ -48,8 +48,8 @@ struct JobLanes {
 /// Spans of one lane that overlap without containing each other (two threads of one name) get different rows, too.
 JobLanes layOutJobs(std::span<const JobTrack> tracks);
 
-/// Bars that the window touches, cut off at its ends. Of neighbours in a row that are shorter than `leastSeconds` and begin
-/// within that time, only the first is there: a pixel shows one of them.
+/// Bars that the window touches, cut off at its ends. Of neighbours in a row that are shorter than `leastSeconds` and
+/// begin within that time, only the first is there: a pixel shows one of them.
 std::vector<JobBar> visibleBars(JobLane const& lane, TimeWindow const& window, double leastSeconds);
 
 /// A phase in which the thread waits for another one.
@@ -60,7 +60,8 @@ double busyShare(JobLane const& lane, TimeWindow const& window);
 /// From the beginning of the `frames`-th last frame that has phases to the last end. None has: `whole`.
 TimeWindow newestFrames(JobLanes const& lanes, uint32_t frames);
 
-/// `factor` < 1 looks closer; the moment `at` stays where it is, if it can. Clamped to [kShortestWindow, whole], and into `whole`.
+/// `factor` < 1 looks closer; the moment `at` stays where it is, if it can. Clamped to [kShortestWindow, whole], and
+/// into `whole`.
 TimeWindow zoomed(TimeWindow const& window, double at, double factor, TimeWindow const& whole);
 TimeWindow panned(TimeWindow const& window, double seconds, TimeWindow const& whole);
 inline constexpr double kShortestWindow = 1e-6;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LatencyMeter: how long it takes from an input until its frame is in the window, and how many frames are on their way.
+/// LatencyMeter: how long it takes from an input until its frame is in the window, and how many frames are on their
+/// way.
 ///   In       when inputs come and frames are sent, by the caller's clock, in seconds; how many images the window has
 ///            taken, and when it took the last one by the engine's clock (EngineStatistics).
 ///   Clocks   tick alike but began at different times. The difference is the least that was seen between a present and
@@ -34,8 +35,8 @@ public:
     void input(double now);
     /// A frame was handed to the window system: the next present shows it.
     void sent(double now);
-    /// `presents`: all that the window has taken since reset(). `lastPresentSeconds`: of the engine's clock; 0: unknown,
-    /// then they are taken to happen now.
+    /// `presents`: all that the window has taken since reset(). `lastPresentSeconds`: of the engine's clock; 0:
+    /// unknown, then they are taken to happen now.
     void look(uint64_t presents, double lastPresentSeconds, double now);
     /// Another engine: its clock and its presents begin again. The history stays.
     void reset();

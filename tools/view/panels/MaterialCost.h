@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialCost: what the material of a .mat file costs, as `matc --cost` prints it: the terms in it, and the instructions of
-/// each variant. Compiled on a thread of its own; the interface never waits.
+/// MaterialCost: what the material of a .mat file costs, as `matc --cost` prints it: the terms in it, and the
+/// instructions of each variant. Compiled on a thread of its own; the interface never waits.
 ///   Thread  one.   Memory: the text of one file.
 ///   Life    the destructor waits for a compilation that has begun: a second or two.
 ///   Fails   the text is then what the compiler says, with its line.
@@ -14,8 +14,8 @@ namespace filament::view {
 
 class MaterialCost {
 public:
-    /// Of this file, as it is now on the disk; other files than .mat: nothing. Every frame: looks at the time of the file
-    /// and compiles what is new.
+    /// Of this file, as it is now on the disk; other files than .mat: nothing. Every frame: looks at the time of the
+    /// file and compiles what is new.
     void follow(std::filesystem::path const& file);
     /// Empty: nothing to say yet. Stays until that of a changed file is known.
     std::string const& text() const { return mText; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialRows: the materials that are drawn, and the parameters of one, from what the engine says of it: a new parameter of
-/// a material appears by itself.
+/// MaterialRows: the materials that are drawn, and the parameters of one, from what the engine says of it: a new
+/// parameter of a material appears by itself.
 ///   Thread  the app thread.   Cost: proportional to the parameters of one material.
 #pragma once
 
@@ -55,8 +55,8 @@ std::vector<ParameterRow> parameterRows(Stage& stage, MaterialRow const& materia
 /// "lit, transparent, double sided; sets baseColor, roughness": what it is and which terms it pays for.
 std::string describeMaterial(MaterialDescription const& description);
 
-/// The components of a value as numbers, and back with the same type. Bools are 0 and 1; whole types are rounded and kept in
-/// their range. Empty for matrices.
+/// The components of a value as numbers, and back with the same type. Bools are 0 and 1; whole types are rounded and
+/// kept in their range. Empty for matrices.
 std::vector<double> componentsOf(ParameterValue const& value);
 ParameterValue withComponents(ParameterValue const& value, std::vector<double> const& components);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// NodeTransform: an affine transform as the numbers that people edit, and edits of one of them that leave the others alone.
-///   Angles  degrees about x, y and z; y is applied last (matrix Ry Rx Rz), so that y is the heading. At x = +-90 degrees y
-///           and z turn about the same axis, and z is 0.
+/// NodeTransform: an affine transform as the numbers that people edit, and edits of one of them that leave the others
+/// alone.
+///   Angles  degrees about x, y and z; y is applied last (matrix Ry Rx Rz), so that y is the heading. At x = +-90
+///           degrees y and z turn about the same axis, and z is 0.
 ///   Shear   stays in the matrix where it is not edited: only turned() replaces the axes by those at right angles.
 ///   Thread  any; pure.   Fails: never. What is not finite stays so.
 #pragma once

@@ -19,8 +19,8 @@ struct ValueCost {
     double error = 0;        ///< of the picture: QualityCost::error
 };
 
-/// By the ratios of the table, for frames that take `frameMilliseconds` with `current`. None: the table does not rate the
-/// option or one of the values.
+/// By the ratios of the table, for frames that take `frameMilliseconds` with `current`. None: the table does not rate
+/// the option or one of the values.
 std::optional<ValueCost> tabledCost(QualityCosts const& costs, Backend backend, std::string_view option,
                                     std::string_view current, std::string_view value, double frameMilliseconds);
 
@@ -34,8 +34,8 @@ struct MeasuredChange {
     size_t frames = 0;       ///< of each
 };
 
-/// Sees every frame's time and every change of an option. Changes that follow each other before enough frames were drawn
-/// are not measured: nobody could tell them apart.
+/// Sees every frame's time and every change of an option. Changes that follow each other before enough frames were
+/// drawn are not measured: nobody could tell them apart.
 ///   Memory  the last frames, and one result of each option.
 class ChangeMeter {
 public:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// OptionTable: every setting of a View that has a name, as a row of a panel: made of the engine's own tables, so that a new
-/// option appears by itself. What kind of widget it gets follows from the words that say what is valid.
-///   Names    those of `filament-render --set` but for what is chosen at loading, and toneMapper, dither, samples and debugView.
+/// OptionTable: every setting of a View that has a name, as a row of a panel: made of the engine's own tables, so that
+/// a new option appears by itself. What kind of widget it gets follows from the words that say what is valid.
+///   Names    those of `filament-render --set` but for what is chosen at loading, and toneMapper, dither, samples and
+///            debugView.
 ///   Thread   any.   Memory: a row is some words.   Fails: setOption() as setQuality(), setEffect(), setColorGrading().
 #pragma once
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
-/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, costs, comparison,
-/// demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of plain functions; the models
-/// have tests of their own.
-///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the stage,
-///            render, and panels.collect(stage).
-///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured by the
-///            driver thread alone.
+/// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, costs,
+/// comparison, demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of plain
+/// functions; the models have tests of their own.
+///   Use      panels.draw(document, stage) between ImGui's NewFrame() and Render(); then apply the document to the
+///            stage, render, and panels.collect(stage).
+///   Times    of passes are those of the device if the stage has RendererOptions::passTimers; else costs are measured
+///            by the driver thread alone.
 ///   Edits    go into the Document, and nowhere else. What a click asks of the program is in `requests`.
 ///   Thread   the app thread of the stage; ImGui's context is current.
 ///   Cost     what the visible panels show: the tree is read again only when Stage::generation() changes.

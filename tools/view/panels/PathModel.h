@@ -47,8 +47,8 @@ void addPath(Document& document, PathState& state);
 /// Does nothing without paths.
 void removePath(Document& document, PathState& state);
 
-/// After the selected key, half-way to the next one; at the end kKeySeconds after the last one, also without a selection.
-/// Selects it.
+/// After the selected key, half-way to the next one; at the end kKeySeconds after the last one, also without a
+/// selection. Selects it.
 void addKey(CameraPath& path, PathState& state, Camera const& camera);
 /// Gives the selected key another camera.
 void replaceKey(CameraPath& path, PathState const& state, Camera const& camera);

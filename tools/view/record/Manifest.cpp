@@ -33,8 +33,8 @@ std::optional<Format> formatFromName(std::string_view name) {
     return index ? std::optional(static_cast<Format>(*index)) : std::nullopt;
 }
 
-/// Brackets that are not in texts. What is nested deeper than kMaxNesting is no frame.json, and its text would be written
-/// by as many calls in each other.
+/// Brackets that are not in texts. What is nested deeper than kMaxNesting is no frame.json, and its text would be
+/// written by as many calls in each other.
 bool isTooDeep(std::string_view json) {
     size_t depth = 0;
     bool isInText = false;

@@ -17,8 +17,8 @@ using namespace backend;
 
 BackendType typeOf(Backend api) { return api == Backend::Vulkan ? BackendType::Vulkan : BackendType::Gles; }
 
-/// A null driver for traces of any device. Its limits are those of every accepted device, but offsets in a trace fit the
-/// alignment of the one that recorded it.
+/// A null driver for traces of any device. Its limits are those of every accepted device, but offsets in a trace fit
+/// the alignment of the one that recorded it.
 class AnyDevice final : public Driver {
 public:
     explicit AnyDevice(ResultSink& sink) : mInner(createNullDriver(sink)), mInfo(mInner->info()) {

@@ -2,11 +2,11 @@
 /// replayTrace: draws a trace again, on a driver of its own, and looks inside of its frames.
 ///   In      a trace, on the API that recorded it, or on the null driver, which draws nothing.
 ///   Out     hashes of everything that was read back, the bytes of what was asked for, the inside of frames.
-///   Safe    every stream passes the validator first: what could crash a driver is dropped and reported. Shaders are those
-///           of the trace; they run as any program's do.
+///   Safe    every stream passes the validator first: what could crash a driver is dropped and reported. Shaders are
+///           those of the trace; they run as any program's do.
 ///   Thread  one; the driver lives on it during the call.
-///   Fails   DeviceUnavailable; Unsupported for the shaders of another API; NotFound for a frame that is not there; Corrupt if a frame cannot be looked into.
-///           Errors of the device are in Replayed::errors.
+///   Fails   DeviceUnavailable; Unsupported for the shaders of another API; NotFound for a frame that is not there;
+///           Corrupt if a frame cannot be looked into. Errors of the device are in Replayed::errors.
 ///   Cost    a whole run of the trace: start of a driver, uploads, frames.
 #pragma once
 

@@ -2,13 +2,13 @@
 /// SavedFrame: a folder with everything that draws one frame again. The format of bug reports (docs/saved-frames.md).
 ///   Files   frame.json (Manifest.h); NAME.png or NAME.exr of every picture as it was shown; BACKEND.trace and
 ///           BACKEND.trace.bin with every command and its data for each API of the machine.
-///   Save    a trace has the shaders of one API, so the caller's recipe draws the frame on each API, on a fresh engine. Then
-///           every trace is replayed. A trace that does not draw the pictures that were shown is kept, and says so:
-///           TraceRecord::problem.
-///   Thread  saveFrame(): one at a time; the engines that it makes live on the calling thread. It takes seconds, so a viewer
-///           calls it on a thread of its own, with a recipe that loads what it draws.
-///   Fails   Unreadable for the folder; InvalidArgument for the request; errors of the recipe; DeviceUnavailable if no API
-///           could draw.
+///   Save    a trace has the shaders of one API, so the caller's recipe draws the frame on each API, on a fresh engine.
+///           Then every trace is replayed. A trace that does not draw the pictures that were shown is kept, and says
+///           so: TraceRecord::problem.
+///   Thread  saveFrame(): one at a time; the engines that it makes live on the calling thread. It takes seconds, so a
+///           viewer calls it on a thread of its own, with a recipe that loads what it draws.
+///   Fails   Unreadable for the folder; InvalidArgument for the request; errors of the recipe; DeviceUnavailable if no
+///           API could draw.
 ///   Cost    for each API: the recipe, and a run of its trace. FlightHelmet at 640 x 360: docs/saved-frames.md.
 #pragma once
 
@@ -27,8 +27,8 @@ struct FramePicture {
     OutputSpace space = OutputSpace::Srgb; ///< of its codes
 };
 
-/// Draws the frame on a fresh engine, with a renderer and targets of its own, and returns its pictures. It may be called
-/// several times, and must draw the same each time.
+/// Draws the frame on a fresh engine, with a renderer and targets of its own, and returns its pictures. It may be
+/// called several times, and must draw the same each time.
 using FrameRecipe = std::function<Result<std::vector<FramePicture>>(Engine&)>;
 
 struct SaveRequest {
@@ -62,8 +62,8 @@ Result<Verdict> compareReplay(Manifest const& manifest, Trace const& trace, Repl
 /// empty if nowhere.
 Result<std::string> firstChangedPass(Manifest const& manifest, Trace const& trace, ReplayRequest const& request = {});
 
-/// The first pass and draw after which the traces of two APIs disagree; empty if nowhere. Frames are matched from the last
-/// one back.
+/// The first pass and draw after which the traces of two APIs disagree; empty if nowhere. Frames are matched from the
+/// last one back.
 Result<std::string> firstDisagreement(Trace const& a, ReplayRequest const& ofA, Trace const& b,
                                       ReplayRequest const& ofB);
 

@@ -12,8 +12,8 @@
 
 namespace filament::view {
 
-/// The file and those that it names: buffers and images of a .gltf, includes of a .mat. In any order; what cannot be read
-/// names none.
+/// The file and those that it names: buffers and images of a .gltf, includes of a .mat. In any order; what cannot be
+/// read names none.
 std::vector<std::filesystem::path> filesOf(std::filesystem::path const& file);
 
 class FileWatch {

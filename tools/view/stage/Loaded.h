@@ -123,8 +123,8 @@ private:
 template <class Load, class Key>
 class Slot {
 public:
-    /// Begins to load what is asked for, if that is something else, or again. Returns the value that is no longer asked for,
-    /// if nothing is: it lives until nothing shows it any more.
+    /// Begins to load what is asked for, if that is something else, or again. Returns the value that is no longer asked
+    /// for, if nothing is: it lives until nothing shows it any more.
     std::optional<typename Load::Value> want(Engine& engine, Key const& key, bool isThere, bool again,
                                              Abandoned& abandoned) {
         if (mWanted && *mWanted == key && !again) return std::nullopt;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Stage: draws a Document on one engine. Two stages given the same Document draw the same bits, whatever they drew before
-/// and whichever backend they use; what gathers frames (temporal anti-aliasing, exposure, the places of shadow maps) does
-/// after forgetFrames().
+/// Stage: draws a Document on one engine. Two stages given the same Document draw the same bits, whatever they drew
+/// before and whichever backend they use; what gathers frames (temporal anti-aliasing, exposure, the places of shadow
+/// maps) does after forgetFrames().
 ///   Use     apply(document); poll(); render(target);  once a frame.
 ///   Loads   apply() starts them and poll() continues them: neither waits, and both stay below 16 ms of their thread
-///           (tests/tools/view/app/ResponsivenessTest.cpp). What was there stays until what is new is complete, and for good
-///           if that fails or is cancelled; takeMessages() then says why. Edits of a model that is not there yet wait for
-///           it; lights, environment settings and the view do not.
+///           (tests/tools/view/app/ResponsivenessTest.cpp). What was there stays until what is new is complete, and for
+///           good if that fails or is cancelled; takeMessages() then says why. Edits of a model that is not there yet
+///           wait for it; lights, environment settings and the view do not.
 ///   Cost    apply() with an equal document compares it and does nothing else. Values change in place; lists of lights,
 ///           variants, and the first edit of a parameter build the scene again from what is loaded.
 ///   Watch   files that change on disk are loaded again.
@@ -85,8 +85,8 @@ public:
     /// The next frame is drawn as a new stage would draw it: nothing is gathered, and shadow maps find new places.
     void forgetFrames();
 
-    /// What went wrong or needs to be known since the last call: failed loads with file and reason, edits that name what
-    /// the file does not have, warnings of a loaded model, errors of the device.
+    /// What went wrong or needs to be known since the last call: failed loads with file and reason, edits that name
+    /// what the file does not have, warnings of a loaded model, errors of the device.
     std::vector<std::string> takeMessages();
 
     // ---- what is drawn now, for panels and picking

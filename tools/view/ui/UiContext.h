@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// UiContext: a context of Dear ImGui for one interface, set up as UiRenderer draws it: current from its beginning and from
-/// each newFrame(), no file of settings, the style and the fonts of a display scale.
-///   Scale    sizes and fonts are multiplied by it, and positions count pixels of the target (DisplayFramebufferScale is 1):
-///            glyphs lie on whole pixels at every scale, 1.25 as well as 2. Scale mouse positions to pixels, too.
-///   Fonts    ImGui's own, so that pictures are the same on every machine; rasterised at the scale. A larger one is made
-///            only when asked for: give it to UiRenderer::uploadFonts() after setScale().
+/// UiContext: a context of Dear ImGui for one interface, set up as UiRenderer draws it: current from its beginning and
+/// from each newFrame(), no file of settings, the style and the fonts of a display scale.
+///   Scale    sizes and fonts are multiplied by it, and positions count pixels of the target (DisplayFramebufferScale
+///            is 1): glyphs lie on whole pixels at every scale, 1.25 as well as 2. Scale mouse positions to pixels,
+///            too.
+///   Fonts    ImGui's own, so that pictures are the same on every machine; rasterised at the scale. A larger one is
+///            made only when asked for: give it to UiRenderer::uploadFonts() after setScale().
 ///   Thread   one; ImGui has one current context.
 #pragma once
 

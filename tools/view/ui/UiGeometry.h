@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// UiGeometry: Dear ImGui's draw lists as one array of vertices, one of indices, and the runs of triangles that show the
-/// same texture, in the order in which they are drawn.
+/// UiGeometry: Dear ImGui's draw lists as one array of vertices, one of indices, and the runs of triangles that show
+/// the same texture, in the order in which they are drawn.
 ///   In       any ImDrawData, also one that a bug made: triangles with indices beyond the lists, or with positions or
 ///            coordinates that are not finite or beyond 2^20, are left out, and so are those that lie outside of their
 ///            rectangle. Callbacks are not called.
-///   Clipping each vertex carries the rectangle of its command, so that commands with different rectangles share a draw.
-///            Rectangles are rounded to whole pixels: a pixel is inside if its centre is.
+///   Clipping each vertex carries the rectangle of its command, so that commands with different rectangles share a
+///            draw. Rectangles are rounded to whole pixels: a pixel is inside if its centre is.
 ///   Memory   grows to the largest picture, and is kept. A vertex is stored once for each command that uses it: at most
 ///            one for each index.
 ///   Thread   any; a plain value.   Cost: proportional to the indices.

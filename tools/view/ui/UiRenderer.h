@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// UiRenderer: draws what Dear ImGui 1.86 describes, by this engine and through its public headers alone: a scene of its own
-/// in a translucent view over the last image of a swap chain.
-///   Colours  what ImGui calls a colour are codes of sRGB, and codes they stay: what is opaque has exactly those bytes, in
-///            any target of display values, and what is not is mixed as codes, as by other renderers of ImGui. So white
-///            text on black is the font atlas, byte by byte. Targets of light (RGBA16F) would take them for light.
-///   Clipping by the fragments: ui.mat drops those whose pixel lies outside of the rectangle, which every vertex carries.
-///            This is what a scissor does, to the pixel and on both APIs; triangles cut on the CPU have new corners, which
-///            rasterisers round, so that slanted edges move. It costs 8 bytes a vertex, and saves a draw for each rectangle:
-///            neighbours with the same texture are one draw.
+/// UiRenderer: draws what Dear ImGui 1.86 describes, by this engine and through its public headers alone: a scene of
+/// its own in a translucent view over the last image of a swap chain.
+///   Colours  what ImGui calls a colour are codes of sRGB, and codes they stay: what is opaque has exactly those bytes,
+///            in any target of display values, and what is not is mixed as codes, as by other renderers of ImGui. So
+///            white text on black is the font atlas, byte by byte. Targets of light (RGBA16F) would take them for
+///            light.
+///   Clipping by the fragments: ui.mat drops those whose pixel lies outside of the rectangle, which every vertex
+///            carries. This is what a scissor does, to the pixel and on both APIs; triangles cut on the CPU have new
+///            corners, which rasterisers round, so that slanted edges move. It costs 8 bytes a vertex, and saves a draw
+///            for each rectangle: neighbours with the same texture are one draw.
 ///   Update   geometry is uploaded only if it differs from that of the last frame.
 ///   Bits     the same on both APIs.
 ///   Thread   the app thread of the engine, which outlives the renderer.
-///   Memory   buffers, lists and renderables grow to the largest interface so far; after that a frame allocates nothing.
+///   Memory   buffers, lists and renderables grow to the largest interface so far; after that a frame allocates
+///            nothing.
 ///   Cost     nothing without triangles; otherwise a view of the whole target with five passes.
 ///   Fails    create(): errors of the engine. A frame for which memory runs out is not drawn.
 #pragma once
@@ -44,8 +46,9 @@ public:
     /// Uploads the atlas, building it if nobody has, and gives it its ImTextureID. Again after fonts change.
     void uploadFonts(ImFontAtlas& fonts);
 
-    /// A texture for ImGui::Image(): 2D, of display values (RGBA8; RGBA8Srgb would be decoded to light and be too dark). It
-    /// is kept until remove(). An identifier is never given twice, so one that is used for too long shows nothing.
+    /// A texture for ImGui::Image(): 2D, of display values (RGBA8; RGBA8Srgb would be decoded to light and be too
+    /// dark). It is kept until remove(). An identifier is never given twice, so one that is used for too long shows
+    /// nothing.
     ImTextureID add(Texture texture, Sampler sampler = kUnfilteredSampler);
     void remove(ImTextureID id);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tangent frames, normals and edges of meshes: against the shader that decodes them, against shapes whose frames are known,
-// and for hostile meshes.
+// Tangent frames, normals and edges of meshes: against the shader that decodes them, against shapes whose frames are
+// known, and for hostile meshes.
 #include "shaders/lib/LibCpp.h"
 
 #include <filament/Mesh.h>

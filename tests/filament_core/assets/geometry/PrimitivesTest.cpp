@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every shape against its closed forms: closed surfaces by the divergence theorem, normals and tangents by the formula of
-// the surface; and hostile shapes.
+// Every shape against its closed forms: closed surfaces by the divergence theorem, normals and tangents by the formula
+// of the surface; and hostile shapes.
 #include <filament/Primitives.h>
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors of the Khronos glTF-Validator (its ISSUES.md) that concern what this loader reads: each with a file that has
-// it, and what the loader answers. A file that is right except for that code comes from wholeFile().
+// The errors of the Khronos glTF-Validator (its ISSUES.md) that concern what this loader reads: each with a file that
+// has it, and what the loader answers. A file that is right except for that code comes from wholeFile().
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
 #include <gmock/gmock.h>

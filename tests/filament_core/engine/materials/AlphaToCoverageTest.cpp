@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masked materials (materials guide, 4.2.15 and 4.2.27): with several samples a pixel their edges are as smooth as those
-// of geometry, with one they are as sharp as the threshold.
+// Masked materials (materials guide, 4.2.15 and 4.2.27): with several samples a pixel their edges are as smooth as
+// those of geometry, with one they are as sharp as the threshold.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -123,8 +123,8 @@ fragment {{ void material(inout MaterialInputs material) {{
     }
 }
 
-/// A leaf: an alpha from a texture with mip levels, at a slant. What is covered in the mean is what 8 x 8 single samples
-/// cut out.
+/// A leaf: an alpha from a texture with mip levels, at a slant. What is covered in the mean is what 8 x 8 single
+/// samples cut out.
 TEST(AlphaToCoverage, OfALeafCoversWhatManySamplesCutOut) {
     constexpr uint32_t kTexels = 64;
     std::vector<uint8_t> texels;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every built-in material on both APIs, against closed forms and against each other; their parameters against the table of
-// docs/built-in-materials.md.
+// Every built-in material on both APIs, against closed forms and against each other; their parameters against the table
+// of docs/built-in-materials.md.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <filament/BuiltInMaterials.h>
@@ -207,7 +207,8 @@ size_t wirePixels(Image const& image) {
     return count;
 }
 
-/// In view: a vertical and a horizontal through the middle, and one diagonal; the others pass the corners of the picture.
+/// In view: a vertical and a horizontal through the middle, and one diagonal; the others pass the corners of the
+/// picture.
 size_t expectedWirePixels(double width) {
     size_t count = 0;
     for (int y = 0; y < 64; ++y) {

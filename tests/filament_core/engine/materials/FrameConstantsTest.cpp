@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of the materials guide, 4.5.3 to 4.5.5, by value: matrices, frame constants and material globals, in both
-// stages and on both APIs. A material compares what a function returns with a parameter, and draws the difference.
+// The functions of the materials guide, 4.5.3 to 4.5.5, by value: matrices, frame constants and material globals, in
+// both stages and on both APIs. A material compares what a function returns with a parameter, and draws the difference.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <functional>

@@ -130,8 +130,8 @@ bool isShown(Camera const& camera, uint2 size, double3 point, double border) {
     return clip.w > 0 && std::min(std::min(uv.x, uv.y), std::min(1 - uv.x, 1 - uv.y)) > border;
 }
 
-/// Pixels of the floor that a frame after `before` must show as the image of the wall, which came by `step` and now lies
-/// two such steps off its place; returns how many there were.
+/// Pixels of the floor that a frame after `before` must show as the image of the wall, which came by `step` and now
+/// lies two such steps off its place; returns how many there were.
 uint32_t expectImageOfWall(Image const& picture, Camera const& camera, Camera const& before, float tolerance,
                            double3 step = double3(0)) {
     const uint2 size(picture.width, picture.height);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stencil states of material instances, as pictures on both APIs: every test and operation beside what the contract says,
-// the order of what changes values and what tests them, and that nothing happens without them.
+// Stencil states of material instances, as pictures on both APIs: every test and operation beside what the contract
+// says, the order of what changes values and what tests them, and that nothing happens without them.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <filament/Renderer.h>

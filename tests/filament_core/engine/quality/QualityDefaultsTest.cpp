@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The defaults lie on the measured Pareto front: no other value of a choice has less error and costs no more. No device.
+// The defaults lie on the measured Pareto front: no other value of a choice has less error and costs no more. No
+// device.
 #include <filament/Quality.h>
 #include <filament/QualityCosts.h>
 

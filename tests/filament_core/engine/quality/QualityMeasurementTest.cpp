@@ -99,8 +99,8 @@ double errorOf(Image const& image, Image const& exact) {
     return std::sqrt(sum / count);
 }
 
-/// The preset with the default's look-ups: on a slanted metal, one look-up gives too much light where missing compensation
-/// gives too little, and a sum of squares does not know what cancels.
+/// The preset with the default's look-ups: on a slanted metal, one look-up gives too much light where missing
+/// compensation gives too little, and a sum of squares does not know what cancels.
 Quality presetOf(QualityPreset preset) {
     Quality quality = qualityPreset(preset);
     quality.specularLookUps = Quality{}.specularLookUps;

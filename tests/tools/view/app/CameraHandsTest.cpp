@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mouse and keys move a camera: what is grabbed stays under the pointer, clicks are not drags, and time does not matter.
+// Mouse and keys move a camera: what is grabbed stays under the pointer, clicks are not drags, and time does not
+// matter.
 #include "tools/view/app/CameraHands.h"
 
 #include <glm/geometric.hpp>

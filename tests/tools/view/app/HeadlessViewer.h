@@ -50,8 +50,8 @@ struct Headless {
         viewer->handle(KeyEvent{ key, true, modifiers });
         viewer->handle(KeyEvent{ key, false, {} });
     }
-    /// From one pixel to another, with so many moves of the pointer. `seconds`: what passes after each, with a frame; 0: only
-    /// the last one is drawn.
+    /// From one pixel to another, with so many moves of the pointer. `seconds`: what passes after each, with a frame;
+    /// 0: only the last one is drawn.
     void drag(float2 from, float2 to, int moves = 1, double seconds = 0) {
         viewer->handle(MouseMoveEvent{ from });
         viewer->handle(MouseButtonEvent{ MouseButton::Left, true, {} });

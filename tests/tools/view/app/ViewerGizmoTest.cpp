@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles in the viewer: events drag each kind, the document changes and nothing else, and one drag is one step of undo.
+// Handles in the viewer: events drag each kind, the document changes and nothing else, and one drag is one step of
+// undo.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
 #include <fmt/format.h>

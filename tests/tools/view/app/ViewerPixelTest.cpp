@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of the picture in the viewer: the pixel panel has what both APIs have, and the numerics view counts its marks.
+// Numbers of the picture in the viewer: the pixel panel has what both APIs have, and the numerics view counts its
+// marks.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are dropped on the window take the place of the texture that is chosen, can be undone, and both APIs show them.
+// Pictures that are dropped on the window take the place of the texture that is chosen, can be undone, and both APIs
+// show them.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
 #include <gmock/gmock.h>

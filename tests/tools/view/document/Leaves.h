@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Leaves: every single value of a document, to be changed alone or together.
 ///   forEachLeaf(document, visit)   calls visit(place, change): change(random) gives the value another one.
-///   fullDocument()                 one of everything: every kind of light, every type of parameter, both kinds of lens.
+///   fullDocument()                 one of everything: every kind of light, every type of parameter, both kinds of
+///                                  lens.
 #pragma once
 
 #include "tools/view/document/Fields.h"

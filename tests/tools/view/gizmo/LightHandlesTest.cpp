@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Handles of lights: directions, ranges and cones follow the pointer, and no drag makes a light that a document refuses.
+// Handles of lights: directions, ranges and cones follow the pointer, and no drag makes a light that a document
+// refuses.
 #include "tools/view/gizmo/LightHandles.h"
 #include "tests/tools/view/gizmo/RandomGizmos.h"
 

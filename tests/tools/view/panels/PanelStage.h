@@ -17,8 +17,8 @@
 
 namespace filament::test {
 
-/// A triangle with a morph target, on a node that an animation moves; a second node with a lamp; a camera; two materials, one
-/// of them of a variant.
+/// A triangle with a morph target, on a node that an animation moves; a second node with a lamp; a camera; two
+/// materials, one of them of a variant.
 inline std::filesystem::path writePanelModel() {
     constexpr const char* kModel = R"({ "asset": { "version": "2.0" },
 "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_variants"],

@@ -163,8 +163,8 @@ struct Clicked {
     Document document{};
 };
 
-/// What a click on each widget of a panel makes of the document, each time from the beginning. Popups are closed. From the
-/// bottom: a header that was closed stays so.
+/// What a click on each widget of a panel makes of the document, each time from the beginning. Popups are closed. From
+/// the bottom: a header that was closed stays so.
 std::vector<Clicked> clicksOn(PanelStage& stage, std::string_view panel, view::PanelRect const& column) {
     stage.open(panel);
     const Document before = stage.document;

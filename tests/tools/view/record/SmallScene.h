@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Two spheres that intersect, under a sun with shadows: a frame of a few draws, in which the depth test decides pixels.
+/// Two spheres that intersect, under a sun with shadows: a frame of a few draws, in which the depth test decides
+/// pixels.
 #pragma once
 
 #include "shaders/package/EngineMaterials.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Files for tests of stages, small enough to be read at once: models with everything that a document edits, a material, skies.
+/// Files for tests of stages, small enough to be read at once: models with everything that a document edits, a
+/// material, skies.
 #pragma once
 
 #include <unistd.h>
@@ -12,8 +13,8 @@
 
 namespace filament::view {
 
-/// A body, which has another paint in variant "race", and a head with morph targets; three lights, a camera, an animation.
-/// `marks` in the text are replaced, so that files differ.
+/// A body, which has another paint in variant "race", and a head with morph targets; three lights, a camera, an
+/// animation. `marks` in the text are replaced, so that files differ.
 inline constexpr std::string_view kCar =
         R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0 ] } ],
     "extensionsUsed": [ "KHR_materials_variants", "KHR_lights_punctual" ],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures in the place of textures: of glTF models and of .mat files, with the same bits on both APIs, and gone when their
-// edit is.
+// Pictures in the place of textures: of glTF models and of .mat files, with the same bits on both APIs, and gone when
+// their edit is.
 #include "tests/tools/view/stage/StageFiles.h"
 #include "tools/view/stage/Stage.h"
 
