@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/OpenFiles.h"
 
-#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/Ktx2File.h"
+#include "tools/view/app/PictureFile.h"
 
 #include <algorithm>
 #include <array>
@@ -33,10 +33,14 @@ FileKind kindOfKtx2(std::filesystem::path const& file) {
     return isFlat ? FileKind::Picture : FileKind::Environment;
 }
 
+std::string endingInLowerCase(std::filesystem::path const& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
 Result<void> showJson(Document& document, std::filesystem::path const& file) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    Result<AnyText> text = anyFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+    Result<AnyText> text = loadAny(file);
     if (!text) return text.error();
     showText(document, std::move(*text));
     return {};
@@ -44,9 +48,15 @@ Result<void> showJson(Document& document, std::filesystem::path const& file) {
 
 } // namespace
 
+std::optional<PictureFormat> pictureFormatOf(std::filesystem::path const& file) {
+    const std::string ending = endingInLowerCase(file);
+    if (ending == endingOf(PictureFormat::Png)) return PictureFormat::Png;
+    if (ending == endingOf(PictureFormat::Exr)) return PictureFormat::Exr;
+    return std::nullopt;
+}
+
 FileKind kindOf(std::filesystem::path const& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = endingInLowerCase(file);
     const auto isOneOf = [&](auto... endings) { return ((ending == endings) || ...); };
     if (isOneOf(".gltf", ".glb", ".mat", ".fmat")) return FileKind::Model;
     if (isOneOf(".hdr", ".exr", ".fenv")) return FileKind::Environment;

@@ -16,12 +16,8 @@ enum class PictureFormat : uint8_t {
 };
 
 inline const char* endingOf(PictureFormat format) { return format == PictureFormat::Exr ? ".exr" : ".png"; }
-/// By the ending; none: another one.
-inline std::optional<PictureFormat> pictureFormatOf(std::filesystem::path const& file) {
-    if (file.extension() == ".png") return PictureFormat::Png;
-    if (file.extension() == ".exr") return PictureFormat::Exr;
-    return std::nullopt;
-}
+/// By the ending, in any case; none: another one.
+std::optional<PictureFormat> pictureFormatOf(std::filesystem::path const& file);
 /// Of the image that is drawn for it.
 inline Format imageFormatOf(PictureFormat format) {
     return format == PictureFormat::Exr ? Format::RGBA16F : Format::RGBA8;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Result.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/TextForms.h"
 
 #include <span>
@@ -10,6 +11,18 @@ namespace {
 
 Result<void> saveText(std::filesystem::path const& file, std::string const& text) {
     return assets::replaceFile(file, std::as_bytes(std::span(text)));
+}
+
+/// What a file holds that is no longer than a document may be: a longer one is not even read.
+template <class T>
+Result<T> parsedFile(std::filesystem::path const& file, Result<T> (*parse)(std::string_view, std::string_view)) {
+    std::error_code ignored;
+    const uintmax_t size = std::filesystem::file_size(file, ignored);
+    if (!ignored && size > kLongestText)
+        return fail(ErrorCode::Unsupported, "'{}' is longer than 64 MiB: it is no document", file.string());
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    if (!bytes) return bytes.error();
+    return parse({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
 }
 
 } // namespace
@@ -22,15 +35,13 @@ Result<void> saveCameraPath(std::filesystem::path const& file, CameraPath const&
 }
 
 Result<Document> loadDocument(std::filesystem::path const& file) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    return documentFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+    return parsedFile<Document>(file, documentFromJson);
 }
 
+Result<AnyText> loadAny(std::filesystem::path const& file) { return parsedFile<AnyText>(file, anyFromJson); }
+
 Result<CameraPath> loadCameraPath(std::filesystem::path const& file) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    Result<AnyText> any = anyFromJson({ reinterpret_cast<const char*>(bytes->data()), bytes->size() }, file.string());
+    Result<AnyText> any = loadAny(file);
     if (!any) return any.error();
     if (auto* path = std::get_if<CameraPath>(&*any)) return std::move(*path);
     if (auto* document = std::get_if<Document>(&*any); document && !document->paths.empty())

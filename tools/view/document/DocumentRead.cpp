@@ -18,8 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr size_t kLongestText = size_t{ 64 } << 20;
-
 std::string textOf(Json const& json) { return json.get<std::string>(); }
 
 class Reader {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The version of the files of documents: it grows when a field changes its meaning or goes. New fields leave it: they
-/// have defaults.
+/// The version of the files of documents, and how long they may be. The version grows when a field changes its
+/// meaning or goes. New fields leave it: they have defaults.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace filament::view {
+
+inline constexpr size_t kLongestText = size_t{ 64 } << 20; ///< of a document
 
 inline constexpr uint32_t kDocumentVersion = 1;
 

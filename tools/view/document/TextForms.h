@@ -18,6 +18,9 @@ using AnyText = std::variant<Document, Camera, CameraPath>;
 /// Whichever of the three the text is. What is returned passes check().
 Result<AnyText> anyFromJson(std::string_view text, std::string_view name);
 
+/// Of a file. Unsupported: over 64 MiB; it is not read then.
+Result<AnyText> loadAny(std::filesystem::path const& file);
+
 /// InvalidArgument: as check(Document).
 Result<void> check(CameraPath const& path);
 /// As saveDocument().

@@ -219,6 +219,21 @@ TEST_P(ViewerFiles, ControlOOpensTheDialogAndKeysAreItsOwn) {
     EXPECT_EQ(RecentFiles(folder / "state/recent.json").files().size(), 1u) << "for the next run";
 }
 
+TEST_P(ViewerFiles, TheEndingOfASavedPictureSaysItsFormatInAnyCase) {
+    headless->settle();
+    for (const char* name : { "small.exr", "LARGE.EXR", "small.png", "LARGE.PNG" }) {
+        viewer().panels().fileDialog.goTo(folder);
+        viewer().panels().fileDialog.open(FilePurpose::SavePicture, name);
+        settle();
+        headless->press(kEnter);
+        settle();
+        const Result<Image> image = loadImage(folder / name, { .content = ImageContent::Data });
+        ASSERT_TRUE(image.ok()) << name << ": " << image.error().message;
+        const bool isLight = std::string_view(name).ends_with(".exr") || std::string_view(name).ends_with(".EXR");
+        EXPECT_EQ(image->format, isLight ? Format::RGBA16F : Format::RGBA8) << name;
+    }
+}
+
 TEST_P(ViewerFiles, PathsAreRecordedPlayedSavedAndLoaded) {
     headless->settle();
     const auto look = [&](double x) {

@@ -83,6 +83,9 @@ TEST(TextForms, PathsAreSavedAndLoaded) {
     EXPECT_THAT(none.error().message, testing::HasSubstr("has no camera path"));
     std::filesystem::remove(file);
     EXPECT_FALSE(loadCameraPath(file).ok());
+    std::ofstream(file).close();
+    std::filesystem::resize_file(file, (uintmax_t{ 64 } << 20) + 1); // without bytes on the disk
+    EXPECT_THAT(loadAny(file).error().message, testing::HasSubstr("longer than 64 MiB"));
     ASSERT_TRUE(saveCameraPath(file, somePath()).ok());
     EXPECT_FALSE(saveCameraPath(file / "below", somePath()).ok()) << "a file is no folder";
 }
