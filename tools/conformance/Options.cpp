@@ -11,31 +11,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace filament::conformance {
 namespace {
 
 using tools::invalidOption;
-
-std::string environmentValue(const char* name) {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-}
-
-/// Slurm counts from SLURM_ARRAY_TASK_MIN, Kubernetes from 0.
-std::optional<std::pair<std::string, std::string>> shardOfScheduler() {
-    std::string index = environmentValue("SLURM_ARRAY_TASK_ID"), count = environmentValue("SLURM_ARRAY_TASK_COUNT");
-    if (!index.empty() && !count.empty()) {
-        const auto id = tools::wholeNumber(index, 0, UINT32_MAX);
-        const auto first = tools::wholeNumber(environmentValue("SLURM_ARRAY_TASK_MIN"), 0, UINT32_MAX);
-        if (id && first && *id >= *first) index = std::to_string(*id - *first);
-        return std::pair(index, count);
-    }
-    index = environmentValue("JOB_COMPLETION_INDEX"), count = environmentValue("JOB_COMPLETIONS");
-    if (!index.empty() && !count.empty()) return std::pair(index, count);
-    return std::nullopt;
-}
 
 struct Words {
     std::string scenes = tools::sourceDir() / "tests/conformance/scenes";
@@ -160,31 +140,13 @@ Result<void> convert(Words const& words, Options& options) {
     if (!options.bisect.empty() && options.backends.size() < 2 && options.mutate.empty())
         return fail(ErrorCode::InvalidArgument, "--bisect needs two backends, or one and --mutate");
     if (auto done = convertRandom(words, options); !done) return done;
-    Result<Shard> shard = parseShard(words.shard);
+    const Result<tools::Shard> shard = tools::parseShard(words.shard);
     if (!shard) return shard.error();
     options.shard = *shard;
     return {};
 }
 
 } // namespace
-
-Result<Shard> parseShard(std::string const& word) {
-    const char* const cure = "I/N with 0 <= I < N, or auto in a Slurm array or an indexed Kubernetes job";
-    std::string index, count;
-    if (word == "auto") {
-        const auto scheduled = shardOfScheduler();
-        if (!scheduled) return invalidOption("--shard", word, cure);
-        std::tie(index, count) = *scheduled;
-    } else {
-        const size_t slash = word.find('/');
-        if (slash == std::string::npos) return invalidOption("--shard", word, cure);
-        index = word.substr(0, slash), count = word.substr(slash + 1);
-    }
-    const auto n = tools::wholeNumber(count, 1, 100'000);
-    const auto i = n ? tools::wholeNumber(index, 0, *n - 1) : std::nullopt;
-    if (!i) return invalidOption("--shard", index + "/" + count, cure);
-    return Shard{ *i, *n };
-}
 
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     CLI::App app("Draws every scene on every backend with every number of workers and compares the pictures.",

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/Result.h"
+#include "tools/common/Shard.h"
 
 #include <filament/Engine.h>
 
@@ -14,10 +15,6 @@
 
 namespace filament::conformance {
 
-struct Shard {
-    uint32_t index = 0, count = 1;
-};
-
 struct Options {
     std::filesystem::path scenes, assets;
     std::filesystem::path baselines; ///< empty: pictures are not compared with stored ones
@@ -26,7 +23,7 @@ struct Options {
     std::string requireDevice;
     std::vector<std::string> only;  ///< cases whose names contain one of these; empty: all
     std::vector<std::string> cases; ///< of those, the ones with these names; empty: all
-    Shard shard{};
+    tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;
     std::vector<std::string> machines; ///< simulated machines (Machines.h) whose child processes draw the cases again
@@ -47,8 +44,5 @@ struct Options {
 
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
-
-/// "2/8", or "auto": SLURM_ARRAY_TASK_ID and ..._COUNT, or JOB_COMPLETION_INDEX and JOB_COMPLETIONS.
-Result<Shard> parseShard(std::string const& word);
 
 } // namespace filament::conformance

@@ -62,6 +62,28 @@ Json machinesToJson(Results const& results) {
     return json;
 }
 
+Json toJson(ShardContents const& contents) {
+    return { { "index", contents.shard.index }, { "count", contents.shard.count }, { "cases", contents.cases } };
+}
+
+/// Throws Json::exception. Nonsense is refused by merge().
+ShardContents shardFromJson(Json const& json) {
+    return { { json.at("index").get<uint32_t>(), json.at("count").get<uint32_t>() }, json.at("cases").get<uint32_t>() };
+}
+
+Result<void> checkShards(std::vector<Results> const& parts) {
+    std::vector<tools::Shard> shards;
+    for (Results const& part : parts) {
+        if (!part.shard) continue;
+        auto const& [index, count] = part.shard->shard;
+        if (part.cases.size() != part.shard->cases)
+            return fail(ErrorCode::InvalidArgument, "shard {}/{} has {} of {} cases; run it again", index, count,
+                        part.cases.size(), part.shard->cases);
+        shards.push_back(part.shard->shard);
+    }
+    return tools::checkComplete(std::move(shards));
+}
+
 Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
     const std::string text = json.dump(2) + '\n';
     return assets::replaceFile(path, std::as_bytes(std::span(text)));
@@ -162,7 +184,9 @@ MachineSummary summaryOf(Results const& results, std::string_view machine) {
 
 Json toJson(Results const& results) {
     const Summary summary = summaryOf(results);
-    Json json{ { "build", results.build }, { "reference", results.reference } };
+    Json json;
+    if (results.shard) json["shard"] = toJson(*results.shard);
+    json["build"] = results.build, json["reference"] = results.reference;
     for (auto const& [backend, device] : results.devices) json["devices"][backend] = device;
     if (!results.machines.empty()) json["machines"] = machinesToJson(results);
     json["summary"] = { { "passed", summary.passed },       { "failed", summary.failed },
@@ -185,6 +209,7 @@ Result<Results> readResults(std::filesystem::path const& folder) {
         const Result<Json> json = readJson(file);
         if (!json) return json.error();
         Results results{ .build = json->at("build"), .reference = json->at("reference") };
+        if (json->contains("shard")) results.shard = shardFromJson(json->at("shard"));
         results.devices = json->value("devices", std::map<std::string, std::string>());
         const Json machines = json->value("machines", Json::object());
         for (auto const& [name, machine] : machines.items()) results.machines[name] = machine.at("device");
@@ -200,6 +225,7 @@ Result<Results> readResults(std::filesystem::path const& folder) {
 }
 
 Result<Results> merge(std::vector<Results> parts) {
+    if (const Result<void> complete = checkShards(parts); !complete) return complete.error();
     Results all;
     for (Results& part : parts) {
         if (all.build.empty()) all.build = part.build, all.reference = part.reference;

@@ -24,6 +24,18 @@ int finish(Options const& options, Results const& results) {
     return summaryOf(results).failed ? 1 : 0;
 }
 
+/// A shard whose cases were all skipped has no pictures.
+Result<void> copyPictures(std::filesystem::path const& from, std::filesystem::path const& to) {
+    if (!std::filesystem::exists(from / "images")) return {};
+    using std::filesystem::copy_options;
+    std::error_code error;
+    std::filesystem::create_directories(to / "images", error);
+    std::filesystem::copy(from / "images", to / "images", copy_options::recursive | copy_options::overwrite_existing,
+                          error); // without "recursive" it would copy nothing
+    if (!error) return {};
+    return fail(ErrorCode::Unreadable, "{}/images: {}", from.string(), error.message());
+}
+
 /// Reads the results of shards and copies their pictures.
 int mergeShards(Options const& options) {
     std::vector<Results> parts;
@@ -31,11 +43,7 @@ int mergeShards(Options const& options) {
         Result<Results> part = readResults(folder);
         if (!part) return failed(part.error());
         parts.push_back(std::move(*part));
-        std::error_code error;
-        std::filesystem::create_directories(options.out / "images", error);
-        std::filesystem::copy(folder / "images", options.out / "images",
-                              std::filesystem::copy_options::overwrite_existing, error);
-        if (error) return failed(fail(ErrorCode::Unreadable, "{}/images: {}", folder.string(), error.message()));
+        if (const Result<void> copied = copyPictures(folder, options.out); !copied) return failed(copied.error());
     }
     const Result<Results> merged = merge(std::move(parts));
     return merged ? finish(options, *merged) : failed(merged.error());
@@ -82,9 +90,10 @@ int run(Options const& options) {
     std::error_code error;
     std::filesystem::remove_all(options.out / "images", error); // those of an earlier run
     const tools::StopOnInterrupt scope;
-    const Result<Results> results = runCases(options, cases);
+    Result<Results> results = runCases(options, cases);
     tools::clearProgress();
     if (!results) return failed(results.error());
+    if (options.shard.count > 1) results->shard = { options.shard, static_cast<uint32_t>(cases.size()) };
     const int status = finish(options, *results);
     if (!tools::isInterrupted()) return status;
     tools::printWarning(fmt::format("interrupted after {} of {} cases", results->cases.size(), cases.size()));

@@ -114,6 +114,49 @@ TEST(Merge, RefusesACaseThatTwoShardsHave) {
     EXPECT_NE(merged.error().message.find("'a'"), std::string::npos) << merged.error().message;
 }
 
+Results shardWith(tools::Shard shard, const char* name) {
+    Results results = mixedResults();
+    results.cases = { { .name = name, .status = Status::Passed } };
+    results.seconds.clear();
+    results.shard = { shard, 1 };
+    return results;
+}
+
+TEST(Merge, OfAllShardsInAnyOrderIsOneRunAndNoShard) {
+    Results whole = mixedResults();
+    whole.cases = { { .name = "a", .status = Status::Passed }, { .name = "b", .status = Status::Passed } };
+    whole.seconds.clear();
+    const Result<Results> merged = merge({ shardWith({ 1, 2 }, "b"), shardWith({ 0, 2 }, "a") });
+    ASSERT_TRUE(merged.ok()) << merged.error().message;
+    EXPECT_EQ(toJson(*merged).dump(), toJson(whole).dump());
+}
+
+TEST(Merge, NamesShardsThatAreMissingTwiceOrUnfinished) {
+    const auto messageOf = [](std::vector<Results> parts) {
+        const Result<Results> merged = merge(std::move(parts));
+        return merged ? std::string() : merged.error().message;
+    };
+    EXPECT_EQ(messageOf({ shardWith({ 2, 4 }, "a"), shardWith({ 0, 4 }, "b") }),
+              "missing: shard 1/4, 3/4; run --shard 1/4 and merge again");
+    EXPECT_EQ(messageOf({ shardWith({ 0, 2 }, "a"), shardWith({ 0, 2 }, "a") }),
+              "shard 0/2 is there twice; merge each shard once");
+    EXPECT_EQ(messageOf({ shardWith({ 0, 2 }, "a"), shardWith({ 1, 3 }, "b") }),
+              "shard 0/2 and shard 1/3 are of two divisions; merge one");
+    Results unfinished = shardWith({ 1, 2 }, "b");
+    unfinished.cases.clear();
+    EXPECT_EQ(messageOf({ shardWith({ 0, 2 }, "a"), unfinished }), "shard 1/2 has 0 of 1 cases; run it again");
+    EXPECT_EQ(messageOf({ shardWith({ 5, 2 }, "a") }), "there is no shard 5/2; run it again");
+}
+
+TEST(Report, OfAShardIsReadBackWithItsShard) {
+    const Path folder = freshFolder("shard");
+    const Results results = shardWith({ 1, 2 }, "b");
+    ASSERT_TRUE(writeReport(folder, results).ok());
+    const Result<Results> again = readResults(folder);
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(toJson(*again), toJson(results));
+}
+
 const Machine kHere{ .device = "llvmpipe", .driver = "Mesa 22.3.6", .cpuFeatures = "avx fma" };
 const Machine kThere{ .device = "llvmpipe", .driver = "Mesa 24.0", .cpuFeatures = "avx fma" };
 
