@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/LoadScene.h"
 
+#include "base/Hash.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelVariants.h"
 #include "filament_core/assets/image/HdrReader.h"
@@ -8,6 +10,8 @@
 #include "tools/common/SceneFiles.h"
 
 #include <glm/trigonometric.hpp>
+
+#include <span>
 
 namespace filament::reference {
 namespace {
@@ -50,6 +54,21 @@ Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, 
     }
     if (options.sun) scene.suns.push_back(*options.sun);
     return scene;
+}
+
+uint64_t contentsOf(Options const& options, ReferenceScene const& scene) {
+    uint64_t hash = 0;
+    const auto add = [&hash](auto const& values) { hash = hashBytes(std::as_bytes(std::span(values)), hash); };
+    if (const auto file = assets::readFileBytes(options.model); file) add(*file); // without one it is the showcase
+    for (ReferenceModel const& model : scene.models) {
+        for (assets::MeshData const& mesh : model.data->meshes) {
+            for (assets::PrimitiveData const& primitive : mesh.primitives)
+                add(primitive.vertices), add(primitive.indices);
+        }
+        for (assets::Image const& image : model.data->images) add(image.data);
+    }
+    if (scene.environment) add(scene.environment->image->pixels);
+    return hash;
 }
 
 } // namespace filament::reference

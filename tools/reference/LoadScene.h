@@ -12,4 +12,7 @@ namespace filament::reference {
 /// `warnings`: of the model's file.
 Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings);
 
+/// Of the model's file, its geometry and textures, and the environment: all machines must render the same.
+uint64_t contentsOf(Options const& options, ReferenceScene const& scene);
+
 } // namespace filament::reference

@@ -2,9 +2,11 @@
 #include "tools/reference/Options.h"
 
 #include "tools/common/CommandLine.h"
+#include "tools/reference/Division.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -20,7 +22,8 @@ struct Words {
                 occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
                 energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads,
                 specularLight = "integral", diffuseLight = "integral", solidTint = "each-interface",
-                occlusionRadius = "0", occlusionRays = "64";
+                occlusionRadius = "0", occlusionRays = "64", tile, samplesOfPart, shard;
+    std::vector<std::string> merge;
 };
 
 template <class T, size_t N>
@@ -198,7 +201,72 @@ void declare(CLI::App& app, Words& words, Options& options) {
                    "integral or harmonics: the same for diffuse light (integral)");
     app.add_option("--ibl-rotation", words.rotation, "rotation of the environment around +Y in degrees (0)");
     app.add_option("--threads", words.threads, "number of tracing threads (one per core)");
+    app.add_option("--tile", words.tile, "render a part: X,Y,W,H in pixels, or I/CxR: tile I of C columns and R rows");
+    app.add_option("--samples", words.samplesOfPart,
+                   "render a part: COUNT samples of every pixel from FIRST on, whole passes")
+            ->type_name("FIRST,COUNT");
+    app.add_option("--shard", words.shard, "render part I of N; or auto, from the scheduler")->type_name("I/N");
+    app.add_option("--merge", words.merge, "do not render: write the picture of parts, files or folders of them")
+            ->type_name("FILE...");
     app.add_flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
+}
+
+constexpr std::array kNotOfThePicture{ "--help", "--out", "--threads", "--tile", "--samples", "--shard", "--merge" };
+
+bool isOfThePicture(CLI::Option const& option) {
+    return std::ranges::none_of(kNotOfThePicture, [&](const char* name) { return option.check_name(name); });
+}
+
+/// The command line again, without what only says which part of the picture is rendered, how and where to.
+std::vector<std::string> argumentsOf(CLI::App const& app) {
+    std::vector<std::string> positional, named;
+    for (CLI::Option const* option : app.get_options()) {
+        if (option->count() == 0 || !isOfThePicture(*option)) continue;
+        if (option->get_positional()) {
+            positional.insert(positional.end(), option->results().begin(), option->results().end());
+            continue;
+        }
+        const std::string name = option->get_name();
+        if (option->get_items_expected_max() == 0) { // a flag; false: its negation was given
+            named.push_back(option->results().back() == "true" ? name : name + "=" + option->results().back());
+            continue;
+        }
+        const bool hasOneWord = option->get_expected_max() == 1; // several: the option was repeated
+        if (!hasOneWord) named.push_back(name);
+        for (std::string const& word : option->results()) {
+            if (hasOneWord) named.push_back(name);
+            named.push_back(word);
+        }
+    }
+    positional.insert(positional.end(), named.begin(), named.end());
+    return positional;
+}
+
+Result<void> convertPart(Words const& words, Options& options) {
+    options.merge.assign(words.merge.begin(), words.merge.end());
+    const bool isPart = !words.tile.empty() || !words.samplesOfPart.empty();
+    if (!isPart && words.shard.empty()) return {};
+    if (!words.merge.empty())
+        return fail(ErrorCode::InvalidArgument,
+                    "--merge renders nothing; give --shard, --tile and --samples without it");
+    if (options.settings.relativeError > 0)
+        return fail(ErrorCode::InvalidArgument,
+                    "--error needs the whole picture; give parts a number of samples, --spp");
+    const PassPlan plan = planOf(options.settings);
+    if (words.shard.empty()) {
+        const Result<FilmRegion> region = regionOf(words.tile, words.samplesOfPart, options.size, plan);
+        if (!region) return region.error();
+        options.part = *region;
+        return {};
+    }
+    if (isPart)
+        return fail(ErrorCode::InvalidArgument, "--shard chooses the part; give it without --tile and --samples");
+    const Result<tools::Shard> shard = tools::parseShard(words.shard);
+    if (!shard) return shard.error();
+    const Result<FilmRegion> region = regionOf(*shard, options.size, plan);
+    if (!region) return region.error();
+    options.shard = *shard, options.part = *region;
+    return {};
 }
 
 } // namespace
@@ -215,9 +283,14 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertMicrofacets, convertLobes, convertPrefiltered, convertNumbers }) {
+    for (auto convert :
+         { convertChoices, convertMicrofacets, convertLobes, convertPrefiltered, convertNumbers, convertPart }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
+    options.arguments = argumentsOf(app);
+    if (!options.merge.empty() && !options.arguments.empty())
+        return fail(ErrorCode::InvalidArgument, "--merge takes all settings from the parts; leave out '{}'",
+                    tools::joined(options.arguments));
     return std::optional(std::move(options));
 }
 

@@ -4,7 +4,8 @@
 #pragma once
 
 #include "tools/common/SceneOptions.h"
-#include "tools/reference/Reference.h"
+#include "tools/common/Shard.h"
+#include "tools/reference/PartialFilm.h"
 
 #include <optional>
 
@@ -12,9 +13,14 @@ namespace filament::reference {
 
 struct Options : tools::SceneOptions {
     ReferenceSettings settings{};
-    int workers = -1;           ///< as JobSystemOptions::workers
-    bool writesErrors = false;  ///< error.exr
-    double rotationDegrees = 0; ///< of the environment around +Y
+    int workers = -1;                         ///< as JobSystemOptions::workers
+    bool writesErrors = false;                ///< error.exr
+    double rotationDegrees = 0;               ///< of the environment around +Y
+    std::optional<FilmRegion> part;           ///< --tile, --samples, --shard: this instead of the whole picture
+    std::optional<tools::Shard> shard;        ///< --shard: that this part is
+    std::vector<std::filesystem::path> merge; ///< parts to merge; empty: render
+    /// Of the whole picture: all options but those of the part, --out and --threads, in the order of the help text.
+    std::vector<std::string> arguments;
 };
 
 /// No value: the help text was requested and has been printed.

@@ -30,6 +30,11 @@ double largestError(ReferenceImage const& image) {
     return double(largest);
 }
 
+Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
+    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
 } // namespace
 
 std::vector<std::byte> displayPixels(ReferenceImage const& image, ColorGrading const& grading) {
@@ -77,10 +82,9 @@ Result<void> writeReport(Options const& options, ReferenceImage const& image,
                        { "meanLuminance", statistics.meanLuminance },
                        { "rays", statistics.rays },
                        { "lostSamples", statistics.lostSamples },
-                       { "seconds", statistics.seconds },
                        { "warnings", warnings } };
-    const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    return assets::replaceFile(options.out / "report.json", std::as_bytes(std::span(text)));
+    if (auto written = writeJson(options.out / "report.json", report); !written) return written;
+    return writeJson(options.out / "times.json", { { "seconds", statistics.seconds } });
 }
 
 } // namespace filament::reference

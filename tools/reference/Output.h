@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Output: a ReferenceImage as files: reference.exr (scene-linear, exposed, float), reference.png (through the engine's
-/// tone mapper), error.exr on request, report.json.
+/// tone mapper), error.exr on request, report.json; what differs from run to run is in times.json.
 ///   Fails   Unreadable with path and reason.
 #pragma once
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Assert.h"
-#include "tools/reference/Film.h"
+#include "tools/reference/PartialFilm.h"
 #include "tools/reference/PathTracer.h"
 #include "tools/reference/Reference.h"
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <chrono>
 #include <cmath>
 
@@ -14,9 +13,7 @@ namespace filament::reference {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384, kMaxSamples = 1u << 20, kMaxBounces = 4096;
-constexpr uint32_t kWantedPasses = 16;      // the standard error is then accurate to a fifth
-constexpr uint32_t kMaxSamplesPerPass = 64; // interval of progress and error estimates
-constexpr uint32_t kPassesBeforeStop = 4;   // before an error estimate may stop the rendering
+constexpr uint32_t kPassesBeforeStop = 4; // before an error estimate may stop the rendering
 constexpr size_t kPixelsPerJob = 32;
 
 Result<void> check(ReferenceView const& view, ReferenceSettings const& settings) {
@@ -53,15 +50,17 @@ Result<void> check(ReferenceView const& view, ReferenceSettings const& settings)
     return {};
 }
 
-struct Plan {
-    uint32_t samplesPerPass = 1, passes = 2;
-};
-
-// A power of two samples fills the strata of Sobol's sequence; estimating an error takes at least two passes.
-Plan planOf(ReferenceSettings const& settings) {
-    const uint32_t wanted = std::bit_floor(std::max(settings.samplesPerPixel / kWantedPasses, 1u));
-    const uint32_t samples = std::min(wanted, kMaxSamplesPerPass);
-    return { samples, std::max((settings.samplesPerPixel + samples - 1) / samples, 2u) };
+/// For a part of a picture, whose view and settings were checked.
+Result<void> checkRegion(FilmRegion const& region, uint2 size, PassPlan const& plan) {
+    const FilmRegion picture{ { 0, 0 }, size, { 0, plan.passes } };
+    const bool isEmpty = region.size.x == 0 || region.size.y == 0 || region.passes.count == 0;
+    if (isEmpty || intersection(region, picture) != region)
+        return fail(ErrorCode::InvalidArgument, "{} are not in the picture: it has {}", toString(region),
+                    toString(picture));
+    const uint64_t pixels = uint64_t(region.size.x) * region.size.y;
+    if (pixels * sizeof(PixelSums) * nodesOf(region.passes).size() > kMaxPartBytes)
+        return fail(ErrorCode::InvalidArgument, "{}: too large for one file; give smaller tiles", toString(region));
+    return {};
 }
 
 /// Camera rays, as Camera::clipFromView() would unproject them, in double precision.
@@ -103,16 +102,22 @@ bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && st
 /// One picture while it is made.
 class Rendering {
 public:
+    /// All of it.
     Rendering(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings)
-            : mSettings(settings), mPlan(planOf(settings)), mFilm(view.size.x, view.size.y),
-              mLens(view, scene.origin()), mTracer(scene, mSettings, double(view.camera.exposure.factor()),
-                                                   double3(view.clearColor), fogOf(scene, view)) {}
+            : Rendering(scene, view, settings, { { 0, 0 }, view.size, { 0, planOf(settings).passes } }) {}
+    Rendering(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
+              FilmRegion const& region)
+            : mSettings(settings), mPlan(planOf(settings)), mRegion(region), mWidth(view.size.x),
+              mFilm(region.size.x, region.size.y, region.passes.first), mLens(view, scene.origin()),
+              mTracer(scene, mSettings, double(view.camera.exposure.factor()), double3(view.clearColor),
+                      fogOf(scene, view)) {}
 
-    Plan const& plan() const { return mPlan; }
+    bool isFinished() const { return mFilm.passes().count >= mRegion.passes.count; }
 
     bool runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled) {
         const auto isCancelled = [cancelled] { return cancelled && cancelled->isRequested(); };
         const size_t pixels = size_t(mFilm.width()) * mFilm.height();
+        mFilm.beginPass();
         jobs::parallelFor<"pixels">(jobs, pixels, kPixelsPerJob, [&](size_t begin, size_t end) {
             uint64_t rays = 0, lost = 0;
             for (size_t pixel = begin; pixel < end && !isCancelled(); ++pixel)
@@ -127,8 +132,8 @@ public:
     }
 
     RenderStatistics const& statistics() const { return mStatistics; }
-    uint32_t passesDone() const { return mFilm.passes(); }
-    uint32_t samplesDone() const { return mFilm.passes() * mPlan.samplesPerPass; }
+    uint32_t samplesDone() const { return mFilm.passes().count * mPlan.samplesPerPass; }
+    uint32_t samplesTotal() const { return mRegion.passes.count * mPlan.samplesPerPass; }
 
     ReferenceImage finish(double seconds) const {
         ReferenceImage image;
@@ -140,10 +145,19 @@ public:
         return image;
     }
 
+    /// Ends the rendering.
+    PartialFilm takePart(double seconds) {
+        FilmRegion done = mRegion;
+        done.passes = mFilm.passes();
+        return { done, mFilm.takeNodes(), mRays, mLost, seconds };
+    }
+
 private:
-    double3 meanOf(size_t pixel, uint64_t& rays, uint64_t& lost) const {
-        const uint64_t stream = hashOf(hashOf(mSettings.seed, mFilm.passes()), pixel);
-        const double2 corner(static_cast<double>(pixel % mFilm.width()), static_cast<double>(pixel / mFilm.width()));
+    /// `index` is that of the film; the noise is that of the pixel in the picture.
+    double3 meanOf(size_t index, uint64_t& rays, uint64_t& lost) const {
+        const size_t x = mRegion.offset.x + index % mFilm.width(), y = mRegion.offset.y + index / mFilm.width();
+        const uint64_t stream = hashOf(hashOf(mSettings.seed, mFilm.passes().end()), y * mWidth + x);
+        const double2 corner(static_cast<double>(x), static_cast<double>(y));
         double3 sum(0.0);
         for (uint32_t i = 0; i < mPlan.samplesPerPass; ++i) {
             const SampleStream numbers(stream, i);
@@ -158,7 +172,9 @@ private:
     }
 
     ReferenceSettings mSettings;
-    Plan mPlan;
+    PassPlan mPlan;
+    FilmRegion mRegion;
+    size_t mWidth; // of the picture
     Film mFilm;
     Lens mLens;
     PathTracer mTracer;
@@ -196,16 +212,16 @@ bool ProgressiveRender::runPass(jobs::JobSystem& jobs, jobs::Cancellation const*
     return !mImpl->isCancelled;
 }
 
-bool ProgressiveRender::isFinished() const { return mImpl->rendering.passesDone() >= mImpl->rendering.plan().passes; }
+bool ProgressiveRender::isFinished() const { return mImpl->rendering.isFinished(); }
 
 RenderProgress ProgressiveRender::progress() const {
     Rendering const& rendering = mImpl->rendering;
-    return { rendering.samplesDone(), rendering.plan().passes * rendering.plan().samplesPerPass,
-             rendering.statistics().relativeError, mImpl->seconds() };
+    return { rendering.samplesDone(), rendering.samplesTotal(), rendering.statistics().relativeError,
+             mImpl->seconds() };
 }
 
 ReferenceImage ProgressiveRender::image() const {
-    FILAMENT_ASSERT(!mImpl->isCancelled && mImpl->rendering.passesDone() > 0, "a picture has whole passes");
+    FILAMENT_ASSERT(!mImpl->isCancelled && mImpl->rendering.samplesDone() > 0, "a picture has whole passes");
     return mImpl->rendering.finish(mImpl->seconds());
 }
 
@@ -221,6 +237,24 @@ Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& vie
         if (!goesOn || (settings.relativeError > 0 && isGood)) break;
     }
     return rendering->image();
+}
+
+Result<PartialFilm> renderPart(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
+                               FilmRegion const& region, jobs::JobSystem& jobs, Progress const& progress) {
+    if (const Result<void> checked = check(view, settings); !checked) return checked.error();
+    if (const Result<void> checked = checkRegion(region, view.size, planOf(settings)); !checked) return checked.error();
+    FILAMENT_ASSERT(settings.relativeError == 0, "a part has no error of the picture");
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [start] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Rendering rendering(scene, view, settings, region);
+    for (bool goesOn = true; goesOn && !rendering.isFinished();) {
+        rendering.runPass(jobs, nullptr);
+        goesOn = !progress || progress({ rendering.samplesDone(), rendering.samplesTotal(),
+                                         rendering.statistics().relativeError, seconds() });
+    }
+    return rendering.takePart(seconds());
 }
 
 Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,

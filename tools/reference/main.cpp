@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
-// Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C.
+// Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C; a part is then not written.
 #include "tools/common/Console.h"
+#include "tools/common/Machine.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/reference/LoadScene.h"
+#include "tools/reference/Merge.h"
 #include "tools/reference/Output.h"
 
 #include <fmt/format.h>
@@ -32,38 +34,108 @@ std::string progressLine(RenderProgress const& progress, float wantedError) {
                        progress.relativeError * 100, left);
 }
 
-int run(Options const& options) {
-    if (const Result<void> made = tools::makeOutFolder(options); !made) return failed(made.error());
-    jobs::JobSystem jobs({ .workers = options.workers });
+/// What is rendered, ready to be traced.
+struct Job {
+    TracedScenePtr scene;
+    uint64_t contents = 0;
     std::vector<std::string> notes;
-    const Result<ReferenceScene> scene = loadScene(options, jobs, notes);
-    if (!scene) return failed(scene.error());
-    showProgress("building the ray tracer's tree");
-    const Result<TracedScenePtr> traced = prepare(*scene, jobs);
-    if (!traced) return failed(traced.error());
-    notes.insert(notes.end(), warnings(**traced).begin(), warnings(**traced).end());
+};
 
-    const ReferenceView view{ .camera = tools::cameraOf(options), .size = options.size, .fog = options.effects.fog };
-    const tools::StopOnInterrupt scope;
-    const Result<ReferenceImage> image =
-            render(**traced, view, options.settings, jobs, [&](RenderProgress const& progress) {
-                showProgress(progressLine(progress, options.settings.relativeError));
-                return !tools::isInterrupted();
-            });
-    tools::clearProgress();
-    if (!image) return failed(image.error());
+Result<Job> prepareJob(Options const& options, jobs::JobSystem& jobs) {
+    if (const Result<void> made = tools::makeOutFolder(options); !made) return made.error();
+    Job job;
+    const Result<ReferenceScene> scene = loadScene(options, jobs, job.notes);
+    if (!scene) return scene.error();
+    job.contents = contentsOf(options, *scene);
+    showProgress("building the ray tracer's tree");
+    Result<TracedScenePtr> traced = prepare(*scene, jobs);
+    if (!traced) return traced.error();
+    job.scene = std::move(*traced);
+    job.notes.insert(job.notes.end(), warnings(*job.scene).begin(), warnings(*job.scene).end());
+    return job;
+}
+
+ReferenceView viewOf(Options const& options) {
+    return { .camera = tools::cameraOf(options), .size = options.size, .fog = options.effects.fog };
+}
+
+Progress progressOf(Options const& options) {
+    return [&options](RenderProgress const& progress) {
+        showProgress(progressLine(progress, options.settings.relativeError));
+        return !tools::isInterrupted();
+    };
+}
+
+/// Ends a run whose picture is complete. Returns the exit status.
+int writePicture(Options const& options, ReferenceImage const& image, std::vector<std::string> const& notes) {
     for (std::string const& note : notes) tools::printWarning(note);
-    for (auto write : { writePictures(options, *image), writeReport(options, *image, notes) }) {
-        if (!write) return failed(write.error());
-    }
-    RenderStatistics const& statistics = image->statistics;
+    if (auto written = writePictures(options, image); !written) return failed(written.error());
+    if (auto written = writeReport(options, image, notes); !written) return failed(written.error());
+    RenderStatistics const& statistics = image.statistics;
     std::printf("%s: %u samples a pixel, standard error %.2f %%, %.1f Mrays in %.1f s\n",
                 (options.out / "reference.exr").c_str(), statistics.samplesPerPixel, statistics.relativeError * 100,
                 static_cast<double>(statistics.rays) * 1e-6, statistics.seconds);
-    if (!tools::isInterrupted()) return 0;
-    tools::printWarning(fmt::format("interrupted: the picture has {} of {} samples a pixel", statistics.samplesPerPixel,
-                                    options.settings.samplesPerPixel));
+    return 0;
+}
+
+int renderPicture(Options const& options, Job const& job, jobs::JobSystem& jobs) {
+    const Result<ReferenceImage> image =
+            render(*job.scene, viewOf(options), options.settings, jobs, progressOf(options));
+    tools::clearProgress();
+    if (!image) return failed(image.error());
+    const int status = writePicture(options, *image, job.notes);
+    if (status != 0 || !tools::isInterrupted()) return status;
+    tools::printWarning(fmt::format("interrupted: the picture has {} of {} samples a pixel",
+                                    image->statistics.samplesPerPixel, options.settings.samplesPerPixel));
     return tools::kInterruptedStatus;
+}
+
+int renderOnePart(Options const& options, Job const& job, jobs::JobSystem& jobs) {
+    const Result<PartialFilm> part =
+            renderPart(*job.scene, viewOf(options), options.settings, *options.part, jobs, progressOf(options));
+    tools::clearProgress();
+    if (!part) return failed(part.error());
+    if (tools::isInterrupted()) {
+        tools::printWarning("interrupted: the part was not written");
+        return tools::kInterruptedStatus;
+    }
+    const PictureSettings settings{ tools::builtCommit(), options.arguments,        job.contents,
+                                    options.size,         planOf(options.settings), job.notes };
+    const std::filesystem::path file = options.out / kPartName;
+    if (auto written = writePart(file, settings, *part, options.shard); !written) return failed(written.error());
+    std::printf("%s: %s, %.1f Mrays in %.1f s\n", file.c_str(), toString(part->region).c_str(),
+                static_cast<double>(part->rays) * 1e-6, part->seconds);
+    return 0;
+}
+
+/// The options with which `settings` were rendered.
+Result<Options> optionsOf(PictureSettings const& settings) {
+    std::vector<const char*> words{ "filament-reference" };
+    for (std::string const& word : settings.arguments) words.push_back(word.c_str());
+    Result<std::optional<Options>> parsed = parseOptions(static_cast<int>(words.size()), words.data());
+    if (!parsed) return parsed.error();
+    const bool isPicture = *parsed && !(*parsed)->part && (*parsed)->merge.empty() && (*parsed)->size == settings.size;
+    if (isPicture) return std::move(**parsed);
+    return fail(ErrorCode::Corrupt, "the settings of the parts contradict each other; render all parts again");
+}
+
+int mergePicture(Options const& options) {
+    if (const Result<void> made = tools::makeOutFolder(options); !made) return failed(made.error());
+    const Result<MergedPicture> merged = mergeParts(options.merge);
+    if (!merged) return failed(merged.error());
+    Result<Options> whole = optionsOf(merged->settings);
+    if (!whole) return failed(whole.error());
+    whole->out = options.out;
+    return writePicture(*whole, merged->image, merged->settings.warnings);
+}
+
+int run(Options const& options) {
+    if (!options.merge.empty()) return mergePicture(options);
+    jobs::JobSystem jobs({ .workers = options.workers });
+    const Result<Job> job = prepareJob(options, jobs);
+    if (!job) return failed(job.error());
+    const tools::StopOnInterrupt scope;
+    return options.part ? renderOnePart(options, *job, jobs) : renderPicture(options, *job, jobs);
 }
 
 } // namespace

@@ -110,6 +110,13 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
                              { { "--threads", "0" }, "--threads", "from 1" },
                              { { "--ibl-rotation", "nan" }, "--ibl-rotation", "degrees" },
                              { { "--size", "5" }, "--size", "WIDTHxHEIGHT" },
+                             { { "--tile", "0,0,0,1" }, "--tile", "X,Y,W,H" },
+                             { { "--samples", "1,16" }, "--samples", "multiples of 16" },
+                             { { "--shard", "2/2" }, "--shard", "0 <= I < N" },
+                             { { "--shard", "0/2", "--tile", "0,0,8,8" }, "--shard", "without --tile" },
+                             { { "--shard", "0/2", "--error", "0.1" }, "--error", "--spp" },
+                             { { "--merge", "a", "--shard", "0/2" }, "--merge", "without it" },
+                             { { "--merge", "a", "--spp", "8" }, "--merge", "leave out '--spp 8'" },
                              { { "--nonsense" }, "nonsense", "filament-reference --help" } }) {
         const auto parsed = parse(bad.words);
         ASSERT_FALSE(parsed.ok()) << bad.option;
@@ -192,6 +199,8 @@ TEST_F(Program, WritesPictureErrorsAndReport) {
     EXPECT_EQ(report["lostSamples"], 0);
     EXPECT_GT(report["relativeStandardError"], 0) << "edges are noisy";
     EXPECT_GT(report["rays"], 16 * 8 * 16 - 1);
+    EXPECT_FALSE(report.contains("seconds")) << "the same run gives the same bytes";
+    EXPECT_GT(nlohmann::json::parse(read("out/times.json"))["seconds"], 0);
     EXPECT_EQ(outcome.text.find('\r'), std::string::npos) << "no progress bar into a pipe";
 }
 
@@ -241,6 +250,60 @@ TEST_F(Program, SaysInOneLineWhatIsWrongAndFails) {
         EXPECT_THAT(outcome.text, ::testing::StartsWith("filament-reference: error: ")) << arguments;
         EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
     }
+}
+
+constexpr const char* kTriangle = "triangle.gltf --environment none --size 24x16 --eye -.3 0 2 --spp 40 --error-image "
+                                  "--no-fit ";
+
+TEST_F(Program, MergesShardsToTheFilesOfOneRun) {
+    writeModel();
+    ASSERT_EQ(run(std::string(kTriangle) + "--out whole").status, 0);
+    for (int shard = 0; shard < 3; ++shard) {
+        const Outcome outcome =
+                run(fmt::format("{} --threads {} --shard {}/3 --out part{}", kTriangle, shard + 1, shard, shard));
+        ASSERT_EQ(outcome.status, 0) << outcome.text;
+    }
+    Outcome outcome = run("--merge part2 part0 part1/part.film --out merged");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    for (const std::string name : { "reference.exr", "reference.png", "error.exr", "report.json" }) {
+        EXPECT_EQ(read(("merged/" + name).c_str()), read(("whole/" + name).c_str())) << name;
+        EXPECT_FALSE(read(("merged/" + name).c_str()).empty()) << name;
+    }
+    outcome = run("--merge part0 part2 --out merged");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.text, HasSubstr("missing: shard 1/3; run --shard 1/3"));
+}
+
+TEST_F(Program, MergesTilesAndSamplesToTheFilesOfOneRun) {
+    writeModel();
+    ASSERT_EQ(run(std::string(kTriangle) + "--out whole").status, 0);
+    ASSERT_EQ(run(std::string(kTriangle) + "--tile 0/2x1 --samples 0,14 --out a").status, 0);
+    ASSERT_EQ(run(std::string(kTriangle) + "--tile 12,0,12,16 --samples 0,14 --out b").status, 0);
+    ASSERT_EQ(run(std::string(kTriangle) + "--samples 14,26 --out c").status, 0);
+    ASSERT_EQ(run("--merge c b a --out merged").status, 0);
+    for (const char* name : { "reference.exr", "report.json" })
+        EXPECT_EQ(read((std::string("merged/") + name).c_str()), read((std::string("whole/") + name).c_str())) << name;
+}
+
+TEST(Options, OfAPartLeaveThoseOfThePicture) {
+    const auto whole = parse({ "--spp", "64", "m.glb", "--sun", "5", "0", "-1", "0", "--no-fit", "--set", "fog=on",
+                               "--set", "fog.density=0.2", "--ao-bent" });
+    const auto part = parse({ "m.glb",  "--spp",   "64",        "--ao-bent", "--sun",  "5",     "0",
+                              "-1",     "0",       "--no-fit",  "--set",     "fog=on", "--set", "fog.density=0.2",
+                              "--tile", "0,0,8,8", "--threads", "2",         "--out",  "x" });
+    ASSERT_TRUE(whole.ok() && part.ok() && *whole && *part) << (part ? "" : part.error().message);
+    EXPECT_EQ((*part)->arguments, (*whole)->arguments);
+    EXPECT_EQ((*part)->part->size, uint2(8, 8));
+    EXPECT_FALSE((*whole)->part);
+    std::vector<const char*> words;
+    for (std::string const& word : (*whole)->arguments) words.push_back(word.c_str());
+    const auto again = parse(words);
+    ASSERT_TRUE(again.ok() && *again);
+    EXPECT_EQ((*again)->arguments, (*whole)->arguments);
+    EXPECT_EQ((*again)->model, "m.glb");
+    EXPECT_FALSE((*again)->fit);
+    EXPECT_EQ((*again)->sun->illuminance.value, 5);
+    EXPECT_TRUE((*again)->settings.occlusionBends);
 }
 
 TEST_F(Program, PrintsItsOptions) {
