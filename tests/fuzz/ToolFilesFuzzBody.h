@@ -5,12 +5,15 @@
 
 #include "base/Assert.h"
 #include "tools/accuracy/Effect.h"
+#include "tools/accuracy/Shards.h"
 #include "tools/accuracy/comparison/Comparison.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Results.h"
 #include "tools/conformance/SceneFile.h"
 #include "tools/materials/MaterialFile.h"
+
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
@@ -21,8 +24,8 @@
 
 namespace filament::test {
 
-enum class ToolFile : uint8_t { Scene, Baselines, Results, Times, Journal, Effects, Rows, Show };
-inline constexpr int kToolFiles = 8;
+enum class ToolFile : uint8_t { Scene, Baselines, Results, Times, Journal, Effects, Rows, Show, Accuracy };
+inline constexpr int kToolFiles = 9;
 
 /// A folder of this process, removed with it.
 class ToolFolder {
@@ -90,6 +93,8 @@ inline bool fuzzToolFile(ToolFile kind, std::string_view text) {
         return isContents(accuracy::readComparisonRows(folder.write("rows.json", text)), "rows.json");
     case ToolFile::Show:
         return isContents(tools::readMaterialShow(text, "fuzzed.mat"), "fuzzed.mat");
+    case ToolFile::Accuracy:
+        return isContents(accuracy::mergeShards({ folder.write("accuracy.json", text) }), "");
     }
     return false;
 }

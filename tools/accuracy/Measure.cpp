@@ -71,6 +71,7 @@ private:
 
     Result<EffectResult> measureEffect(Effect const& effect) {
         EffectResult result{ .effect = effect };
+        result.command = fmt::format("build/release/bin/filament-accuracy --effect {}", effect.name);
         for (Value const& value : effect.values) result.values.push_back({ .value = value });
         if (const Result<void> done = ownErrors(result); !done) return done.error();
         if (const Result<void> done = frameErrors(result); !done) return done.error();

@@ -15,8 +15,8 @@ struct Words {
     std::string effects = tools::sourceDir() / "tools/accuracy/effects.json";
     std::string scenes = tools::sourceDir() / "tools/accuracy/scenes";
     std::string assets = tools::assetDir();
-    std::string out = "accuracy", page, pictures, frame, size, rounds, plots;
-    std::vector<std::string> backends, include, compare;
+    std::string out = "accuracy", page, pictures, frame, size, rounds, plots, shard;
+    std::vector<std::string> backends, include, compare, merge;
     bool quick = false;
 };
 
@@ -45,6 +45,10 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--size", words.size, "size of the timed frames; default 960x540")->type_name("WxH");
     app.add_option("--plots", words.plots, "draw them")->type_name("on|off");
     app.add_option("--pictures", words.pictures, "also keep every picture whose error is measured")->type_name("DIR");
+    app.add_option("--shard", words.shard,
+                   "every N-th row beginning with row I, and no page; or auto, from the scheduler")
+            ->type_name("I/N");
+    app.add_option("--merge", words.merge, "do not measure: merge the results of shards")->type_name("DIR...");
     app.add_flag("--quick", words.quick, "small frames, three rounds: a quick test, not for quoting");
 }
 
@@ -89,6 +93,20 @@ void convertComparison(Words const& words, bool isAsked, Options& options) {
     options.comparison = std::move(comparison);
 }
 
+Result<void> convertShard(Words const& words, bool isComparison, Options& options) {
+    options.merge.assign(words.merge.begin(), words.merge.end());
+    if (words.shard.empty() && words.merge.empty()) return {};
+    if (isComparison)
+        return fail(ErrorCode::InvalidArgument, "--shard and --merge divide the effects; --compare runs undivided");
+    if (words.shard.empty()) return {};
+    if (!words.merge.empty())
+        return fail(ErrorCode::InvalidArgument, "--merge measures nothing; give --shard without it");
+    const Result<tools::Shard> shard = tools::parseShard(words.shard);
+    if (!shard) return shard.error();
+    options.shard = *shard;
+    return {};
+}
+
 Result<void> convert(Words const& words, Options& options) {
     MeasureOptions& measure = options.measure;
     if (words.quick) {
@@ -122,7 +140,9 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>();
     if (const Result<void> done = convert(words, options); !done) return done.error();
-    convertComparison(words, app.count("--compare") > 0, options);
+    const bool isComparison = app.count("--compare") > 0;
+    convertComparison(words, isComparison, options);
+    if (const Result<void> done = convertShard(words, isComparison, options); !done) return done.error();
     return std::optional(options);
 }
 

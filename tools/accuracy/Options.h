@@ -5,6 +5,7 @@
 
 #include "tools/accuracy/Measure.h"
 #include "tools/accuracy/comparison/Comparison.h"
+#include "tools/common/Shard.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,8 @@ struct Options {
     std::filesystem::path page;                 ///< docs/accuracy.html; empty: OUT/accuracy.html
     std::vector<std::filesystem::path> include; ///< HTML fragments with further sections
     std::vector<std::string> effect;            ///< names; empty: all
+    std::optional<tools::Shard> shard;          ///< --shard: only these rows; writes results.json and no page
+    std::vector<std::filesystem::path> merge;   ///< shards; empty: measure
     bool list = false, plots = true;
     std::optional<ComparisonOptions> comparison; ///< --compare: this instead of the effects
     MeasureOptions measure{};

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCommand = "build/release/bin/filament-accuracy";
 constexpr std::string_view kFragment = ".fragment.html";
 
 Result<void> writeText(fs::path const& path, std::string const& text) {
@@ -74,12 +73,13 @@ Result<void> adoptFragments(ReportPlaces const& places, fs::path const& folder, 
 } // namespace
 
 Result<void> writeReport(Results const& results, ReportPlaces const& places) {
-    Results complete = results;
-    for (EffectResult& effect : complete.effects)
-        effect.command = fmt::format("{} --effect {}", kCommand, effect.effect.name);
-    const std::string json = jsonOf(complete).dump(1) + "\n";
+    return writeReport(jsonOf(results), places);
+}
+
+Result<void> writeReport(nlohmann::ordered_json const& data, ReportPlaces const& places) {
+    const std::string json = data.dump(1) + "\n";
     if (auto done = writeText(places.out / "results.json", json); !done) return done;
-    if (auto done = writeText(places.out / "results.csv", csvOf(complete)); !done) return done;
+    if (auto done = writeText(places.out / "results.csv", csvOf(data)); !done) return done;
     if (places.plots && !runPlot("accuracy", places.out / "results.json", places.out / "plots"))
         tools::printWarning("no plots: tools/plot/plot.py failed");
 

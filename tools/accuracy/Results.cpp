@@ -58,6 +58,20 @@ Json jsonOf(EffectResult const& result) {
     return json;
 }
 
+std::string csvLine(Json const& effect, Json const& value, std::string const& backend) {
+    Json const &milliseconds = value.at("millisecondsInterval").at(backend), &ratio = value.at("interval").at(backend);
+    std::string line =
+            fmt::format("{},{},{},{},{}", effect.at("name").get<std::string>(), value.at("value").get<std::string>(),
+                        fmt::join(value.at("set").get<std::vector<std::string>>(), " "),
+                        effect.at("cost").get<std::string>(), backend);
+    for (Json const* number :
+         { &value.at("milliseconds").at(backend), &milliseconds.at(0), &milliseconds.at(1),
+           &value.at("ratio").at(backend), &ratio.at(0), &ratio.at(1), &value.at("ownError"), &value.at("ownMax"),
+           &value.at("ownFlip"), &value.at("error"), &value.at("frameFlip"), &value.at("totalError") })
+        line += fmt::format(",{:.4g}", number->get<double>());
+    return line + '\n';
+}
+
 } // namespace
 
 Json jsonOf(Results const& results) {
@@ -73,20 +87,13 @@ Json jsonOf(Results const& results) {
     return json;
 }
 
-std::string csvOf(Results const& results) {
+std::string csvOf(Json const& data) {
     std::string csv = "effect,value,settings,cost,backend,milliseconds,low,high,ratio,ratioLow,ratioHigh,ownRms,ownMax,"
                       "ownFlip,frameRms,frameFlip,totalRms\n";
-    for (EffectResult const& effect : results.effects) {
-        for (ValueResult const& value : effect.values) {
-            for (auto const& [backend, timing] : value.timings) {
-                Estimate const &t = timing.milliseconds, &r = timing.ratio;
-                csv += fmt::format(
-                        "{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},"
-                        "{:.4g},{:.4g}\n",
-                        effect.effect.name, value.value.name, fmt::join(value.value.set, " "),
-                        toString(effect.effect.cost), backend, t.median, t.low, t.high, r.median, r.low, r.high,
-                        value.own.rms, value.own.max, value.own.flip, value.frame.rms, value.frame.flip, value.total);
-            }
+    for (Json const& effect : data.at("effects")) {
+        for (Json const& value : effect.at("values")) {
+            const Json timings = value.value("milliseconds", Json::object());
+            for (auto const& [backend, milliseconds] : timings.items()) csv += csvLine(effect, value, backend);
         }
     }
     return csv;

@@ -60,6 +60,7 @@ struct Results {
 };
 
 nlohmann::ordered_json jsonOf(Results const& results);
-std::string csvOf(Results const& results);
+/// Of such JSON; throws its exception where a value lacks a number.
+std::string csvOf(nlohmann::ordered_json const& data);
 
 } // namespace filament::accuracy

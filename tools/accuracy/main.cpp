@@ -4,9 +4,12 @@
 #include "tools/accuracy/Machine.h"
 #include "tools/accuracy/Options.h"
 #include "tools/accuracy/Page.h"
+#include "tools/accuracy/Shards.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -57,24 +60,46 @@ int compare(Options const& options) {
     return 0;
 }
 
-int run(Options const& options) {
-    if (options.comparison) return compare(options);
-    const Result<std::vector<Effect>> effects = readEffects(options.effects);
-    if (!effects) return failed(effects.error());
-    if (options.list) return list(*effects);
+template <class Data>
+int report(Options const& options, Data const& data) {
+    const ReportPlaces places{ options.out, options.page.empty() ? options.out / "accuracy.html" : options.page,
+                               options.include, options.plots };
+    if (const Result<void> written = writeReport(data, places); !written) return failed(written.error());
+    std::printf("%s\n%s\n", (options.out / "results.json").c_str(), places.page.c_str());
+    return 0;
+}
+
+int merge(Options const& options) {
+    const Result<nlohmann::ordered_json> merged = mergeShards(options.merge);
+    return merged ? report(options, *merged) : failed(merged.error());
+}
+
+int measureAndReport(Options const& options, std::vector<Effect> const& effects) {
+    const Result<std::vector<std::string>> all = rowsOf(effects, options.effect);
+    if (!all) return failed(all.error());
+    const auto rows = options.shard ? rowsOf(*options.shard, *all) : all;
+    if (!rows) return failed(rows.error());
     const Result<SceneLibrary> scenes = SceneLibrary::read(options.scenes);
     if (!scenes) return failed(scenes.error());
-    Result<Results> results = measure(*effects, options.effect, *scenes, options.measure, progressLine());
+    Result<Results> results = measure(effects, *rows, *scenes, options.measure, progressLine());
     tools::clearProgress();
     if (!results) return failed(results.error());
     describeMachine(*results);
-    const ReportPlaces places{ options.out, options.page.empty() ? options.out / "accuracy.html" : options.page,
-                               options.include, options.plots };
-    if (const Result<void> written = writeReport(*results, places); !written) return failed(written.error());
     for (Skipped const& one : results->skipped)
         tools::printWarning(fmt::format("effect {} skipped: it needs {}", one.name, one.reason));
-    std::printf("%s\n%s\n", (options.out / "results.json").c_str(), places.page.c_str());
+    if (!options.shard) return report(options, *results);
+    const auto written = writeShard(*results, *options.shard, *all, options.out);
+    if (!written) return failed(written.error());
+    std::printf("%s\n", (options.out / "results.json").c_str());
     return 0;
+}
+
+int run(Options const& options) {
+    if (options.comparison) return compare(options);
+    if (!options.merge.empty()) return merge(options);
+    const Result<std::vector<Effect>> effects = readEffects(options.effects);
+    if (!effects) return failed(effects.error());
+    return options.list ? list(*effects) : measureAndReport(options, *effects);
 }
 
 } // namespace

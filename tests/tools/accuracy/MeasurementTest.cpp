@@ -4,13 +4,14 @@
 #include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace filament::accuracy {
 namespace {
 
 const std::filesystem::path kFolder = tools::sourceDir() / "tools" / "accuracy";
 
-Results measuredAll(std::string const& name, std::vector<Backend> backends) {
+Results measuredAll(std::vector<std::string> const& names, std::vector<Backend> backends) {
     const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
     const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
     if (!effects || !scenes) return {};
@@ -20,7 +21,7 @@ Results measuredAll(std::string const& name, std::vector<Backend> backends) {
     options.frame = "sun-chart"; // one material: few pipelines
     options.folders = { tools::buildDir() / "accuracy-test", tools::assetDir() };
     double last = 0;
-    const Result<Results> results = measure(*effects, { name }, *scenes, options, [&](std::string const&, double done) {
+    const Result<Results> results = measure(*effects, names, *scenes, options, [&](std::string const&, double done) {
         EXPECT_GE(done, last);
         EXPECT_LE(done, 1.0);
         last = done;
@@ -30,7 +31,7 @@ Results measuredAll(std::string const& name, std::vector<Backend> backends) {
 }
 
 EffectResult measured(std::string const& name, std::vector<Backend> backends) {
-    const Results results = measuredAll(name, std::move(backends));
+    const Results results = measuredAll({ name }, std::move(backends));
     return results.effects.size() == 1 ? results.effects.front() : EffectResult{};
 }
 
@@ -50,6 +51,28 @@ TEST(Measurement, ExactMaskingIsNearestToThePathTracerAndEveryValueIsTimedOnBoth
     }
 }
 
+/// Everything but the times.
+std::string errorsOf(Results const& results) {
+    nlohmann::ordered_json json = jsonOf(results);
+    for (nlohmann::ordered_json& effect : json["effects"]) {
+        for (nlohmann::ordered_json& value : effect["values"]) {
+            for (const char* name : { "milliseconds", "millisecondsInterval", "ratio", "interval" }) value.erase(name);
+        }
+    }
+    return json["effects"].dump(1);
+}
+
+// What --shard relies on.
+TEST(Measurement, OfEachRowAloneHasTheErrorsOfAllTogether) {
+    const std::vector<Backend> gles{ Backend::Gles };
+    Results apart = measuredAll({ "energyCompensation" }, gles);
+    const Results together = measuredAll({ "energyCompensation", "specularVisibility" }, gles),
+                  second = measuredAll({ "specularVisibility" }, gles);
+    apart.effects.insert(apart.effects.end(), second.effects.begin(), second.effects.end());
+    EXPECT_EQ(together.effects.size(), 2u);
+    EXPECT_EQ(errorsOf(apart), errorsOf(together));
+}
+
 TEST(Measurement, WhiteMetalsVanishInAFurnaceOnlyIfTheirEnergyIsGivenBack) {
     const EffectResult result = measured("energyCompensation", { Backend::Gles });
     ASSERT_EQ(result.values.size(), 2u);
@@ -66,7 +89,7 @@ TEST(Measurement, TheApisPartOnlyWithoutExactShaders) {
 }
 
 TEST(Measurement, AnEffectThatNeedsTwoBackendsIsSkippedWithOneAndSaysSo) {
-    const Results results = measuredAll("exact", { Backend::Gles });
+    const Results results = measuredAll({ "exact" }, { Backend::Gles });
     EXPECT_TRUE(results.effects.empty());
     ASSERT_EQ(results.skipped.size(), 1u);
     EXPECT_EQ(results.skipped[0].reason, "two backends");

@@ -139,7 +139,10 @@ TEST(EffectIntegrals, ATableIsNearerToTheIntegralThanItsFitAndALargerOneNearerTh
 
 Results exampleResults() {
     const Result<std::vector<Effect>> effects = readText(rowWith(R"(, "choice": "fresnel", "best": "exact")"));
-    EffectResult result{ .effect = effects->front(), .values = {}, .referenceError = 0.01, .command = "run it" };
+    EffectResult result{ .effect = effects->front(),
+                         .values = {},
+                         .referenceError = 0.01,
+                         .command = "build/release/bin/filament-accuracy --effect n" };
     result.effect.title = "a < b & c";
     for (Value const& value : effects->front().values) {
         ValueResult one{ .value = value, .own = { 0.1234567, 0.5, 0.01 }, .frame = { 0.01, 0.02, 0.03 } };
@@ -171,7 +174,7 @@ TEST(EffectReport, TheJsonHoldsWhatABudgetNeeds) {
 }
 
 TEST(EffectReport, TheTableOfNumbersHasALineForEachValueAndBackend) {
-    const std::string csv = csvOf(exampleResults());
+    const std::string csv = csvOf(jsonOf(exampleResults()));
     EXPECT_EQ(std::ranges::count(csv, '\n'), 3);
     EXPECT_THAT(csv, HasSubstr("n,exact,fresnel=exact,frame,vulkan,10,9,11"));
 }

@@ -24,6 +24,13 @@ constexpr const char* kBaselines = R"({"machine": {"device": "d", "cpu": "c", "d
 constexpr const char* kResults = R"({"build": "Release", "reference": "vulkan", "devices": {"vulkan": "llvmpipe"},
   "machines": {"width-128": {"device": "d"}}, "cases": []})";
 
+constexpr const char* kAccuracy =
+        R"({"program": "filament-accuracy", "version": 1, "machine": "m", "driver": {}, "commit": "c",
+  "date": "2000-01-01", "frame": "f", "size": [1, 1], "rounds": 1, "effects": [{"name": "a", "cost": "frame", "values": [
+    {"value": "v", "set": ["a=b"], "error": 0.1, "ownError": 0.1, "ownMax": 0.1, "ownFlip": 0.1, "frameFlip": 0.1, "totalError": 0.1,
+     "milliseconds": {"vulkan": 1.0}, "millisecondsInterval": {"vulkan": [1.0, 1.0]}, "ratio": {"vulkan": 1.0},
+     "interval": {"vulkan": [1.0, 1.0]}}]}], "skipped": [], "shard": {"index": 0, "count": 1, "rows": ["a"]}})";
+
 struct Sample {
     ToolFile kind;
     std::string text;
@@ -41,6 +48,7 @@ std::vector<Sample> samples() {
              { ToolFile::Journal, "{\"begin\": \"a\"}\n{\"end\": {}}\n" },
              { ToolFile::Effects, contentsOf(root / "tools/accuracy/effects.json") },
              { ToolFile::Rows, contentsOf(root / "tools/accuracy/comparison/rows.json") },
+             { ToolFile::Accuracy, kAccuracy },
              { ToolFile::Show,
                "// show: mesh=torus tint=1,0.5,0.2 map=brick/color slab=true instances=3\nmaterial {}" } };
 }
