@@ -117,6 +117,19 @@ class Test:
         print(summary)
         assert "4 of 4 shards" in summary and "shard 1/4 was begun 2 times" in summary, summary
         self.expect_same("flaky-run", "whole-reference", ["reference.exr", "reference.png", "report.json"])
+        self.draws_only_what_is_missing("flaky-run", flaky)
+
+    def draws_only_what_is_missing(self, name, binaries):
+        """A run that is submitted again."""
+        folder = self.work / name
+        shutil.rmtree(folder / "shards/2")
+        shutil.rmtree(folder / "report")
+        before = (folder / "shards/1/part.film").stat().st_mtime_ns
+        self.submit(name, "reference", 4, self.model("16"), binaries=binaries)
+        summary = self.wait_for_summary(name)
+        assert "4 of 4 shards" in summary, summary
+        assert (folder / "shards/1/part.film").stat().st_mtime_ns == before, "a complete shard was drawn again"
+        self.expect_same(name, "whole-reference", ["reference.exr", "reference.png", "report.json"])
 
     @staticmethod
     def model(samples):
