@@ -21,7 +21,7 @@ struct Words {
     std::string scenes = tools::sourceDir() / "tests/conformance/scenes";
     std::string baselines = tools::sourceDir() / "tests/conformance/baselines.json";
     std::string assets = tools::assetDir();
-    std::string out = "conformance", shard = "0/1", threads, mutations;
+    std::string out = "conformance", shard = "0/1", threads, mutations, pictures = "all";
     std::vector<std::string> backends, machines, merge, set;
     std::string journal, random = "0", seed = "1", reduce;
 };
@@ -42,6 +42,8 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
             ->type_name("on|off");
     app.add_option("--mutations", words.mutations, "check that injected defects are detected")->type_name("on|off");
+    app.add_option("--pictures", words.pictures, "all, or failed: leave out those of cases that passed")
+            ->type_name("all|failed");
     app.add_option(
                "--machines", words.machines,
                "draw the cases again in child processes that simulate other machines: none, all, or those that --list "
@@ -135,6 +137,9 @@ Result<void> convert(Words const& words, Options& options) {
     if (auto done = convertMachines(words.machines, options); !done) return done;
     if (auto done = tools::convertSwitch("--threads", words.threads, options.threads); !done) return done;
     if (auto done = tools::convertSwitch("--mutations", words.mutations, options.mutations); !done) return done;
+    if (words.pictures != "all" && words.pictures != "failed")
+        return invalidOption("--pictures", words.pictures, "all or failed");
+    options.passedPictures = words.pictures == "all";
     if (!options.mutate.empty() && !findMutation(options.mutate))
         return invalidOption("--mutate", options.mutate, "one of those that --list prints");
     if (!options.bisect.empty() && options.backends.size() < 2 && options.mutate.empty())

@@ -26,6 +26,7 @@ struct Options {
     tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;
+    bool passedPictures = true;        ///< --pictures failed: none of cases that passed
     std::vector<std::string> machines; ///< simulated machines (Machines.h) whose child processes draw the cases again
     std::filesystem::path program;     ///< what they run: this program
     std::filesystem::path journal;     ///< where the run writes down how far it is (Journal.h); empty: nowhere

@@ -168,6 +168,19 @@ std::string htmlOf(Results const& results, std::filesystem::path const& folder) 
     return html + "</body></html>\n";
 }
 
+void dropPassedPictures(std::filesystem::path const& folder, Results& results) {
+    const auto drop = [&folder](std::string& file) {
+        std::error_code ignored; // it is not named any more
+        if (!file.empty()) std::filesystem::remove(folder / file, ignored);
+        file.clear();
+    };
+    for (CaseResult& result : results.cases) {
+        if (result.status != Status::Passed) continue;
+        drop(result.image);
+        for (Comparison& comparison : result.comparisons) drop(comparison.image), drop(comparison.difference);
+    }
+}
+
 Result<void> writeReport(std::filesystem::path const& folder, Results const& results) {
     if (Result<void> written = writeResults(folder, results); !written) return written;
     if (Result<void> written = writeText(folder / "junit.xml", junitOf(results)); !written) return written;

@@ -13,6 +13,10 @@ namespace filament::conformance {
 std::string junitOf(Results const& results);
 std::string htmlOf(Results const& results, std::filesystem::path const& folder);
 
+/// Removes the pictures of cases that passed from `results` and from the folder of the results: a million cases would
+/// have 20 GB of them.
+void dropPassedPictures(std::filesystem::path const& folder, Results& results);
+
 /// results.json, times.json, junit.xml and report.html.
 Result<void> writeReport(std::filesystem::path const& folder, Results const& results);
 

@@ -93,6 +93,7 @@ int run(Options const& options) {
     Result<Results> results = runCases(options, cases);
     tools::clearProgress();
     if (!results) return failed(results.error());
+    if (!options.passedPictures) dropPassedPictures(options.out, *results);
     if (options.shard.count > 1) results->shard = { options.shard, static_cast<uint32_t>(cases.size()) };
     const int status = finish(options, *results);
     if (!tools::isInterrupted()) return status;

@@ -114,6 +114,18 @@ TEST(Merge, RefusesACaseThatTwoShardsHave) {
     EXPECT_NE(merged.error().message.find("'a'"), std::string::npos) << merged.error().message;
 }
 
+TEST(Report, WithoutPassedPicturesHasThoseOfFailuresOnly) {
+    const Path folder = freshFolder("failures");
+    Results results = mixedResults();
+    results.cases[0].image = "passed.png";
+    for (const char* name : { "passed.png", "reference.png", "test.png", "difference.png" })
+        ASSERT_TRUE(savePng(folder / name, grey(100, 4)).ok());
+    dropPassedPictures(folder, results);
+    EXPECT_EQ(toJson(results), toJson(mixedResults()));
+    EXPECT_FALSE(std::filesystem::exists(folder / "passed.png"));
+    EXPECT_EQ(countOf(htmlOf(results, folder), "<img "), 5u);
+}
+
 Results shardWith(tools::Shard shard, const char* name) {
     Results results = mixedResults();
     results.cases = { { .name = name, .status = Status::Passed } };
