@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, reading a partial film gives an error of one line that names the
-/// file, or a film whose nodes are those of its passes. An input without the right hash is also tried with it, so that
-/// edits reach what is behind the hash.
+/// Shared by the fuzzer and the replay test: for any bytes, reading a partial film gives an error of one line that
+/// names the file, or a film whose nodes are those of its passes. An input without the right hash is also tried with
+/// it, so that edits reach what is behind the hash.
 #pragma once
 
 #include "base/Assert.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Shards: rows of the accuracy table divided among machines, and their data merged again.
-///   File    OUT/results.json of a shard is the data of its rows (Results.h) with "shard": { "index", "count", "rows": the
-///           names of all rows of the whole run, in its order }.
-///   Merge   the data of one run: the same bytes, except for what was measured elsewhere or at another time, which is what
-///           the shards say: the times of a row are those of its shard, "machine" lists all machines, "date" is the last.
-///   Fails   Unreadable, Corrupt with the file; InvalidArgument for shards that were measured differently, are missing or
-///           are there twice. The message says what to do. Any bytes are safe.
+///   File    OUT/results.json of a shard is the data of its rows (Results.h) with "shard": { "index", "count", "rows":
+///           the names of all rows of the whole run, in its order }.
+///   Merge   the data of one run: the same bytes, except for what was measured elsewhere or at another time, which is
+///           what the shards say: the times of a row are those of its shard, "machine" lists all machines, "date" is
+///           the last.
+///   Fails   Unreadable, Corrupt with the file; InvalidArgument for shards that were measured differently, are missing
+///           or are there twice. The message says what to do. Any bytes are safe.
 ///   Thread  any.
 #pragma once
 

@@ -22,8 +22,8 @@ struct Shard {
 /// "2/8", or "auto": SLURM_ARRAY_TASK_ID and ..._COUNT, or JOB_COMPLETION_INDEX and JOB_COMPLETIONS.
 Result<Shard> parseShard(std::string const& word);
 
-/// Checks that `shards` are all the shards of one division, each once. The error names those that are missing, the first
-/// that is there twice, one that cannot be, or two numbers of shards that contradict each other.
+/// Checks that `shards` are all the shards of one division, each once. The error names those that are missing, the
+/// first that is there twice, one that cannot be, or two numbers of shards that contradict each other.
 Result<void> checkComplete(std::vector<Shard> shards);
 
 } // namespace filament::tools

@@ -2,8 +2,8 @@
 /// Results: the findings of a run, as plain values and as results.json. Shards of one run merge to the same file that
 /// the whole run would have written: nothing in it depends on the time or order of cases (times are in times.json
 /// beside it). The results of one shard also say which shard they are; merged results do not.
-///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if runs do not belong together, or if
-///           a shard is missing, there twice or unfinished; the message names it and what to do.
+///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if runs do not belong together,
+///           or if a shard is missing, there twice or unfinished; the message names it and what to do.
 ///   Thread  any; pure except for files.
 #pragma once
 
@@ -92,7 +92,8 @@ CaseResult caseFromJson(Json const& json); ///< throws Json::exception
 Json toJson(Results const& results);
 Result<void> writeResults(std::filesystem::path const& folder, Results const& results);
 Result<Results> readResults(std::filesystem::path const& folder);
-/// All cases of all parts; a case may be in only one part. Parts that say which shard they are must be all shards of one run.
+/// All cases of all parts; a case may be in only one part. Parts that say which shard they are must be all shards of
+/// one run.
 Result<Results> merge(std::vector<Results> parts);
 
 } // namespace filament::conformance

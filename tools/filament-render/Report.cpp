@@ -47,8 +47,8 @@ struct PassTime {
     Spread gpu;
 };
 
-/// Every pass of the steady frames (of the first frame if there is no other), in the order of their first run. Passes of
-/// the same name, such as the levels of bloom, count together.
+/// Every pass of the steady frames (of the first frame if there is no other), in the order of their first run. Passes
+/// of the same name, such as the levels of bloom, count together.
 std::vector<PassTime> passTimes(BackendRun const& run) {
     const std::span<const FrameTimings> frames = run.timings.size() > 1 ? steadyTimings(run) : std::span(run.timings);
     std::vector<std::string> order;

@@ -7,8 +7,8 @@
 ///           a constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
 ///           elements one after the other.
 ///   Thread  any.
-///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the latest
-///           eight packages.
+///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the
+///           latest eight packages.
 ///   Fails   errors of the compiler, or Unreadable with the path.
 #pragma once
 
@@ -47,8 +47,8 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::pa
                                                              std::vector<TextEdit> const& edits = {},
                                                              uint16_t filteredVariants = 0);
 
-/// The same from the file as it is now. If its text (but for what follows "// show:") and the files that it includes are
-/// those of one of the latest eight compilations, the package of that one is used again.
+/// The same from the file as it is now. If its text (but for what follows "// show:") and the files that it includes
+/// are those of one of the latest eight compilations, the package of that one is used again.
 Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std::vector<TextEdit> const& edits = {},
                                          uint16_t filteredVariants = 0);
 

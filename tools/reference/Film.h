@@ -4,10 +4,11 @@
 ///           their means divided by the square root of their number is its standard error (Owen 1998, "Scrambling
 ///           Sobol' and Niederreiter-Xing Points": randomised quasi-Monte Carlo). This holds for any arrangement of
 ///           samples within a pass.
-///   Order   sums of floating-point numbers depend on the order of their terms. Here passes are added in pairs, pairs in
-///           pairs of pairs, and so on (pairwise summation: Higham 1993, "The Accuracy of Floating Point Summation"):
-///           a node holds the sum of passes [k 2^j, (k + 1) 2^j). What a range of passes adds up to is therefore made of
-///           the same nodes wherever and by whomever they were added, and parts of a picture merge to the same bits.
+///   Order   sums of floating-point numbers depend on the order of their terms. Here passes are added in pairs, pairs
+///           in pairs of pairs, and so on (pairwise summation: Higham 1993, "The Accuracy of Floating Point
+///           Summation"): a node holds the sum of passes [k 2^j, (k + 1) 2^j). What a range of passes adds up to is
+///           therefore made of the same nodes wherever and by whomever they were added, and parts of a picture merge to
+///           the same bits.
 ///   Thread  add(): one thread per pixel, many pixels at once; the rest: one.
 ///   Memory  48 bytes per pixel and node: log2(passes) nodes at most, 4 for up to 16 passes.
 #pragma once

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FilmFile: a partial film as a file, with all that must be equal among the parts of one picture.
-///   File    little-endian: 8 bytes "FILMPART", u32 version (1), u32 bytes of the header, the header (JSON, below), for every
-///           node of nodesOf(passes) width x height x 6 doubles (sum of red, green, blue; sums of their squares), u64 hash
-///           of everything before it (base/Hash.h).
+///   File    little-endian: 8 bytes "FILMPART", u32 version (1), u32 bytes of the header, the header (JSON, below), for
+///           every node of nodesOf(passes) width x height x 6 doubles (sum of red, green, blue; sums of their squares),
+///           u64 hash of everything before it (base/Hash.h).
 ///   Header  { "settings": { "commit", "arguments", "contents", "size", "samplesPerPass", "passes", "warnings" },
 ///           "settingsHash" (of the text of "settings"), "tile": [x, y, width, height], "passRange": [first, count],
 ///           "shard": [index, count] if --shard divided the picture, "rays", "lostSamples", "seconds" }

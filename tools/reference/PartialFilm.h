@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PartialFilm: a tile of a picture in some of its passes, so that several machines can share one picture; FilmMerger puts
-/// the parts together. The merged picture has the bits of render() (Film.h: Order).
+/// PartialFilm: a tile of a picture in some of its passes, so that several machines can share one picture; FilmMerger
+/// puts the parts together. The merged picture has the bits of render() (Film.h: Order).
 ///   Thread  one; renderPart() works on the job system.
 ///   Memory  48 bytes per pixel of the tile and node (Film.h); FilmMerger: of the picture.
-///   Fails   renderPart(): as render(), and InvalidArgument for a region outside the picture, or whose file would exceed
-///           kMaxPartBytes. The message says what to give instead.
+///   Fails   renderPart(): as render(), and InvalidArgument for a region outside the picture, or whose file would
+///           exceed kMaxPartBytes. The message says what to give instead.
 #pragma once
 
 #include "tools/reference/Film.h"
@@ -37,8 +37,8 @@ struct PassPlan {
 };
 PassPlan planOf(ReferenceSettings const& settings);
 
-/// If `progress` stops it, `region.passes` of the result are those that are done. `settings.relativeError` must be 0: only
-/// the whole picture has an error.
+/// If `progress` stops it, `region.passes` of the result are those that are done. `settings.relativeError` must be 0:
+/// only the whole picture has an error.
 Result<PartialFilm> renderPart(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                                FilmRegion const& region, jobs::JobSystem& jobs, Progress const& progress = {});
 

@@ -5,7 +5,8 @@
 ///           of the mean of every pixel. Nothing is clamped: the estimate is unbiased except for `maxBounces`.
 ///   Thread  render(): any, several calls per TracedScene at once; works on the job system. The same bits for any
 ///           number of workers.
-///   Memory  24 bytes per pixel and 48 per node of Film.h while it runs, 216 with 16 passes; for the scene about 200 bytes per triangle, and the models' images.
+///   Memory  24 bytes per pixel and 48 per node of Film.h while it runs, 216 with 16 passes; for the scene about 200
+///           bytes per triangle, and the models' images.
 ///   Fails   InvalidArgument in one line for settings outside their ranges; OutOfMemory from Embree.
 ///   Cost    README.md
 #pragma once

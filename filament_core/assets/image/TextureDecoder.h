@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// decodeTexture: an image of a model as texels, with the levels that its file has.
 ///   In      the bytes of a PNG, JPEG, WebP, AVIF or KTX 2.0 file; `name` is used in error messages.
-///   Out     RGBA8; of pictures with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are wanted.
-///           One level of pictures; of KTX 2.0 the levels of the file if they end with 1 x 1, otherwise its
+///   Out     RGBA8; of pictures with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are
+///           wanted. One level of pictures; of KTX 2.0 the levels of the file if they end with 1 x 1, otherwise its
 ///           first.
 ///   Thread  any; no shared state.
 ///   Limits, fails  as decodeImage() and decodeKtx2(). Cubes, arrays, and texels of KTX 2.0 with more than 8 bits are

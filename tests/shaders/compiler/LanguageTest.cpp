@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The examples of docs/material-language.md compile, and the editor's grammar knows the language that the compiler reads.
-// tests/tools/tables has its tables.
+// The examples of docs/material-language.md compile, and the editor's grammar knows the language that the compiler
+// reads. tests/tools/tables has its tables.
 #include "shaders/compiler/GlslKeywords.h"
 #include "shaders/compiler/LanguageTables.h"
 #include "shaders/compiler/MaterialCompiler.h"

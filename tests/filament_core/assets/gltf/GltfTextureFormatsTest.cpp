@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_texture_basisu, EXT_texture_webp and EXT_texture_avif: which image a texture reads, and what of it reaches the model.
+// KHR_texture_basisu, EXT_texture_webp and EXT_texture_avif: which image a texture reads, and what of it reaches the
+// model.
 #include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/Ktx2File.h"
