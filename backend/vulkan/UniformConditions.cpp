@@ -49,6 +49,9 @@ enum Op : uint32_t {
     OpSwitch = 251,
 };
 constexpr uint32_t kDecorationBuiltIn = 11, kFragCoord = 15, kVertexIndex = 42;
+// Of gl_FragCoord. Its w may be negative: with several samples it is that of the pixel's middle, where the plane of the
+// triangle may lie behind the camera.
+constexpr uint32_t kX = 0;
 constexpr uint32_t kStorageInput = 1, kStorageUniform = 2, kStorageFunction = 7, kStoragePushConstant = 9;
 
 bool isIn(uint32_t op, uint32_t first, uint32_t last) { return op >= first && op <= last; }
@@ -282,7 +285,7 @@ private:
         insert(at, OpLoad, { type, read, mBuiltIn });
         if (!mIsVertex) {
             operand = newId();
-            insert(at, OpCompositeExtract, { scalar, operand, read, 3 });
+            insert(at, OpCompositeExtract, { scalar, operand, read, kX });
         }
         insert(at, mIsVertex ? OpSGreaterThan : OpFOrdGreaterThan, { mBool, truth, operand, limit });
         return truth;

@@ -3,7 +3,7 @@
 /// draw. For Quirks::inlinesUniforms.
 ///   In      a module that readEdges() accepts.
 ///   Out     the same results: such a condition `c` becomes `v && c`, and a selector `v ? s : 0`, where v is true but
-///           no compiler can know it: gl_FragCoord.w > 0, or gl_VertexIndex > -1. It stands first, because the driver
+///           no compiler can know it: gl_FragCoord.x > 0, or gl_VertexIndex > -1. It stands first, because the driver
 ///           reads a condition from left to right and ends where something varies. Modules without such conditions stay
 ///           as they are.
 ///   Source  SPIR-V 1.6 specification, sections 2.4 (logical layout) and 3.52 (instructions).
