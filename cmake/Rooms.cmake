@@ -64,9 +64,12 @@ set(FILAMENT_PRECOMPILED_TESTS ${FILAMENT_PRECOMPILED}
 # ---- unity builds: several files of a target at once halve what it costs to build everything, but an edit then compiles
 # eight files. Therefore ./run and ./check use them and a preset by itself does not; there, too, each file shows whether it
 # includes what it needs. Names in anonymous namespaces are unique in their target.
-option(FILAMENT_UNITY "Compile the files of a target in batches of eight: for those who build everything once" OFF)
-if(FILAMENT_UNITY) # gcc takes a file of a batch for a header, whose classes must not have members of local types
-    target_compile_options(filament_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+option(FILAMENT_UNITY "Compile the files of a target in batches: for those who build everything once" OFF)
+if(FILAMENT_UNITY)
+    # gcc takes a file of a batch for a header, whose classes must not have members of local types. It compiles a batch in a
+    # tenth less time if it looks for unused memory from 1 GiB on instead of from 128 MiB.
+    target_compile_options(filament_options INTERFACE
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
 endif()
 
 function(filament_unity target)
@@ -147,6 +150,10 @@ function(filament_tests folder)
         return()
     endif()
     filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} tool_paths GTest::gmock GTest::gtest_main)
+    list(LENGTH sources count)
+    if(FILAMENT_UNITY AND count GREATER 24) # batches of sixteen save a sixth, where there are enough for every core
+        set_target_properties(${name}_tests PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
+    endif()
     if(ARG_OPTIMIZED)
         target_compile_options(${name}_tests PRIVATE ${FILAMENT_OPTIMIZED_TEST_OPTIONS})
         filament_use_precompiled(${name}_tests precompiled_optimized_tests)

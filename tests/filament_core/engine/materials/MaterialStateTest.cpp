@@ -29,10 +29,10 @@ fragment {{ void material(inout MaterialInputs material) {{
 float4 over(float4 above, float4 below) { return above + below * (1 - above.w); }
 
 // All of them, and their products, are exact in half floats.
-constexpr float4 kRed{ 0.5f, 0, 0, 0.5f }, kGreen{ 0, 0.25f, 0, 0.25f }, kBlue{ 0, 0, 0.5f, 0.5f };
-constexpr float4 kBlack{ 0, 0, 0, 1 };
+constexpr float4 kHalfRed{ 0.5f, 0, 0, 0.5f }, kQuarterGreen{ 0, 0.25f, 0, 0.25f }, kHalfBlue{ 0, 0, 0.5f, 0.5f };
+constexpr float4 kOpaqueBlack{ 0, 0, 0, 1 };
 
-float4 drawn(std::string_view properties, std::vector<Square> const& squares, float4 background = kBlack) {
+float4 drawn(std::string_view properties, std::vector<Square> const& squares, float4 background = kOpaqueBlack) {
     return centerPixel(onBothApis([&](MaterialStage& stage) {
         stage.view.clearColor = background;
         stage.add(stage.material(vertexColored(properties)), squares);
@@ -41,12 +41,13 @@ float4 drawn(std::string_view properties, std::vector<Square> const& squares, fl
 
 // ------------------------------------------------------------------------------------------ two passes
 
-const std::vector<Square> kNearBeforeFar{ { 1, kRed }, { 0, kGreen } };
+const std::vector<Square> kNearBeforeFar{ { 1, kHalfRed }, { 0, kQuarterGreen } };
 
 TEST(TwoPasses, OneSideShowsWhatIsNearestAlone) {
-    EXPECT_EQ(drawn("blending : transparent, culling : none", kNearBeforeFar), over(kGreen, over(kRed, kBlack)));
+    EXPECT_EQ(drawn("blending : transparent, culling : none", kNearBeforeFar),
+              over(kQuarterGreen, over(kHalfRed, kOpaqueBlack)));
     EXPECT_EQ(drawn("blending : transparent, culling : none, transparency : twoPassesOneSide", kNearBeforeFar),
-              over(kRed, kBlack));
+              over(kHalfRed, kOpaqueBlack));
 }
 
 TEST(TwoPasses, OneSideWorksWithFourSamples) {
@@ -55,14 +56,15 @@ TEST(TwoPasses, OneSideWorksWithFourSamples) {
         stage.add(stage.material(vertexColored("blending : transparent, transparency : twoPassesOneSide")),
                   kNearBeforeFar);
     });
-    EXPECT_EQ(centerPixel(picture), over(kRed, kBlack));
+    EXPECT_EQ(centerPixel(picture), over(kHalfRed, kOpaqueBlack));
 }
 
 TEST(TwoPasses, TwoSidesShowBackFacesBehindFrontFacesWhateverTheOrderOfTheTriangles) {
-    const std::vector<Square> frontBeforeBack{ { 1, kRed, true }, { 0, kGreen, false } };
-    EXPECT_EQ(drawn("blending : transparent, culling : none", frontBeforeBack), over(kGreen, over(kRed, kBlack)));
+    const std::vector<Square> frontBeforeBack{ { 1, kHalfRed, true }, { 0, kQuarterGreen, false } };
+    EXPECT_EQ(drawn("blending : transparent, culling : none", frontBeforeBack),
+              over(kQuarterGreen, over(kHalfRed, kOpaqueBlack)));
     EXPECT_EQ(drawn("blending : transparent, transparency : twoPassesTwoSides", frontBeforeBack),
-              over(kRed, over(kGreen, kBlack)));
+              over(kHalfRed, over(kQuarterGreen, kOpaqueBlack)));
 }
 
 TEST(TwoPasses, EachObjectIsFinishedBeforeTheNextOneInFrontOfIt) {
@@ -71,11 +73,11 @@ TEST(TwoPasses, EachObjectIsFinishedBeforeTheNextOneInFrontOfIt) {
                 stage.material(vertexColored("blending : transparent, transparency : twoPassesTwoSides"));
         double4x4 nearer(1.0);
         nearer[3].z = 2;
-        stage.add(glass, { { 0.5f, kRed, true }, { 0, kGreen, false } }, nearer);
-        stage.add(glass, { { 0.5f, kBlue, true }, { 0, kGreen, false } });
+        stage.add(glass, { { 0.5f, kHalfRed, true }, { 0, kQuarterGreen, false } }, nearer);
+        stage.add(glass, { { 0.5f, kHalfBlue, true }, { 0, kQuarterGreen, false } });
     });
-    const float4 farther = over(kBlue, over(kGreen, kBlack));
-    EXPECT_EQ(centerPixel(picture), over(kRed, over(kGreen, farther)));
+    const float4 farther = over(kHalfBlue, over(kQuarterGreen, kOpaqueBlack));
+    EXPECT_EQ(centerPixel(picture), over(kHalfRed, over(kQuarterGreen, farther)));
 }
 
 TEST(TwoPasses, AMirroredObjectShowsTheSame) {
@@ -84,9 +86,9 @@ TEST(TwoPasses, AMirroredObjectShowsTheSame) {
     const Image picture = onBothApis([&](MaterialStage& stage) {
         const MaterialInstance glass =
                 stage.material(vertexColored("blending : transparent, transparency : twoPassesTwoSides"));
-        stage.add(glass, { { 1, kRed, true }, { 0, kGreen, false } }, mirrored);
+        stage.add(glass, { { 1, kHalfRed, true }, { 0, kQuarterGreen, false } }, mirrored);
     });
-    EXPECT_EQ(centerPixel(picture), over(kRed, over(kGreen, kBlack)));
+    EXPECT_EQ(centerPixel(picture), over(kHalfRed, over(kQuarterGreen, kOpaqueBlack)));
 }
 
 // ------------------------------------------------------------------------------------------ double-sided
@@ -117,8 +119,8 @@ TEST(DoubleSided, TurnsTheNormalsOfBackFacesAroundAndCanBeSwitchedAtRunTime) {
     EXPECT_EQ(normalSeen("doubleSided : true", false), kAwayFromCamera)
             << "the normal of +z, seen from behind, turned around";
     EXPECT_EQ(normalSeen("doubleSided : true", true), kTowardsCamera);
-    EXPECT_EQ(normalSeen("doubleSided : true", false, false), kBlack) << "back faces are culled";
-    EXPECT_EQ(normalSeen("doubleSided : false", false), kBlack);
+    EXPECT_EQ(normalSeen("doubleSided : true", false, false), kOpaqueBlack) << "back faces are culled";
+    EXPECT_EQ(normalSeen("doubleSided : false", false), kOpaqueBlack);
     EXPECT_EQ(normalSeen("doubleSided : false", false, true), kAwayFromCamera);
     EXPECT_EQ(normalSeen("doubleSided : false, culling : none", false), kTowardsCamera)
             << "drawn, but not turned around";
@@ -140,7 +142,7 @@ TEST(DoubleSided, AMaterialThatDoesNotMentionItSaysHowToAllowIt) {
 TEST(DestroyedMaterial, LeavesItsPlaceToOneThatDrawsItself) {
     auto engine = test::makeEngine(Backend::Vulkan);
     ASSERT_TRUE(engine);
-    for (const float4 color : { kRed, kGreen, kBlue }) {
+    for (const float4 color : { kHalfRed, kQuarterGreen, kHalfBlue }) {
         MaterialStage stage(*engine); // takes its material along
         stage.add(
                 stage.material(vertexColored("", fmt::format("material.baseColor = vec4({:.2f}, {:.2f}, {:.2f}, 1.0);",
@@ -335,8 +337,8 @@ fragment { void material(inout MaterialInputs material) {
 
 TEST(ShadowMultiplier, WithoutAShadowThePlaneIsInvisible) {
     const float4 background{ 0.25f, 0.5f, 0.75f, 1 };
-    EXPECT_EQ(drawn("blending : transparent, shadowMultiplier : true", { { 0, kRed } }, background), background);
-    EXPECT_NE(drawn("blending : transparent", { { 0, kRed } }, background), background);
+    EXPECT_EQ(drawn("blending : transparent, shadowMultiplier : true", { { 0, kHalfRed } }, background), background);
+    EXPECT_NE(drawn("blending : transparent", { { 0, kHalfRed } }, background), background);
 }
 
 } // namespace
