@@ -66,8 +66,8 @@ struct SquareFromPoint {
             : from(square.local * double4(point, 1)), x(square.local * double4(axisX, 0)),
               y(square.local * double4(axisY, 0)), up(square.local * double4(normal, 0)) {}
 
-    /// Whether the square lies within `radius` in direction cx * x + cy * y + cz * up. Numbers instead of vectors, because this
-    /// runs fifty million times, and vectors of tests without optimisation take twenty times as long.
+    /// Whether the square lies within `radius` in direction cx * x + cy * y + cz * up. Numbers instead of vectors,
+    /// because this runs fifty million times, and vectors take several times as long in tests without optimisation.
     bool isWithin(double radius, double cx, double cy, double cz) const {
         const double t = -from.z / (x.z * cx + y.z * cy + up.z * cz);
         return t > 1e-9 && t <= radius && std::abs(from.x + (x.x * cx + y.x * cy + up.x * cz) * t) <= 1 &&
