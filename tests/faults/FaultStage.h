@@ -5,6 +5,8 @@
 #pragma once
 
 #include "backend/layers/Faulty.h"
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/materials/LoadMaterial.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
 #include "tools/paths/Paths.h"
@@ -50,12 +52,26 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
     return Engine::create(engineOptions(options, std::move(faults)));
 }
 
+/// The material of the spheres, unpacked once: sweeps make thousands of stages, and inject no faults while they do.
+/// Without the variants that no stage draws, of which it would make as many copies.
+inline scene::Material const& ballMaterial() {
+    static const scene::Material ball = [] {
+        constexpr int kNotDrawn = shader::kVariantShadowReceiver | shader::kVariantSkinning | shader::kVariantDebug;
+        scene::Material material =
+                std::move(*engine::loadMaterial({ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        std::erase_if(material.package.variants,
+                      [](shader::Variant const& variant) { return (variant.key & kNotDrawn) != 0; });
+        return material;
+    }();
+    return ball;
+}
+
 /// Spheres in rows, each at a child of one root, and a sun; pictures of 32 x 32 pixels.
 class FaultStage {
 public:
     explicit FaultStage(Engine& engine, StageOptions const& options = {})
             : mEngine(engine), mScene(engine), mSphere(engine, scenes::makeSphere(4, 8)) {
-        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mMaterial = engine.own(*engine.impl().addMaterial(ballMaterial()));
         for (int i = 0; i < options.materials; ++i) {
             mInstances.push_back(engine.own(engine.createInstance(mMaterial)));
             EXPECT_TRUE(engine.set(mInstances.back(), "baseColorFactor", float4(0.8f, 0.4f, 0.2f, 1)).ok());
