@@ -99,7 +99,7 @@ std::string memberTable() {
         text += fmt::format(" {} |", model.title);
         rule += "---|";
     }
-    text += rule + "\n";
+    text += " meaning |" + rule + "---|\n";
     for (MaterialMember const& member : materialMembers()) {
         const auto initial = std::span(member.initial).first(member.components);
         const std::string_view type = floatType(member.components);
@@ -109,7 +109,7 @@ std::string memberTable() {
         value.pop_back();
         fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} |", member.name, guides, value);
         for (Model const& model : kModels) text += member.isMemberOf(definitionOf(model)) ? " x |" : " |";
-        text += "\n";
+        text += fmt::format(" {} |\n", member.meaning);
     }
     return text;
 }

@@ -23,7 +23,8 @@ enum class Absent : uint8_t {
 
 struct MaterialMember {
     std::string_view name;
-    uint8_t components = 1; ///< of a float vector
+    std::string_view meaning; ///< one line with unit and range, for documents; never empty
+    uint8_t components = 1;   ///< of a float vector
     std::array<float, 4> initial{};
     bool (*isMemberOf)(MaterialDefinition const&) = nullptr;
     Absent absent = Absent::Never;

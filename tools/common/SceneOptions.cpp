@@ -144,10 +144,9 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
                    "showcase is drawn")
             ->type_name("");
     app.add_option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
-    app.add_option(
-            "--environment", words.environment,
-            "equirectangular .hdr or .exr, or .ktx2: light and background; or none (that of the model's file; else the "
-            "showcase's sky, unless there is a --sun)");
+    app.add_option("--environment", words.environment,
+                   "equirectangular .hdr or .exr, a cube map in a .ktx2, or a package that cmgen baked: light and "
+                   "background; or none (that of the model's file; else the showcase's sky, unless there is a --sun)");
     app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
     app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
     app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3)->allow_extra_args(false);

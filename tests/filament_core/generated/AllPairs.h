@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// allPairs: few rows of choices in which every value of a factor meets every value of each other factor.
-///   How     greedy, after Cohen, Dalal, Fredman and Patton 1997, "The AETG System": a row begins with a pair that no row
-///           has yet, and each further factor, in an order of chance, takes the value that makes the most new pairs.
-///   Size    for n values of the two largest factors, n^2 rows and a few more; a row for each single value if there is one
-///           factor.
+///   How     greedy, after Cohen, Dalal, Fredman and Patton 1997, "The AETG System": a row begins with a pair that no
+///           row has yet, and each further factor, in an order of chance, takes the value that makes the most new
+///           pairs.
+///   Size    for n values of the two largest factors, n^2 rows and a few more; a row for each single value if there is
+///           one factor.
 ///   Thread  any; pure: the same seed gives the same rows.
 #pragma once
 

@@ -87,8 +87,8 @@ ViewCase throughLens(uint32_t seed, uint2 size) {
     return drawn;
 }
 
-// Four samples at the edges of triangles whose planes pass the camera: the middle of a pixel that they do not cover may lie
-// behind it.
+// Four samples at the edges of triangles whose planes pass the camera: the middle of a pixel that they do not cover may
+// lie behind it.
 TEST(GeneratedViews, WithFourSamplesHaveTheSameBitsThroughAnyLens) {
     BothApis both;
     for (uint32_t round = 1; round < 10; ++round) {
