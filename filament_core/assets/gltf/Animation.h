@@ -7,6 +7,7 @@
 #pragma once
 
 #include "base/math/Math.h"
+#include "filament_core/assets/files/NoIndex.h"
 
 #include <cstdint>
 #include <span>
@@ -16,7 +17,7 @@
 namespace filament::assets {
 
 enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
-enum class AnimationPath : uint8_t { Translation, Rotation, Scale, Weights };
+enum class AnimationPath : uint8_t { Translation, Rotation, Scale, Weights, Property };
 
 struct AnimationSampler {
     Interpolation interpolation = Interpolation::Linear;
@@ -28,8 +29,9 @@ struct AnimationSampler {
 
 struct AnimationChannel {
     uint32_t sampler = 0;
-    uint32_t node = 0; ///< into ModelData::nodes
+    uint32_t node = 0; ///< into ModelData::nodes; AnimationPath::Property: into ModelData::animatedProperties
     AnimationPath path = AnimationPath::Translation;
+    uint32_t weight = kNone; ///< AnimationPath::Weights: the only one that the channel moves; kNone: all
 };
 
 struct AnimationData {

@@ -2,6 +2,7 @@
 #include "filament_core/assets/gltf/GltfAnimation.h"
 
 #include "filament_core/assets/gltf/Accessor.h"
+#include "filament_core/assets/gltf/GltfPointer.h"
 #include "filament_core/assets/gltf/KeyTimes.h"
 
 #include <algorithm>
@@ -13,6 +14,31 @@ namespace filament::assets {
 namespace {
 
 constexpr uint64_t kMaxNumbers = uint64_t{ 1 } << 26;
+constexpr uint64_t kMaxChannels = uint64_t{ 1 } << 22; // one of the file moves each node that shows its mesh
+
+/// What the readers of all animations share.
+struct Shared {
+    using Key = std::tuple<PropertyOwner, PropertyName, MapName, uint32_t>;
+
+    std::vector<std::vector<uint32_t>> nodesOfMesh; ///< that have no weights of their own; by mesh of the file
+    std::map<Key, uint32_t> known;                  ///< into `properties`
+    std::vector<AnimatedProperty> properties;
+    uint64_t numbersLeft = kMaxNumbers, channelsLeft = kMaxChannels;
+
+    explicit Shared(GltfDocument const& document) : nodesOfMesh(document.meshes.size()) {
+        for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+            GltfNode const& node = document.nodes[i];
+            if (node.mesh != kNone && node.weights.empty()) nodesOfMesh[node.mesh].push_back(i);
+        }
+    }
+
+    uint32_t indexOf(AnimatedProperty const& property) {
+        const auto [entry, isNew] = known.try_emplace({ property.owner, property.name, property.map, property.object },
+                                                      static_cast<uint32_t>(properties.size()));
+        if (isNew) properties.push_back(property);
+        return entry->second;
+    }
+};
 
 uint32_t morphTargetCount(GltfMesh const& mesh) {
     size_t most = 0;
@@ -23,10 +49,10 @@ uint32_t morphTargetCount(GltfMesh const& mesh) {
 /// Reads one animation; a sampler is read when a channel first needs it.
 class Reader {
 public:
-    Reader(GltfDocument const& document, GltfScene const& scene, uint32_t index, std::string_view file,
-           uint64_t& numbersLeft, Diagnostics& diagnostics)
+    Reader(GltfDocument& document, GltfScene const& scene, uint32_t index, std::string_view file, Shared& shared,
+           Diagnostics& diagnostics)
             : mDocument(document), mScene(scene), mSource(document.animations[index]), mFile(file),
-              mPath(fmt::format("animations[{}]", index)), mNumbersLeft(numbersLeft), mDiagnostics(diagnostics) {}
+              mPath(fmt::format("animations[{}]", index)), mShared(shared), mDiagnostics(diagnostics) {}
 
     AnimationData read() {
         mData.name = mSource.name;
@@ -41,26 +67,86 @@ public:
 private:
     void readChannel(size_t index) {
         GltfAnimationChannel const& channel = mSource.channels[index];
-        if (channel.node == kNone) return; // the target of an extension
         const std::string path = fmt::format("{}.channels[{}]", mPath, index);
+        if (channel.path == AnimationPath::Property) return readProperty(channel, index, path);
+        if (channel.node == kNone && channel.mesh == kNone) return; // the target of another extension
         const bool isWeights = channel.path == AnimationPath::Weights;
-        const uint32_t mesh = mDocument.nodes[channel.node].mesh;
-        const uint32_t width = isWeights ? (mesh == kNone ? 0 : morphTargetCount(mDocument.meshes[mesh]))
-                               : channel.path == AnimationPath::Rotation ? 4
-                                                                         : 3;
+        const uint32_t width = isWeights ? widthOfWeights(channel) : channel.path == AnimationPath::Rotation ? 4 : 3;
         if (width == 0) {
-            mDiagnostics.warn("{}: nodes[{}] has no morph targets; the channel is left out", path, channel.node);
+            if (channel.weight == kNone && channel.node != kNone)
+                mDiagnostics.warn("{}: nodes[{}] has no morph targets; the channel is left out", path, channel.node);
+            else
+                mDiagnostics.warn("{}: there is no such morph target; the channel is left out", path);
             return;
         }
         const std::optional<uint32_t> sampler = samplerFor(channel, width, path);
         if (!sampler) return;
         if (mRepairs[*sampler].any()) mMended.push_back(index);
-        const auto add = [&](uint32_t node) { mData.channels.push_back({ *sampler, node, channel.path }); };
-        if (isWeights) {
-            for (const uint32_t node : mScene.meshNodes[channel.node]) add(node);
+        const AnimationChannel moved{ .sampler = *sampler, .path = channel.path, .weight = channel.weight };
+        if (isWeights && channel.node == kNone) {
+            for (const uint32_t source : mShared.nodesOfMesh[channel.mesh]) add(moved, mScene.meshNodes[source]);
+        } else if (isWeights) {
+            add(moved, mScene.meshNodes[channel.node]);
         } else if (const uint32_t node = mScene.nodeOf[channel.node]; node != kNone) {
-            add(node);
+            add(moved, { &node, 1 });
         }
+    }
+
+    void add(AnimationChannel channel, std::span<const uint32_t> nodes) {
+        if (nodes.size() > mShared.channelsLeft)
+            return mDiagnostics.refuse(ErrorCode::Unsupported, "{}: the animations move more than {} nodes", mPath,
+                                       kMaxChannels);
+        mShared.channelsLeft -= nodes.size();
+        for (const uint32_t node : nodes) {
+            channel.node = node;
+            mData.channels.push_back(channel);
+        }
+    }
+
+    /// Numbers in a key; 0: there are no such weights.
+    uint32_t widthOfWeights(GltfAnimationChannel const& channel) const {
+        const uint32_t mesh = channel.node == kNone ? channel.mesh : mDocument.nodes[channel.node].mesh;
+        const uint32_t count = mesh == kNone ? 0 : morphTargetCount(mDocument.meshes[mesh]);
+        return channel.weight == kNone ? count : channel.weight < count ? 1 : 0;
+    }
+
+    void readProperty(GltfAnimationChannel const& channel, size_t index, std::string const& path) {
+        AnimatedProperty property = channel.property;
+        if (property.owner == PropertyOwner::Node) property.object = mScene.nodeOf[property.object];
+        if (property.object == kNone || !hasItsType(channel, path) || !hasItsTexture(channel, path)) return;
+        const std::optional<uint32_t> sampler = samplerFor(channel, rowOf(property.name).width, path);
+        if (!sampler) return;
+        if (mRepairs[*sampler].any()) mMended.push_back(index);
+        const uint32_t known = mShared.indexOf(property);
+        add({ .sampler = *sampler, .path = AnimationPath::Property }, { &known, 1 });
+    }
+
+    /// KHR_animation_pointer: the table of types, and STEP for booleans.
+    bool hasItsType(GltfAnimationChannel const& channel, std::string const& path) {
+        GltfAnimationSampler const& sampler = mSource.samplers[channel.sampler];
+        GltfAccessor const& output = mDocument.accessors[sampler.output];
+        const uint32_t width = rowOf(channel.property.name).width;
+        if (output.components != width) {
+            mDiagnostics.warn("{}: its values have {} numbers, its property {}; the channel is left out", path,
+                              output.components, width);
+            return false;
+        }
+        if (channel.property.name != PropertyName::NodeVisible) return true;
+        if (output.component == ComponentType::UByte && sampler.interpolation == Interpolation::Step) return true;
+        mDiagnostics.warn("{}: a boolean needs unsigned bytes and STEP; the channel is left out", path);
+        return false;
+    }
+
+    /// The second map of a pair is in the texture of the first one (TexturePair), so it has no place of its own.
+    bool hasItsTexture(GltfAnimationChannel const& channel, std::string const& path) {
+        if (channel.property.map == MapName::None) return true;
+        GltfMaterial& material = mDocument.materials[channel.property.object];
+        if (textureInfoOf(material, channel.property.map, channel.isSecondMap)->texture == kNone) return false;
+        if (!channel.isSecondMap || textureInfoOf(material, channel.property.map, false)->texture == kNone) return true;
+        mDiagnostics.warn("{}: its texture shares one with another map of materials[{}] and moves with that; the "
+                          "channel is left out",
+                          path, channel.property.object);
+        return false;
     }
 
     std::optional<uint32_t> samplerFor(GltfAnimationChannel const& channel, uint32_t width, std::string const& path) {
@@ -85,12 +171,12 @@ private:
         const uint64_t keys = mDocument.accessors[source.input].count;
         GltfAccessor const& output = mDocument.accessors[source.output];
         const uint64_t numbers = keys + output.count * output.components;
-        if (numbers > mNumbersLeft) {
+        if (numbers > mShared.numbersLeft) {
             mDiagnostics.refuse(ErrorCode::Unsupported, "{}: the animations have more than {} numbers", mPath,
                                 kMaxNumbers);
             return sampler;
         }
-        mNumbersLeft -= numbers;
+        mShared.numbersLeft -= numbers;
         const uint8_t one = 1;
         if (!checkAccessor(mDocument, source.input, { &one, 1 }, "the times of an animation", mDiagnostics))
             return sampler;
@@ -122,12 +208,12 @@ private:
                           mSource.name.substr(0, 80), listOfNumbers(mMended), toString(all));
     }
 
-    GltfDocument const& mDocument;
+    GltfDocument& mDocument;
     GltfScene const& mScene;
     GltfAnimation const& mSource;
     std::string_view mFile;
     std::string mPath;
-    uint64_t& mNumbersLeft;
+    Shared& mShared;
     Diagnostics& mDiagnostics;
     AnimationData mData;
     std::vector<KeyRepairs> mRepairs; // parallel to mData.samplers
@@ -137,14 +223,15 @@ private:
 
 } // namespace
 
-std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene, std::string_view file,
-                                          Diagnostics& diagnostics) {
-    std::vector<AnimationData> animations;
-    uint64_t numbersLeft = kMaxNumbers;
+GltfAnimations readAnimations(GltfDocument& document, GltfScene const& scene, std::string_view file,
+                              Diagnostics& diagnostics) {
+    GltfAnimations read;
+    Shared shared(document);
     for (uint32_t i = 0; i < document.animations.size() && diagnostics.ok(); ++i) {
-        animations.push_back(Reader(document, scene, i, file, numbersLeft, diagnostics).read());
+        read.animations.push_back(Reader(document, scene, i, file, shared, diagnostics).read());
     }
-    return animations;
+    read.properties = std::move(shared.properties);
+    return read;
 }
 
 } // namespace filament::assets

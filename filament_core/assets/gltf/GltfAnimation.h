@@ -4,10 +4,10 @@
 ///   Out     one AnimationData each, in the order of the file. Empty ones are kept, because indices identify
 ///           animations. Weights apply to every node that shows the mesh of their node. Times that do not grow are
 ///           mended (KeyTimes.h), with one warning for each animation, which names `file`, animation and channels.
-///   Limits  2^26 numbers in all animations together.
+///   Limits  2^26 numbers and 2^22 moved nodes in all animations together.
 ///   Fails   Corrupt: an accessor that leaves its buffer. A channel that is invalid by itself (no key with a
 ///           finite time, counts that do not match, a node without morph targets) is dropped, with a warning that
-///           names it.
+///           names it. KHR_animation_pointer: so is one whose values do not have the type of the property.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -20,7 +20,14 @@
 
 namespace filament::assets {
 
-std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene, std::string_view file,
-                                          Diagnostics& diagnostics);
+struct GltfAnimations {
+    std::vector<AnimationData> animations;
+    /// KHR_animation_pointer: what AnimationPath::Property channels change, each once. Objects that are nodes are those
+    /// of the scene, the others those of the file; `rest` is not set.
+    std::vector<AnimatedProperty> properties;
+};
+
+GltfAnimations readAnimations(GltfDocument& document, GltfScene const& scene, std::string_view file,
+                              Diagnostics& diagnostics);
 
 } // namespace filament::assets

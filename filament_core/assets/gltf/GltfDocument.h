@@ -5,6 +5,7 @@
 ///   Section numbers in comments are those of the glTF 2.0.1 specification.
 #pragma once
 
+#include "filament_core/assets/gltf/AnimatedProperty.h"
 #include "filament_core/assets/gltf/DracoPatience.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
@@ -142,7 +143,8 @@ struct GltfNode {
     bool hasMatrix = false; ///< the pose was decomposed from a matrix
     std::vector<uint32_t> children;
     uint32_t mesh = kNone, skin = kNone, light = kNone, camera = kNone;
-    bool isVisible = true; ///< KHR_node_visibility: false hides it and its descendants
+    bool isVisible = true;             ///< KHR_node_visibility: false hides it and its descendants
+    bool isVisibilityAnimated = false; ///< KHR_animation_pointer: it may be shown later
     std::vector<float> weights;
     std::optional<GltfInstancing> instancing;
     std::optional<GltfProfiledLight> profiledLight;
@@ -157,6 +159,12 @@ struct GltfAnimationChannel {
     uint32_t sampler = 0;  ///< of its animation
     uint32_t node = kNone; ///< kNone: given by an extension
     AnimationPath path = AnimationPath::Translation;
+
+    // KHR_animation_pointer
+    uint32_t mesh = kNone;       ///< whose weights it moves, where nodes have none of their own
+    uint32_t weight = kNone;     ///< the only one that it moves; kNone: all
+    AnimatedProperty property{}; ///< AnimationPath::Property; its object is an index of the file
+    bool isSecondMap = false;    ///< property.map is the second map of a pair
 };
 
 struct GltfAnimation {
@@ -176,6 +184,8 @@ struct GltfTextureInfo {
     uint32_t uvSet = 0;
     float3x3 uvTransform{ 1.0f };
     bool hasTransform = false;
+    UvPlacement placement{};
+    bool isAnimated = false; ///< KHR_animation_pointer changes the placement
 };
 
 /// Two maps that share a texture after loading (MaterialData.h: TexturePair).

@@ -17,6 +17,8 @@ constexpr std::array kExtensions{
     GltfExtension{ "EXT_texture_avif", "textures in AVIF files" },
     GltfExtension{ "EXT_texture_webp", "textures in WebP files" },
     GltfExtension{ "KHR_node_visibility", "nodes that are not visible hide what is below them" },
+    GltfExtension{ "KHR_animation_pointer",
+                   "animations of materials, texture transforms, lights, cameras and visibility" },
     GltfExtension{ "EXT_mesh_gpu_instancing", "a mesh at many places, as instances" },
     GltfExtension{ "KHR_lights_punctual", "suns, points and spots in lux and candela" },
     GltfExtension{ "EXT_lights_ies", "points with a photometric profile" },

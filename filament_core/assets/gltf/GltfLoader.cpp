@@ -8,6 +8,7 @@
 #include "filament_core/assets/gltf/GltfEnvironment.h"
 #include "filament_core/assets/gltf/GltfMeshes.h"
 #include "filament_core/assets/gltf/GltfParse.h"
+#include "filament_core/assets/gltf/GltfPointer.h"
 #include "filament_core/assets/gltf/GltfProfiles.h"
 #include "filament_core/assets/gltf/GltfTextures.h"
 #include "filament_core/assets/gltf/GltfUri.h"
@@ -145,6 +146,31 @@ void warnAboutAnimations(GltfDocument const& document, Diagnostics& diagnostics)
     diagnostics.warn("animations, also of skins and morph targets, are not played: the model is drawn at rest");
 }
 
+/// Properties of materials that the scene does not show keep their place, without an owner that it has: channels refer
+/// to them by index.
+void addAnimations(GltfAnimations animations, std::vector<uint32_t> const& newMaterial, ModelData& model) {
+    model.animations = std::move(animations.animations);
+    model.animatedProperties = std::move(animations.properties);
+    for (AnimatedProperty& property : model.animatedProperties) {
+        switch (property.owner) {
+        case PropertyOwner::Node:
+            property.rest = float4(model.nodes[property.object].isVisible ? 1.0f : 0.0f, 0, 0, 0);
+            break;
+        case PropertyOwner::Material:
+            property.object = newMaterial[property.object];
+            if (property.object != kNone)
+                property.rest = valueOf(model.materials[property.object], property.name, property.map);
+            break;
+        case PropertyOwner::Light:
+            property.rest = valueOf(model.lights[property.object], property.name);
+            break;
+        case PropertyOwner::Camera:
+            property.rest = valueOf(model.cameras[property.object], property.name);
+            break;
+        }
+    }
+}
+
 GltfDocument loadDocument(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
                           Diagnostics& diagnostics) {
     const Result<GltfContainer> container = openGltfContainer(file);
@@ -163,6 +189,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     if (!goesOn(options, diagnostics)) return {};
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!goesOn(options, diagnostics)) return {};
+    if (options.deformation == GltfDeformation::Kept) keepAnimated(document);
     GltfScene scene = planScene(document, options.deformation, diagnostics);
     Content content;
     content.primitives = listPrimitives(document, scene, diagnostics);
@@ -180,8 +207,9 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     if (!goesOn(options, diagnostics)) return {};
     content.mergeDiagnostics(diagnostics);
     ModelData model;
+    GltfAnimations animations;
     if (options.deformation == GltfDeformation::Kept)
-        model.animations = readAnimations(document, scene, options.name, diagnostics);
+        animations = readAnimations(document, scene, options.name, diagnostics);
     else
         warnAboutAnimations(document, diagnostics);
     if (!diagnostics.ok()) return {};
@@ -202,6 +230,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     model.skins = std::move(scene.skins);
     addProfiledLights(std::move(scene.profiledLights), std::move(profiles), document.lights, model);
     model.variants = std::move(document.variants);
+    addAnimations(std::move(animations), newMaterial, model);
     model.warnings = diagnostics.takeWarnings();
     return model;
 }

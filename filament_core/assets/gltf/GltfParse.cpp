@@ -2,6 +2,7 @@
 #include "filament_core/assets/gltf/GltfParse.h"
 
 #include "filament_core/assets/files/JsonTree.h"
+#include "filament_core/assets/gltf/GltfPointer.h"
 
 #include <cmath>
 #include <cstring>
@@ -244,7 +245,33 @@ GltfSkin parseSkin(JsonNode const& node, Counts const& counts) {
     return skin;
 }
 
-GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts) {
+/// KHR_animation_pointer: what the pointer names, or nothing, with a warning.
+GltfAnimationChannel parsePointer(JsonNode const& target, uint32_t sampler, GltfPointers& pointers) {
+    const std::string pointer = target.extension("KHR_animation_pointer")["pointer"].text();
+    std::optional<GltfAnimationChannel> channel = pointers.resolve(pointer);
+    if (!channel) {
+        target.diagnostics().warn("{}: '{}' names nothing in this file that an animation can change; the channel is "
+                                  "left out",
+                                  target.path(), pointer.substr(0, 160));
+        channel.emplace();
+    }
+    channel->sampler = sampler;
+    return *channel;
+}
+
+GltfAnimationChannel parseChannel(JsonNode const& channel, size_t samplers, Counts const& counts,
+                                  GltfPointers& pointers) {
+    const JsonNode target = channel["target"];
+    GltfAnimationChannel parsed{ .sampler = channel["sampler"].requiredIndex(samplers, "samplers"),
+                                 .node = target["node"].index(counts.nodes, "nodes") };
+    if (target.extension("KHR_animation_pointer").exists()) return parsePointer(target, parsed.sampler, pointers);
+    if (parsed.node == kNone) return parsed;
+    parsed.path = enumFromText(target["path"], std::array{ "translation", "rotation", "scale", "weights" },
+                               AnimationPath::Translation);
+    return parsed;
+}
+
+GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts, GltfPointers& pointers) {
     GltfAnimation animation{ .name = node["name"].text(), .samplers = {}, .channels = {} };
     for (JsonNode const& sampler : node["samplers"].elements()) {
         animation.samplers.push_back(
@@ -254,14 +281,7 @@ GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts) {
                                Interpolation::Linear) });
     }
     for (JsonNode const& channel : node["channels"].elements()) {
-        const JsonNode target = channel["target"];
-        GltfAnimationChannel parsed{ .sampler = channel["sampler"].requiredIndex(animation.samplers.size(), "samplers"),
-                                     .node = target["node"].index(counts.nodes, "nodes") };
-        if (parsed.node != kNone) {
-            parsed.path = enumFromText(target["path"], std::array{ "translation", "rotation", "scale", "weights" },
-                                       AnimationPath::Translation);
-        }
-        animation.channels.push_back(parsed);
+        animation.channels.push_back(parseChannel(channel, animation.samplers.size(), counts, pointers));
     }
     return animation;
 }
@@ -408,7 +428,9 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
             imageBased["lights"], [&](JsonNode const& node) { return parseGltfImageBasedLight(node, counts.images); });
     document.variants = parseAll<std::string>(root.extension("KHR_materials_variants")["variants"],
                                               [](JsonNode const& node) { return node["name"].text(); });
-    document.animations = parseAll<GltfAnimation>(root["animations"], with(parseAnimation));
+    GltfPointers pointers(root);
+    document.animations = parseAll<GltfAnimation>(
+            root["animations"], [&](JsonNode const& node) { return parseAnimation(node, counts, pointers); });
 }
 
 } // namespace

@@ -11,9 +11,7 @@ namespace {
 
 constexpr std::string_view kIesMimeType = "application/x-ies-lm-63";
 
-/// KHR_texture_transform: uv' = T * R * S * uv. The extension's GLSL turns the other way than its text and its test
-/// model (TextureTransformTest, the green markers); like every viewer we follow those: a positive angle turns the
-/// image counter-clockwise about (0, 0), so a coordinate turns clockwise in the (u, v) plane.
+/// matrixFrom(UvPlacement) of the numbers of the file, unrounded.
 float3x3 textureTransform(std::array<double, 2> offset, double rotation, std::array<double, 2> scale) {
     const double c = std::cos(rotation), s = std::sin(rotation);
     return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0),
@@ -55,6 +53,12 @@ void parseCones(JsonNode const& spot, LightData& light) {
 
 } // namespace
 
+float3x3 matrixFrom(UvPlacement const& placement) {
+    const glm::dvec2 offset(placement.offset), scale(placement.scale);
+    return textureTransform({ offset.x, offset.y }, static_cast<double>(placement.rotationRadians),
+                            { scale.x, scale.y });
+}
+
 GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
     GltfTextureInfo info;
     if (!node.exists()) return info;
@@ -64,7 +68,9 @@ GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
         std::array<double, 2> offset{ 0, 0 }, scale{ 1, 1 };
         transform["offset"].numbers(offset);
         transform["scale"].numbers(scale);
-        info.uvTransform = textureTransform(offset, transform["rotation"].number(0), scale);
+        const double rotation = transform["rotation"].number(0);
+        info.uvTransform = textureTransform(offset, rotation, scale);
+        info.placement = { float2(offset[0], offset[1]), static_cast<float>(rotation), float2(scale[0], scale[1]) };
         info.hasTransform = info.uvTransform != float3x3(1.0f);
         uvSet = transform["texCoord"].integer(uvSet);
     }

@@ -153,6 +153,7 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
     std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
     if (source.skin != kNone) {
         if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // an index of the file; see collectSkins()
+        own.visibleWith = at;
         meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
         scene.nodes.push_back(std::move(own));
         return;
@@ -187,7 +188,7 @@ public:
             const auto [node, parent, isAboveVisible] = mOpen.back();
             mOpen.pop_back();
             GltfNode const& source = mDocument.nodes[node];
-            const bool isVisible = isAboveVisible && source.isVisible;
+            const bool isVisible = isAboveVisible && (source.isVisible || source.isVisibilityAnimated);
             const bool isShown = requests && isVisible;
             const auto added = static_cast<uint32_t>(mScene.nodes.size());
             mScene.nodeOf[node] = added;
@@ -198,7 +199,8 @@ public:
                                      .light = isShown ? source.light : kNone,
                                      .camera = requests ? source.camera : kNone,
                                      .morphWeights = {},
-                                     .pose = source.pose });
+                                     .pose = source.pose,
+                                     .isVisible = source.isVisible || !source.isVisibilityAnimated });
             if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);
             if (isShown && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
             push(source.children, added, isVisible);

@@ -120,7 +120,9 @@ private:
         reference.sampler = texture.sampler == kNone ? kDefaultSampler : mDocument.samplers[texture.sampler];
         reference.uvSet = info.uvSet;
         reference.uvTransform = info.uvTransform;
-        reference.hasTransform = info.hasTransform;
+        reference.hasTransform = info.hasTransform || info.isAnimated;
+        reference.isAnimated = info.isAnimated;
+        reference.placement = info.placement;
         return reference;
     }
 

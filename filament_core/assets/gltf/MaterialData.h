@@ -18,12 +18,28 @@
 
 namespace filament::assets {
 
+/// KHR_texture_transform as its file gives it.
+struct UvPlacement {
+    float2 offset{ 0.0f };
+    float rotationRadians = 0;
+    float2 scale{ 1.0f };
+};
+
+/// uv' = (M * (u, v, 1)).xy with M = T * R * S. The extension's GLSL turns the other way than its text and its test
+/// model (TextureTransformTest, the green markers); like every viewer we follow those: a positive angle turns the
+/// image counter-clockwise about (0, 0), so a coordinate turns clockwise in the (u, v) plane.
+float3x3 matrixFrom(UvPlacement const& placement);
+
+/// A struct whose property a channel of KHR_animation_pointer changes is used, and its maps are, at any value: that is
+/// what its `isAnimated` says.
 struct TextureRef {
     uint32_t image = kNone; ///< into ModelData::images; kNone: the factor alone
     Sampler sampler{};
     uint32_t uvSet = 0;           ///< 0 or 1
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;
+    bool isAnimated = false; ///< `placement` changes; hasTransform is true then
+    UvPlacement placement{}; ///< of uvTransform
 };
 
 /// Two maps of an extension with disjoint channels, in one texture. If the file has two textures, the loader packs them
@@ -41,7 +57,8 @@ struct ClearCoatData {
     float normalScale = 1;
     TexturePair maps; ///< red: factor; green: roughness
     TextureRef normal;
-    bool isUsed() const { return factor > 0; }
+    bool isAnimated = false;
+    bool isUsed() const { return factor > 0 || isAnimated; }
 };
 
 /// KHR_materials_sheen.
@@ -49,7 +66,8 @@ struct SheenData {
     float3 color{ 0.0f };
     float roughness = 0;
     TexturePair maps; ///< RGB: colour (sRGB); alpha: roughness
-    bool isUsed() const { return color != float3(0.0f); }
+    bool isAnimated = false;
+    bool isUsed() const { return color != float3(0.0f) || isAnimated; }
 };
 
 /// KHR_materials_specular.
@@ -58,7 +76,8 @@ struct SpecularData {
     float factor = 1;
     TexturePair maps; ///< RGB: colour (sRGB); alpha: factor
     bool hasTexture = false;
-    bool isUsed() const { return factor != 1 || color != float3(1.0f) || hasTexture; }
+    bool isAnimated = false;
+    bool isUsed() const { return factor != 1 || color != float3(1.0f) || hasTexture || isAnimated; }
 };
 
 /// KHR_materials_anisotropy.
@@ -66,7 +85,8 @@ struct AnisotropyData {
     float strength = 0;
     float rotationRadians = 0; ///< counter-clockwise from the tangent
     TextureRef map;            ///< red, green: direction from [-1, 1]; blue: strength
-    bool isUsed() const { return strength > 0; }
+    bool isAnimated = false;
+    bool isUsed() const { return strength > 0 || isAnimated; }
 };
 
 /// KHR_materials_iridescence.
@@ -75,7 +95,8 @@ struct IridescenceData {
     float ior = 1.3f;
     float thicknessMinNanometers = 100, thicknessMaxNanometers = 400; ///< without a map: the maximum
     TexturePair maps;                                                 ///< red: factor; green: from minimum to maximum
-    bool isUsed() const { return factor > 0; }
+    bool isAnimated = false;
+    bool isUsed() const { return factor > 0 || isAnimated; }
 };
 
 /// KHR_materials_transmission, with KHR_materials_volume and KHR_materials_dispersion, which refine it.
@@ -86,8 +107,9 @@ struct TransmissionData {
     float attenuationDistanceMeters = std::numeric_limits<float>::infinity(); ///< in the space of the file's scene
     float dispersion = 0;                                                     ///< 20 over the Abbe number
     TexturePair maps;                                                         ///< red: factor; green: thickness
-    bool isUsed() const { return factor > 0; }
-    bool isSolid() const { return isUsed() && thicknessMeters > 0; }
+    bool isAnimated = false, isThicknessAnimated = false, isAbsorptionAnimated = false, isDispersionAnimated = false;
+    bool isUsed() const { return factor > 0 || isAnimated; }
+    bool isSolid() const { return isUsed() && (thicknessMeters > 0 || isThicknessAnimated); }
 };
 
 /// KHR_materials_diffuse_transmission.
@@ -95,7 +117,8 @@ struct DiffuseTransmissionData {
     float3 color{ 1.0f };
     float factor = 0;
     TexturePair maps; ///< RGB: colour (sRGB); alpha: factor. None if transmission is also used
-    bool isUsed() const { return factor > 0; }
+    bool isAnimated = false;
+    bool isUsed() const { return factor > 0 || isAnimated; }
 };
 
 /// KHR_materials_pbrSpecularGlossiness: replaces metallic and roughness; the base colour is the diffuse colour.
@@ -132,6 +155,8 @@ struct MaterialData {
     IridescenceData iridescence;
     TransmissionData transmission;
     DiffuseTransmissionData diffuseTransmission;
+
+    bool isAnimated = false, isIorAnimated = false; ///< KHR_animation_pointer: any property; the index of refraction
 };
 
 } // namespace filament::assets

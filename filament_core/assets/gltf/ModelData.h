@@ -8,6 +8,7 @@
 #include "backend/api/Descriptions.h"
 #include "base/math/Math.h"
 #include "filament_core/assets/environment/CubeLight.h"
+#include "filament_core/assets/gltf/AnimatedProperty.h"
 #include "filament_core/assets/gltf/Animation.h"
 #include "filament_core/assets/gltf/MaterialData.h"
 #include "filament_core/assets/gltf/NodePose.h"
@@ -133,6 +134,8 @@ struct NodeData {
     std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: already applied by the loader
     uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
     NodePose pose{};                 ///< parentFromNode decomposed: the start of animations
+    bool isVisible = true;           ///< of its own; false only where an animation may show it
+    uint32_t visibleWith = kNone;    ///< a node of a skinned mesh: the one of the file, before this one
 };
 
 struct SkinData {
@@ -153,6 +156,7 @@ struct ModelData {
     std::optional<ImageBasedLightData> imageBasedLight; ///< of the default scene
     std::vector<SkinData> skins;                        ///< with GltfDeformation::Kept
     std::vector<AnimationData> animations;              ///< with GltfDeformation::Kept
+    std::vector<AnimatedProperty> animatedProperties;   ///< that channels of them change, each once
     std::vector<std::string> variants;                  ///< KHR_materials_variants: their names
     std::vector<std::string> warnings;                  ///< one line each: unsupported extensions, repaired values
 };

@@ -3,6 +3,7 @@
 
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/engine/gltf/ModelParts.h"
 #include "filament_core/scene/SceneSkins.h"
 
 #include <algorithm>
@@ -16,21 +17,26 @@ using assets::AnimationChannel;
 using assets::AnimationPath;
 using assets::NodePose;
 
-/// The parts of a model's nodes that animations move.
+/// What animations move: poses and weights of a model's nodes, and properties of KHR_animation_pointer.
 struct Pose {
     std::vector<NodePose> nodes;              ///< by node of the model
     std::vector<std::vector<double>> weights; ///< of morph targets; empty where there are none
-    std::vector<uint8_t> movesNode, movesWeights;
+    std::vector<float4> properties;           ///< parallel to Model::Impl::properties
+    std::vector<uint8_t> movesNode, movesWeights, movesProperty;
 
-    explicit Pose(size_t count) : nodes(count), weights(count), movesNode(count), movesWeights(count) {}
+    Pose(size_t count, size_t propertyCount)
+            : nodes(count), weights(count), properties(propertyCount), movesNode(count), movesWeights(count),
+              movesProperty(propertyCount) {}
     void forget() {
+        std::ranges::fill(movesProperty, uint8_t{ 0 });
         std::ranges::fill(movesNode, uint8_t{ 0 });
         std::ranges::fill(movesWeights, uint8_t{ 0 });
     }
 };
 
 Pose restPose(Model::Impl const& model) {
-    Pose pose(model.nodes.size());
+    Pose pose(model.nodes.size(), model.properties.size());
+    for (size_t i = 0; i < model.properties.size(); ++i) pose.properties[i] = model.properties[i].rest;
     for (size_t i = 0; i < model.nodes.size(); ++i) pose.nodes[i] = model.nodes[i].pose;
     for (Model::Impl::PartRenderable const& part : model.renderables) {
         if (part.desc.morphTargets)
@@ -40,13 +46,25 @@ Pose restPose(Model::Impl const& model) {
 }
 
 void apply(AnimationChannel const& channel, assets::AnimationSampler const& sampler, double seconds, Pose& pose) {
-    if (channel.path == AnimationPath::Weights) {
+    if (channel.path == AnimationPath::Weights && channel.weight == assets::kNone) {
         pose.weights[channel.node].resize(sampler.width);
         pose.movesWeights[channel.node] = 1;
         return assets::sampleAnimation(sampler, seconds, pose.weights[channel.node]);
     }
     std::array<double, 4> v{};
     assets::sampleAnimation(sampler, seconds, std::span(v).first(sampler.width));
+    if (channel.path == AnimationPath::Weights) {
+        std::vector<double>& weights = pose.weights[channel.node];
+        weights.resize(std::max<size_t>(weights.size(), channel.weight + 1));
+        pose.movesWeights[channel.node] = 1;
+        weights[channel.weight] = v[0];
+        return;
+    }
+    if (channel.path == AnimationPath::Property) {
+        pose.properties[channel.node] = float4(v[0], v[1], v[2], v[3]);
+        pose.movesProperty[channel.node] = 1;
+        return;
+    }
     NodePose& node = pose.nodes[channel.node];
     pose.movesNode[channel.node] = 1;
     if (channel.path == AnimationPath::Translation) node.translation = { v[0], v[1], v[2] };
@@ -75,15 +93,24 @@ std::vector<Node> nodesOfCopy(Model::Impl const& model, scene::Transforms const&
 struct Animator::Impl {
     Impl(std::shared_ptr<const Model::Impl> ofModel, Scene& inScene, Node root)
             : kept(std::move(ofModel)), model(*kept), scene(inScene.impl()), sceneLink(inScene.share()),
-              nodes(nodesOfCopy(model, scene.data.transforms, root)), rest(restPose(model)), pose(rest), other(rest) {}
+              nodes(nodesOfCopy(model, scene.data.transforms, root)), rest(restPose(model)), pose(rest), other(rest),
+              parts(model, scene, root) {}
 
     void sample(uint32_t animation, double seconds, Pose& into) const {
         FILAMENT_ASSERT(animation < model.animations.size(), "an animation is one of the model's");
         assets::AnimationData const& data = model.animations[animation];
         for (AnimationChannel const& channel : data.channels) {
-            if (!into.movesNode[channel.node]) into.nodes[channel.node] = rest.nodes[channel.node];
+            startAtRest(channel, into);
             filament::apply(channel, data.samplers[channel.sampler], seconds, into);
         }
+    }
+
+    /// Of what the channel moves, the rest is as in the file.
+    void startAtRest(AnimationChannel const& channel, Pose& into) const {
+        if (channel.path == AnimationPath::Property) return;
+        if (!into.movesNode[channel.node]) into.nodes[channel.node] = rest.nodes[channel.node];
+        if (channel.weight != assets::kNone && !into.movesWeights[channel.node])
+            into.weights[channel.node] = rest.weights[channel.node];
     }
 
     /// Blends `pose` with `other`.
@@ -95,6 +122,17 @@ struct Animator::Impl {
             }
             if (pose.movesWeights[i] || other.movesWeights[i]) mixWeights(i, weight);
         }
+        for (size_t i = 0; i < pose.properties.size(); ++i) {
+            if (pose.movesProperty[i] || other.movesProperty[i]) mixProperty(i, weight);
+        }
+    }
+
+    void mixProperty(size_t i, double weight) {
+        const float4 a = pose.movesProperty[i] ? pose.properties[i] : rest.properties[i];
+        const float4 b = other.movesProperty[i] ? other.properties[i] : rest.properties[i];
+        const bool isBoolean = model.properties[i].name == assets::PropertyName::NodeVisible;
+        pose.properties[i] = isBoolean ? (weight < 0.5 ? a : b) : a + (b - a) * static_cast<float>(weight);
+        pose.movesProperty[i] = 1;
     }
 
     NodePose const& posed(Pose const& of, size_t i) const { return of.movesNode[i] ? of.nodes[i] : rest.nodes[i]; }
@@ -113,6 +151,7 @@ struct Animator::Impl {
             if (pose.movesNode[i]) scene.data.transforms.setTransform(nodes[i], assets::matrixFrom(pose.nodes[i]));
             if (pose.movesWeights[i]) writeWeights(nodes[i], pose.weights[i]);
         }
+        parts.write(pose.properties, pose.movesProperty);
     }
 
     void writeWeights(Node node, std::vector<double> const& values) {
@@ -131,6 +170,7 @@ struct Animator::Impl {
     std::weak_ptr<Scene::Impl> sceneLink;
     std::vector<Node> nodes;
     Pose rest, pose, other;
+    engine::ModelParts parts;
     std::vector<float> weights;
 };
 
@@ -183,7 +223,9 @@ void Animator::rest() {
     mImpl->pose = mImpl->rest;
     for (assets::AnimationData const& animation : mImpl->model.animations) {
         for (AnimationChannel const& channel : animation.channels) {
-            auto& moves = channel.path == AnimationPath::Weights ? mImpl->pose.movesWeights : mImpl->pose.movesNode;
+            auto& moves = channel.path == AnimationPath::Weights    ? mImpl->pose.movesWeights
+                          : channel.path == AnimationPath::Property ? mImpl->pose.movesProperty
+                                                                    : mImpl->pose.movesNode;
             moves[channel.node] = 1;
         }
     }

@@ -43,6 +43,7 @@ struct CopyOfModel {
     std::vector<Renderable> renderables; ///< parallel to the model's
     std::vector<Light> lights;           ///< parallel to the model's
     std::vector<OwnMaterial> own{};
+    std::vector<assets::CameraData> cameras{}; ///< as an animation left those of the file; empty: as they are there
     std::string variant{};
 
     /// The copy's own instance instead of a shared one, if it has one.
@@ -63,6 +64,10 @@ public:
 private:
     std::unordered_map<uint32_t, CopyOfModel> mCopies; // by the index of the root
 };
+
+/// The copy's own instance of a shared one of its model, made where it has none; renderables of the copy that show the
+/// shared one show the own one from now on.
+MaterialInstance ownInstance(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared);
 
 /// Scene::setVariant().
 Result<void> setVariant(Scene::Impl& scene, CopyOfModel& copy, std::string_view variant);

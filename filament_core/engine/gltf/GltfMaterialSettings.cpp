@@ -30,8 +30,8 @@ std::string withSuffix(std::string const& family, AlphaMode mode) {
 }
 
 bool hasLayers(MaterialData const& m) {
-    return m.ior != 1.5f || m.clearCoat.isUsed() || m.sheen.isUsed() || m.specular.isUsed() || m.anisotropy.isUsed() ||
-           m.iridescence.isUsed() || m.diffuseTransmission.isUsed() || m.transmission.isUsed();
+    return m.ior != 1.5f || m.isIorAnimated || m.clearCoat.isUsed() || m.sheen.isUsed() || m.specular.isUsed() ||
+           m.anisotropy.isUsed() || m.iridescence.isUsed() || m.diffuseTransmission.isUsed() || m.transmission.isUsed();
 }
 
 const char* familyOf(MaterialData const& material) {
@@ -45,7 +45,7 @@ const char* familyOf(MaterialData const& material) {
 // Occlusion in red, roughness and metallic in the same texture: the usual packing. One fetch serves both.
 bool sharesTexel(TextureRef const& a, TextureRef const& b) {
     return a.image != kNone && a.image == b.image && a.sampler == b.sampler && a.uvSet == b.uvSet &&
-           a.uvTransform == b.uvTransform;
+           a.uvTransform == b.uvTransform && !a.isAnimated && !b.isAnimated;
 }
 
 /// Collects the settings of one material; missing properties leave no trace.
@@ -140,7 +140,7 @@ void setSheen(Settings& settings, assets::SheenData const& sheen) {
 }
 
 void setSpecular(Settings& settings, MaterialData const& material) {
-    if (material.ior != 1.5f) {
+    if (material.ior != 1.5f || material.isIorAnimated) {
         settings.feature("hasIor");
         settings.parameter("ior", material.ior);
     }
@@ -183,12 +183,15 @@ void setTransmission(Settings& settings, assets::TransmissionData const& data, f
     settings.maps("transmission", "hasTransmissionMap", "hasThicknessMap", data.maps);
     if (!data.isSolid()) return;
     settings.parameter("thickness", std::min(data.thicknessMeters * scale, kMaxHalf));
-    if (data.dispersion > 0) {
+    if (data.dispersion > 0 || data.isDispersionAnimated) {
         settings.feature("hasDispersion");
         settings.parameter("dispersion", data.dispersion);
     }
-    if (std::isinf(data.attenuationDistanceMeters) || data.attenuationColor == float3(1.0f)) return;
-    const float3 absorption = shader::lib::absorptionAtDistance(data.attenuationColor, data.attenuationDistanceMeters);
+    const bool isClear = std::isinf(data.attenuationDistanceMeters) || data.attenuationColor == float3(1.0f);
+    if (isClear && !data.isAbsorptionAnimated) return;
+    const float3 absorption =
+            isClear ? float3(0.0f)
+                    : shader::lib::absorptionAtDistance(data.attenuationColor, data.attenuationDistanceMeters);
     settings.feature("hasAbsorption");
     settings.parameter("absorption", glm::min(absorption, float3(kMaxHalf)));
 }

@@ -46,6 +46,7 @@ public:
     }
 
     std::unique_ptr<Model::Impl> finish() {
+        keepAnimated();
         for (assets::LightProfileData const& profile : mData.profiles) {
             mModel->profiles.push_back({});
             mModel->profiles.back() = mEngine.createLightProfile(profile.file, profile.name);
@@ -148,17 +149,46 @@ private:
         return mModel->morphTargets.back() = mEngine.createMorphTargets(desc);
     }
 
+    /// What animations of properties need of the file. The instances of meshes exist by now, those of volumes are
+    /// made with their places: instanceFor() adds them.
+    void keepAnimated() {
+        mModel->properties = std::move(mData.animatedProperties);
+        if (mModel->properties.empty()) return;
+        mModel->lightsOfFile = mData.lights;
+        mModel->camerasOfFile = mData.cameras;
+        mModel->maxMaps = GltfMaterials::choiceOf(mEngine).maxMaps;
+        for (uint32_t i = 0; i < mModel->properties.size(); ++i) {
+            assets::AnimatedProperty& property = mModel->properties[i];
+            if (property.owner != assets::PropertyOwner::Material || property.object == kNone) continue;
+            const auto [entry, isNew] = mAnimatedMaterials.try_emplace(
+                    property.object, static_cast<uint32_t>(mModel->animatedMaterials.size()));
+            if (isNew) mModel->animatedMaterials.push_back({ mData.materials[property.object], {}, {} });
+            mModel->animatedMaterials[entry->second].properties.push_back(i);
+            property.object = entry->second;
+        }
+        for (auto const& [key, instance] : mInstances) keepAnimated(key, instance);
+    }
+
+    using InstanceKey = std::tuple<uint32_t, bool, float>; ///< material of the file, vertex colours, scale
+
+    void keepAnimated(InstanceKey const& key, MaterialInstance instance) {
+        const auto [material, hasColor, scale] = key;
+        if (const auto known = mAnimatedMaterials.find(material); known != mAnimatedMaterials.end())
+            mModel->animatedMaterials[known->second].instances.push_back({ instance, hasColor, scale });
+    }
+
     void placeNodes() {
         for (uint32_t i = 0; i < mData.nodes.size(); ++i) {
             assets::NodeData const& node = mData.nodes[i];
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
-            mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose });
+            mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose, node.isVisible,
+                                      node.visibleWith == kNone ? Model::Impl::kRoot : node.visibleWith });
             if (node.mesh != kNone) placeMesh(node, i);
             for (const uint32_t light : { node.light, node.profiledLight }) {
                 if (light != kNone)
-                    mModel->lights.push_back({ lightOf(mData.lights[light]), i, mData.lights[light].name });
+                    mModel->lights.push_back({ lightOf(mData.lights[light]), i, mData.lights[light].name, light });
             }
-            if (node.camera != kNone) mModel->cameras.push_back({ mData.cameras[node.camera], i });
+            if (node.camera != kNone) mModel->cameras.push_back({ mData.cameras[node.camera], i, node.camera });
         }
         mModel->fileNodes = mModel->nodes.size();
         // After the nodes of the file, whose parents are indices.
@@ -185,7 +215,9 @@ private:
         uint32_t at = node;
         if (part.isScaled) {
             at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
-            mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions, {} });
+            mScalingNodes.push_back({ .name = part.desc.name + " positions",
+                                      .parent = node,
+                                      .parentFromNode = part.meshFromPositions });
         }
         PrimitiveData const& primitive = *part.primitive;
         Model::Impl::PartRenderable& placed = mModel->renderables.emplace_back();
@@ -207,7 +239,9 @@ private:
         assets::MaterialData const& material = materialOf(index);
         const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
         MaterialInstance& instance = mInstances[{ index, hasColor, scale }];
-        if (!instance) instance = mMaterials.instanceFor(material, hasColor, scale);
+        if (instance) return instance;
+        instance = mMaterials.instanceFor(material, hasColor, scale);
+        keepAnimated({ index, hasColor, scale }, instance);
         return instance;
     }
 
@@ -255,8 +289,9 @@ private:
     std::vector<std::vector<scene::MinMax>> mPositions; // by mesh of the file and primitive
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
-    std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
-    std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one per primitive
+    std::map<InstanceKey, MaterialInstance> mInstances;
+    std::map<uint32_t, uint32_t> mAnimatedMaterials; // material of the file -> of the model
+    std::vector<std::vector<Part>> mMeshes;          // by mesh of the file, one per primitive
     std::vector<Model::Impl::PartNode> mScalingNodes;
 };
 

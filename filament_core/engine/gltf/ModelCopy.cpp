@@ -191,9 +191,10 @@ CopyMaterial described(MaterialInstance instance, scene::MaterialInstance const&
              .renderables = 1 };
 }
 
-/// Makes the copy's own instance of a shared one, and shows it where that is shown.
-void makeOwn(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
-    if (copy.shown(shared) != shared) return;
+} // namespace
+
+MaterialInstance engine::ownInstance(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
+    if (const MaterialInstance known = copy.shown(shared); known != shared) return known;
     copy.own.emplace_back(scene.engine, shared);
     scene::MaterialInstance const* before = &scene.engine.instances.get(shared);
     for (const Renderable renderable : copy.renderables) {
@@ -201,9 +202,8 @@ void makeOwn(Scene::Impl& scene, CopyOfModel& copy, MaterialInstance shared) {
             scene::setMaterial(scene.changedUses().renderables, renderable,
                                scene.engine.instances.get(copy.own.back().instance));
     }
+    return copy.own.back().instance;
 }
-
-} // namespace
 
 Result<ModelCopy> ModelCopy::of(Scene& scene, Node root) {
     const std::shared_ptr<Scene::Impl> ofScene = scene.share().lock();
@@ -289,10 +289,7 @@ Result<std::vector<MaterialInstance>> ModelCopy::ownMaterials(std::string_view m
         if (instances.empty())
             return unknown(call.copy, "material", material, materialNames(scene.engine, *call.copy.model));
         call.copy.own.reserve(call.copy.own.size() + instances.size());
-        for (MaterialInstance& instance : instances) {
-            makeOwn(scene, call.copy, instance);
-            instance = call.copy.shown(instance);
-        }
+        for (MaterialInstance& instance : instances) instance = engine::ownInstance(scene, call.copy, instance);
         return instances;
     });
 }
@@ -347,7 +344,8 @@ std::vector<CopyCamera> ModelCopy::cameras() const {
         const Node node = call.copy.nodes[part.node];
         if (!isThere(scene, node)) continue;
         list.push_back({ nameOf(part.camera.name, scene, node), node,
-                         cameraOf(part.camera, scene.data.transforms.worldFromNode(node)) });
+                         cameraOf(call.copy.cameras.empty() ? part.camera : call.copy.cameras[part.source],
+                                  scene.data.transforms.worldFromNode(node)) });
     }
     return list;
 }

@@ -27,7 +27,9 @@ struct Model::Impl {
         std::string name;
         uint32_t parent = kRoot; ///< into `nodes`, before this one
         double4x4 parentFromNode{ 1.0 };
-        assets::NodePose pose{}; ///< the same, decomposed
+        assets::NodePose pose{};      ///< the same, decomposed
+        bool isVisible = true;        ///< of its own, at rest
+        uint32_t visibleWith = kRoot; ///< another node that hides it, before this one
     };
     struct PartSkin {
         uint32_t node = kRoot;        ///< into `nodes`: the node that the renderables are attached to
@@ -50,11 +52,23 @@ struct Model::Impl {
     struct PartLight {
         std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
         uint32_t node = kRoot;
-        std::string name; ///< of the light, not of its node
+        std::string name;    ///< of the light, not of its node
+        uint32_t source = 0; ///< into `lightsOfFile`
     };
     struct PartCamera {
         assets::CameraData camera;
         uint32_t node = kRoot;
+        uint32_t source = 0; ///< into `camerasOfFile`
+    };
+    struct AnimatedInstance {
+        MaterialInstance instance;
+        bool hasVertexColor = false;
+        float scale = 1;
+    };
+    struct AnimatedMaterial {
+        assets::MaterialData data;        ///< at rest
+        std::vector<uint32_t> properties; ///< into `properties`
+        std::vector<AnimatedInstance> instances;
     };
 
     explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) {}
@@ -70,6 +84,14 @@ struct Model::Impl {
     std::vector<assets::AnimationData> animations; ///< their nodes are those of `nodes`
     std::vector<PartLight> lights;
     std::vector<PartCamera> cameras;
+
+    // KHR_animation_pointer: empty without it
+    std::vector<assets::AnimatedProperty> properties; ///< channels refer to them; materials: into `animatedMaterials`
+    std::vector<AnimatedMaterial> animatedMaterials;
+    std::vector<assets::LightData> lightsOfFile;
+    std::vector<assets::CameraData> camerasOfFile;
+    size_t maxMaps = SIZE_MAX; ///< see settingsOf()
+
     std::vector<std::string> variants, warnings;
     Box bounds;
     std::optional<Environment> environment;

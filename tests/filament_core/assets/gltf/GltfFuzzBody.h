@@ -150,8 +150,12 @@ inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
 inline const char* brokenPromise(ModelData const& model, AnimationData const& animation) {
     std::vector<double> value;
     for (AnimationChannel const& channel : animation.channels) {
-        if (channel.node >= model.nodes.size() || channel.sampler >= animation.samplers.size()) return "channel";
+        const bool isProperty = channel.path == AnimationPath::Property;
+        const size_t targets = isProperty ? model.animatedProperties.size() : model.nodes.size();
+        if (channel.node >= targets || channel.sampler >= animation.samplers.size()) return "channel";
         AnimationSampler const& sampler = animation.samplers[channel.sampler];
+        if (isProperty && sampler.width != rowOf(model.animatedProperties[channel.node].name).width)
+            return "width of a property";
         value.resize(sampler.width);
         if (sampler.times.empty() || !std::isfinite(sampler.times.front()) || !std::isfinite(sampler.times.back()) ||
             !std::ranges::is_sorted(sampler.times))
@@ -160,6 +164,32 @@ inline const char* brokenPromise(ModelData const& model, AnimationData const& an
             sampleAnimation(sampler, seconds, value);
     }
     return std::isfinite(animation.durationSeconds) ? nullptr : "duration";
+}
+
+/// Values from far outside of any range keep the promises of what they change.
+inline const char* brokenPromise(ModelData const& model, AnimatedProperty const& property) {
+    const bool isNowhere = property.object == kNone && property.owner == PropertyOwner::Material;
+    const auto isIn = [&](auto const& list) { return property.object < list.size(); };
+    for (const float value : { -1e30f, 0.0f, 1e30f }) {
+        if (property.owner == PropertyOwner::Node && !isIn(model.nodes)) return "animated node";
+        if (property.owner == PropertyOwner::Light) {
+            if (!isIn(model.lights)) return "animated light";
+            LightData light = model.lights[property.object];
+            setValue(light, property.name, float4(value));
+            if (brokenPromise(model, light)) return "light while it is animated";
+        } else if (property.owner == PropertyOwner::Camera) {
+            if (!isIn(model.cameras)) return "animated camera";
+            CameraData camera = model.cameras[property.object];
+            setValue(camera, property.name, float4(value));
+            if (brokenPromise(model, camera)) return "camera while it is animated";
+        } else if (property.owner == PropertyOwner::Material && !isNowhere) {
+            if (!isIn(model.materials)) return "animated material";
+            MaterialData material = model.materials[property.object];
+            setValue(material, property.name, property.map, float4(value));
+            if (brokenPromise(model, material)) return "material while it is animated";
+        }
+    }
+    return nullptr;
 }
 
 inline const char* brokenPromise(ImageBasedLightData const& data) {
@@ -197,6 +227,7 @@ inline const char* brokenPromise(ModelData const& model) {
     check(model.lights);
     check(model.skins);
     check(model.animations);
+    check(model.animatedProperties);
     check(model.cameras);
     for (MeshData const& mesh : model.meshes) check(mesh.primitives);
     if (!broken && model.imageBasedLight) broken = brokenPromise(*model.imageBasedLight);

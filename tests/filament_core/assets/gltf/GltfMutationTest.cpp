@@ -95,6 +95,51 @@ Specimen writtenSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
+/// KHR_animation_pointer: properties of every owner, poses and weights.
+Specimen pointerSpecimen() {
+    TestFile file = TestFile::triangle();
+    const size_t target = file.add(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
+    file.primitive()["targets"] = { { { "POSITION", target } } };
+    file.primitive()["material"] = 0;
+    file.root["materials"] = { { { "pbrMetallicRoughness", Json::object() },
+                                 { "extensions", Json::parse(kExtensions) } } };
+    file.root["materials"][0]["extensions"].erase("KHR_materials_clearcoat");
+    file.root["materials"][0]["extensions"].erase("KHR_materials_sheen");
+    file.root["materials"][0]["extensions"]["KHR_materials_iridescence"].erase("iridescenceThicknessTexture");
+    file.root["nodes"][0]["camera"] = 0;
+    file.root["nodes"][0]["extensions"] =
+            Json::parse(R"({ "KHR_node_visibility": { "visible": false }, "KHR_lights_punctual": { "light": 0 } })");
+    file.root["cameras"] = Json::parse(R"([ { "type": "orthographic", "orthographic": { "xmag": 1, "ymag": 1,
+        "znear": 0, "zfar": 2 } } ])");
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
+    Json& animation = file.root["animations"][0];
+    const size_t times = file.add(std::vector<float>{ 0, 1 }, kFloat, "SCALAR", 1);
+    const std::array outputs{ file.add(std::vector<float>{ -9, 9 }, kFloat, "SCALAR", 1),
+                              file.add(std::vector<uint8_t>{ 0, 1 }, kUByte, "SCALAR", 1),
+                              file.add(std::vector<float>(6, 0.5f), kFloat, "VEC3", 3) };
+    for (const size_t output : outputs)
+        animation["samplers"].push_back({ { "input", times }, { "output", output }, { "interpolation", "STEP" } });
+    const std::pair<const char*, int> channels[] = {
+        { "/nodes/0/extensions/KHR_node_visibility/visible", 1 },
+        { "/materials/0/pbrMetallicRoughness/roughnessFactor", 0 },
+        { "/materials/0/extensions/KHR_materials_volume/attenuationColor", 2 },
+        { "/materials/0/extensions/KHR_materials_ior/ior", 0 },
+        { "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 0 },
+        { "/cameras/0/orthographic/ymag", 0 },
+        { "/cameras/0/orthographic/zfar", 0 },
+        { "/nodes/0/translation", 2 },
+        { "/meshes/0/weights/0", 0 },
+    };
+    for (auto const& [pointer, sampler] : channels)
+        animation["channels"].push_back(
+                { { "sampler", sampler },
+                  { "target",
+                    { { "path", "pointer" },
+                      { "extensions", { { "KHR_animation_pointer", { { "pointer", pointer } } } } } } } });
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 /// A model of the asset folder with its buffer embedded, so that its bytes can be damaged, too.
 Specimen assetSpecimen(std::filesystem::path const& path) {
     const Bytes file = *readGltfFile(path);
@@ -157,7 +202,7 @@ Specimen basisSpecimen() {
 }
 
 std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen(), pointerSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelParts: what animations change of a copy of a model beside its nodes: KHR_animation_pointer.
+///   In      values of the model's animated properties.
+///   Out     materials that the copy shares with no other one, lights, cameras, and which parts are shown.
+///   Thread  app.   Fails: std::bad_alloc.
+///   Memory  the data of the materials, lights and cameras of a model that has animated properties; else nothing.
+///   Cost    a change of a material: its parameters are derived again, as at loading, so that a copy at some time has
+///           the bits of a file with these values.
+#pragma once
+
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <span>
+#include <vector>
+
+namespace filament::engine {
+
+class ModelParts {
+public:
+    /// `model` and `scene` outlive it. `root`: of a copy of the model.
+    ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root);
+
+    /// Shows the values of the properties with a mark; both parallel to Model::Impl::properties. The copy is left alone
+    /// where the program removed parts of it.
+    void write(std::span<const float4> values, std::span<const uint8_t> isMoved);
+
+private:
+    void writeMaterial(size_t animated, std::span<const float4> values, std::span<const uint8_t> isMoved);
+    void writeLights(std::span<const uint8_t> isMoved);
+
+    Model::Impl const& mModel;
+    Scene::Impl& mScene;
+    Node mRoot;
+    std::vector<assets::MaterialData> mMaterials; // parallel to the animated materials of the model
+    std::vector<assets::LightData> mLights;       // parallel to those of the file
+    std::vector<uint8_t> mIsVisible;              // by node of the model, of its own
+};
+
+/// Hides what a new copy does not show at rest.
+void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root);
+
+} // namespace filament::engine
