@@ -107,6 +107,7 @@ bool isDirtOf(FrameContext const& context, Target const& target) {
 
 /// `target`: pixels.
 void checkPlace(View const& view, uint2 target) {
+    FILAMENT_ASSERT(view.size.x > 0 && view.size.y > 0, "a view has at least one pixel");
     if (!view.viewport) {
         FILAMENT_ASSERT(view.size == target,
                         "a view without a viewport has the size of its swap chain or render target");

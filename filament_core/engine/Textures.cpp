@@ -30,9 +30,12 @@ TextureType textureType(TextureKind kind) {
     return TextureType::Texture2D;
 }
 
+constexpr uint32_t kMostLayers = 2048; // of the desktop's drivers; devices may have fewer
+
 backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
     FILAMENT_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0,
                     "a texture has at least one texel, layer and level");
+    FILAMENT_ASSERT(desc.layers <= kMostLayers, "a texture has at most 2048 layers");
     FILAMENT_ASSERT(desc.kind != TextureKind::Cube || (desc.layers == 6 && desc.width == desc.height),
                     "a cube has six square layers");
     FILAMENT_ASSERT(desc.kind != TextureKind::CubeArray || (desc.layers % 6 == 0 && desc.width == desc.height),
@@ -150,17 +153,22 @@ Texture Engine::Impl::createTexture(filament::TextureDesc const& desc, engine::B
     return draft.keep();
 }
 
+/// Of the vertices that every device takes (OpenGL ES 3.1, table 20.40; Vulkan's required limits).
+constexpr uint32_t kMostStride = 2048;
+
 VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc, engine::BytesOwner const& holder,
                                               std::optional<scene::MinMax> const& bounds) {
     FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
                     "a vertex buffer has vertices and a stride that is a multiple of 4");
+    FILAMENT_ASSERT(desc.stride <= kMostStride, "a stride is at most 2048 bytes");
     FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
                     "`data` holds vertexCount * stride bytes");
     FILAMENT_ASSERT(desc.attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
     engine::Draft draft(vertexBuffers);
     engine::VertexBufferState& state = draft.state();
     for (AttributeDesc const& attribute : desc.attributes) {
-        FILAMENT_ASSERT(attribute.offset + vertexFormatInfo(attribute.format).bytes <= desc.stride,
+        const uint32_t bytes = vertexFormatInfo(attribute.format).bytes;
+        FILAMENT_ASSERT(bytes <= desc.stride && attribute.offset <= desc.stride - bytes,
                         "an attribute lies inside of the stride");
         state.layout.attributes[state.layout.attributeCount++] = { static_cast<uint8_t>(attribute.attribute), 0,
                                                                    attribute.format,
@@ -207,6 +215,7 @@ IndexBuffer Engine::create(IndexBufferDesc const& desc) {
 IndirectLight Engine::create(IndirectLightDesc const& desc) {
     const PublicCall call(mImpl, "Engine::create(IndirectLightDesc)", desc.name);
     return mImpl->orNone("indirect light", desc.name, [&] {
+        FILAMENT_ASSERT(desc.specularLevels >= 1, "an indirect light has at least one specular level");
         engine::Draft draft(mImpl->indirectLights);
         engine::IndirectLightState& state = draft.state();
         state.light.specular = mImpl->textureHandle(desc.specular);
