@@ -272,6 +272,34 @@ TEST_F(CommandLine, AModelThatCannotBeDrawnAsItSaysEndsWithAStatus) {
                  "none.png");
 }
 
+// KHR_animation_pointer: the triangle begins to shine. Its keys are numbers of its positions.
+TEST_F(CommandLine, TimeMovesWhatAnimationsPointTo) {
+    auto file = nlohmann::json::parse(triangleGltf());
+    file["materials"] = nlohmann::json::parse(
+            R"([ { "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 100000 } } } ])");
+    file["meshes"][0]["primitives"][0]["material"] = 0;
+    const auto add = [&](size_t offset, const char* type) {
+        file["accessors"].push_back({ { "bufferView", 0 },
+                                      { "byteOffset", offset },
+                                      { "componentType", 5126 },
+                                      { "count", 2 },
+                                      { "type", type } });
+        return file["accessors"].size() - 1;
+    };
+    const size_t times = add(8, "SCALAR"), colors = add(0, "VEC3"); // 0, 1; black, red
+    nlohmann::json target{ { "path", "pointer" } };
+    target["extensions"]["KHR_animation_pointer"]["pointer"] = "/materials/0/emissiveFactor";
+    file["animations"] = { { { "samplers", { { { "input", times }, { "output", colors } } } },
+                             { "channels", { { { "sampler", 0 }, { "target", target } } } } } };
+    writeText(sFolder / "shining.gltf", file.dump());
+    for (const char* seconds : { "0", "1" }) {
+        const Outcome outcome = run(std::string("shining.gltf --size 32x32 --time ") + seconds + " --out at" + seconds);
+        EXPECT_EQ(outcome.status, 0) << outcome.errors;
+        EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 % of pixels"));
+    }
+    EXPECT_NE(textOf(sFolder / "at0" / "gles.png"), textOf(sFolder / "at1" / "gles.png"));
+}
+
 TEST_F(CommandLine, AZeroSizeIsRefused) { expectRefused("triangle.gltf --size 0x0", { "--size", "0x0" }); }
 
 TEST_F(CommandLine, AnUnknownBackendIsRefused) {

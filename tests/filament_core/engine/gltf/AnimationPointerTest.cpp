@@ -17,7 +17,7 @@ namespace filament {
 namespace {
 
 /// 4 x 4 texels of several colours.
-constexpr const char* kTexels =
+constexpr const char* kPicture =
         "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAYAAACp8Z5+AAAAP0lEQVR42iWKIRaAMBTD/sF6kn8a5CRyEomcRE72VqE8REWSFjpo"
         "n9kFWlR7gCetO/Kh+KpSvSJ2HpqBvyLzAu/9LYz/yFTBAAAAAElFTkSuQmCC";
 
@@ -125,7 +125,7 @@ Bytes glbWith(std::vector<Pointed> const& channels, std::string text = kFile) {
                                   i + 4, channels[i].pointer);
     }
     const bool isAnimated = !channels.empty();
-    replace(text, "$TEXELS", kTexels);
+    replace(text, "$TEXELS", kPicture);
     replace(text, "$ACCESSORS",
             isAnimated ? R"(, { "bufferView": 1, "componentType": 5126, "count": 1, "type": "SCALAR" })" + accessors
                        : "");
