@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfPointer.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -40,7 +42,7 @@ uint32_t indexFrom(std::string const& token, size_t count) {
 /// The texture whose path `tokens` have at `at`.
 TexturePath const* textureAt(std::span<const std::string> tokens) {
     for (TexturePath const& path : texturePaths()) {
-        const std::vector<std::string> own = tokensOf("/" + std::string(path.path));
+        const std::vector<std::string> own = tokensOf(fmt::format("/{}", path.path));
         if (own.size() <= tokens.size() && std::ranges::equal(own, tokens.first(own.size()))) return &path;
     }
     return nullptr;

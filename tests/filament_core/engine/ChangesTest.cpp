@@ -30,8 +30,8 @@ struct Vertex {
 std::vector<Vertex> vertices(prepare::Random& random) {
     std::vector<Vertex> all;
     const auto number = [&](double low, double high) { return static_cast<float>(random.within(low, high)); };
-    for (int y = 0; y < 7; ++y)
-        for (int x = 0; x < 7; ++x)
+    for (float y = 0; y < 7; ++y)
+        for (float x = 0; x < 7; ++x)
             all.push_back(
                     { { x / 3.5f - 0.86f + number(-0.1, 0.1), y / 3.5f - 0.86f + number(-0.1, 0.1), number(0, 0.3) },
                       { 0, 0, 0, 1 },

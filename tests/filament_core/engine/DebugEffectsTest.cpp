@@ -183,7 +183,9 @@ TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
     });
     for (uint32_t x = 0; x < 64; ++x) {
         const int3 color = codesAt(images[0], x, 16);
-        if (x >= 49) EXPECT_EQ(color, int3(0)) << x;
+        if (x >= 49) {
+            EXPECT_EQ(color, int3(0)) << x;
+        }
         for (int c = 0; x < 47 && c < 3; ++c) EXPECT_NEAR(color[c], 255 * 0.8, 0.51) << x << ": a fifth is new";
     }
 }

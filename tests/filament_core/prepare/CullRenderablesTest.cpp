@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <vector>
@@ -122,7 +123,7 @@ TEST_F(CullTest, OnlyTrianglesThatStayInTheirBoxAreTooSmall) {
 
 TEST_P(CullCountTest, SeesExactlyTheLayersOfTheView) {
     addMixture(GetParam());
-    for (const Layers visible : { 0x01, 0x02, 0x84, 0x7F, 0x00, 0xFE }) {
+    for (const Layers visible : std::initializer_list<Layers>{ 0x01, 0x02, 0x84, 0x7F, 0x00, 0xFE }) {
         space.visibleLayers = visible;
         for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
     }
