@@ -128,12 +128,15 @@ std::vector<uint8_t> visibleAtRest(Model::Impl const& model) {
     return isVisible;
 }
 
-void setIntensity(Scene::Impl& scene, Light light, assets::LightData const& data, bool isShown) {
+/// Changes one property of a light: what the program set of the others stays.
+void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data, PropertyName property, bool isShown) {
+    if (!scene.data.lights.index.contains(light)) return;
     scene::LightRecord record = scene.data.lights.records[scene.data.lights.index.at(light)];
-    record.color = data.color;
-    record.intensity = isShown ? data.intensity : 0;
-    record.rangeMeters = data.rangeMeters;
-    if (record.type == scene::LightRecord::Type::Spot) {
+    if (property == LightColor) record.color = data.color;
+    if (property == LightIntensity) record.intensity = isShown ? data.intensity : 0;
+    if (property == LightRange) record.rangeMeters = data.rangeMeters;
+    const bool isCone = property == LightInnerCone || property == LightOuterCone;
+    if (isCone && record.type == scene::LightRecord::Type::Spot) { // one limits the other
         record.innerConeRadians = data.innerConeRadians;
         record.outerConeRadians = data.outerConeRadians;
     }
@@ -159,8 +162,8 @@ void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy,
     }
     for (size_t i = 0; i < copy.lights.size(); ++i) {
         Model::Impl::PartLight const& part = model.lights[i];
-        if (isChanging[part.node] && scene.data.lights.index.contains(copy.lights[i]))
-            setIntensity(scene, copy.lights[i], lights[part.source], isShown[part.node]);
+        if (isChanging[part.node])
+            changeLight(scene, copy.lights[i], lights[part.source], LightIntensity, isShown[part.node]);
     }
 }
 
@@ -229,13 +232,11 @@ void ModelParts::writeLights(std::span<const uint8_t> isMoved) {
     const std::vector<uint8_t> isShown = shownNodes(mModel, mIsVisible);
     for (size_t i = 0; i < copy.lights.size(); ++i) {
         Model::Impl::PartLight const& part = mModel.lights[i];
-        bool isChanged = false;
         for (size_t k = 0; k < isMoved.size(); ++k) {
             AnimatedProperty const& property = mModel.properties[k];
-            isChanged |= isMoved[k] && property.owner == PropertyOwner::Light && property.object == part.source;
+            if (isMoved[k] && property.owner == PropertyOwner::Light && property.object == part.source)
+                changeLight(mScene, copy.lights[i], mLights[part.source], property.name, isShown[part.node]);
         }
-        if (isChanged && mScene.data.lights.index.contains(copy.lights[i]))
-            setIntensity(mScene, copy.lights[i], mLights[part.source], isShown[part.node]);
     }
 }
 
