@@ -26,6 +26,8 @@ def why_not():
         return f"{', '.join(missing)} missing; install slurmctld, slurmd, slurm-client and munge"
     if os.geteuid() != 0:
         return "slurmd needs root"
+    if not os.path.ismount("/sys/fs/cgroup"):
+        return "slurmd needs control groups; mount a file system of them at /sys/fs/cgroup"
     return None
 
 

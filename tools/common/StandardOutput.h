@@ -21,6 +21,10 @@ inline Error fullOutput(int error) {
 inline Result<void> finishOutput() {
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return {};
+    if (errno == 0) { // an earlier line failed; another one says why, if it still does
+        std::fputc('\n', stdout);
+        std::fflush(stdout);
+    }
     return fullOutput(errno);
 }
 
