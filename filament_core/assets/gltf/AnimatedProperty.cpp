@@ -319,7 +319,7 @@ void setValue(LightData& light, PropertyName name, float4 value) {
 
 void setValue(CameraData& camera, PropertyName name, float4 value) {
     if (name == CameraXmag || name == CameraYmag) {
-        const float size = std::clamp(std::abs(value.x), kSmallest, kLargestMeters);
+        const float size = std::isnan(value.x) ? kSmallest : std::clamp(std::abs(value.x), kSmallest, kLargestMeters);
         const float width = name == CameraXmag ? size : camera.halfHeightMeters * camera.aspect;
         if (name == CameraYmag) camera.halfHeightMeters = size;
         camera.aspect = std::clamp(width / camera.halfHeightMeters, kSmallest, kLargestMeters);
