@@ -17,8 +17,8 @@
 namespace filament::assets {
 namespace {
 
-constexpr uint32_t kMaxAvifPixels =
-        1u << 26; ///< while decoding, a pixel has up to 8 bytes here and as many in the codec
+/// While decoding, a pixel has up to 8 bytes here and as many in the codec.
+constexpr uint32_t kMaxAvifPixels = 1u << 26;
 
 struct AvifDecoderEnds {
     void operator()(avifDecoder* decoder) const { avifDecoderDestroy(decoder); }

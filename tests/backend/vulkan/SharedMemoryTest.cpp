@@ -59,6 +59,7 @@ TEST_F(SharedMemoryTest, ALargeTextureWaitsForWhatASmallOneBeforeItHasNotCovered
     clear(makeTarget(kSide, kSide), Format::RGBA8, 0); // before this pass the small one becomes readable
     clear(last, Format::RG16F, 1); // the layer looks for the write of the samples, of which the small one hides a part
     finish();
+    EXPECT_EQ(sink.errors.size(), 0u) << "messages of the validation layers, which follow";
 }
 
 TEST_F(SharedMemoryTest, EachLevelWaitsForThoseWhoHadItsMemory) {
@@ -79,6 +80,7 @@ TEST_F(SharedMemoryTest, EachLevelWaitsForThoseWhoHadItsMemory) {
         endPass();
     }
     finish();
+    EXPECT_EQ(sink.errors.size(), 0u) << "messages of the validation layers, which follow";
 }
 
 TEST_F(SharedMemoryTest, ATextureThatDoesNotFitHasMemoryOfItsOwn) {
