@@ -39,13 +39,28 @@ uint32_t indexFrom(std::string const& token, size_t count) {
     return index < count ? index : kNone;
 }
 
-/// The texture whose path `tokens` have at `at`.
-TexturePath const* textureAt(std::span<const std::string> tokens) {
-    for (TexturePath const& path : texturePaths()) {
-        const std::vector<std::string> own = tokensOf(fmt::format("/{}", path.path));
-        if (own.size() <= tokens.size() && std::ranges::equal(own, tokens.first(own.size()))) return &path;
+/// Of the tables, split once: a file may have many pointers.
+struct TableTokens {
+    std::vector<std::vector<std::string>> rows, textures; ///< parallel to propertyRows() and texturePaths()
+
+    TableTokens() {
+        for (PropertyRow const& row : propertyRows()) rows.push_back(tokensOf(row.pointer));
+        for (TexturePath const& path : texturePaths()) textures.push_back(tokensOf(fmt::format("/{}", path.path)));
     }
-    return nullptr;
+};
+
+TableTokens const& tableTokens() {
+    static const TableTokens tokens;
+    return tokens;
+}
+
+/// The texture with whose path `tokens` begin; kNone: none.
+size_t textureAt(std::span<const std::string> tokens) {
+    auto const& textures = tableTokens().textures;
+    const auto found = std::ranges::find_if(textures, [&](std::vector<std::string> const& own) {
+        return own.size() <= tokens.size() && std::ranges::equal(own, tokens.first(own.size()));
+    });
+    return found == textures.end() ? kNone : static_cast<size_t>(found - textures.begin());
 }
 
 /// What a pointer has in the places of a row's {} and {texture}.
@@ -58,12 +73,13 @@ struct Match {
 std::optional<Match> matched(PropertyRow const& row, std::vector<std::string> const& tokens) {
     Match match;
     size_t at = 0;
-    for (std::string const& wanted : tokensOf(row.pointer)) {
+    for (std::string const& wanted : tableTokens().rows[static_cast<size_t>(&row - propertyRows().data())]) {
         if (at >= tokens.size()) return std::nullopt;
         if (wanted == "{texture}") {
-            match.texture = textureAt(std::span(tokens).subspan(at));
-            if (!match.texture) return std::nullopt;
-            at += static_cast<size_t>(std::ranges::count(std::string_view(match.texture->path), '/')) + 1;
+            const size_t texture = textureAt(std::span(tokens).subspan(at));
+            if (texture == kNone) return std::nullopt;
+            match.texture = &texturePaths()[texture];
+            at += tableTokens().textures[texture].size();
             continue;
         }
         if (wanted == "{}") {

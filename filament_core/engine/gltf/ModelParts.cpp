@@ -150,10 +150,10 @@ void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data,
 }
 
 /// Renderables and lights of visible nodes are shown, those of others are not; the program keeps what no animation
-/// hides. `lights`: of the file.
+/// hides. `isChanging`: changingNodes(). `lights`: of the file.
 void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy, std::span<const uint8_t> isVisible,
-          std::span<const assets::LightData> lights) {
-    const std::vector<uint8_t> isShown = shownNodes(model, isVisible), isChanging = changingNodes(model);
+          std::span<const uint8_t> isChanging, std::span<const assets::LightData> lights) {
+    const std::vector<uint8_t> isShown = shownNodes(model, isVisible);
     for (size_t i = 0; i < copy.renderables.size(); ++i) {
         const Renderable renderable = copy.renderables[i];
         const uint32_t node = model.renderables[i].ofNode;
@@ -175,6 +175,7 @@ ModelParts::ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root)
     for (Model::Impl::AnimatedMaterial const& material : model.animatedMaterials) mMaterials.push_back(material.data);
     mLights = model.lightsOfFile;
     mIsVisible = visibleAtRest(model);
+    mIsChanging = changingNodes(model);
 }
 
 void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> isMoved) {
@@ -203,7 +204,7 @@ void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> 
         }
     }
     for (size_t i = 0; i < mMaterials.size(); ++i) writeMaterial(i, values, isMoved);
-    if (movesVisibility) show(mModel, mScene, *copy, mIsVisible, mLights);
+    if (movesVisibility) show(mModel, mScene, *copy, mIsVisible, mIsChanging, mLights);
     if (movesLights) writeLights(isMoved);
 }
 
@@ -243,7 +244,7 @@ void ModelParts::writeLights(std::span<const uint8_t> isMoved) {
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root) {
     const std::vector<uint8_t> isVisible = visibleAtRest(model);
     if (std::ranges::count(isVisible, uint8_t{ 0 }) > 0)
-        show(model, scene, *scene.copies.find(root), isVisible, model.lightsOfFile);
+        show(model, scene, *scene.copies.find(root), isVisible, changingNodes(model), model.lightsOfFile);
 }
 
 } // namespace filament::engine

@@ -35,6 +35,7 @@ private:
     std::vector<assets::MaterialData> mMaterials; // parallel to the animated materials of the model
     std::vector<assets::LightData> mLights;       // parallel to those of the file
     std::vector<uint8_t> mIsVisible;              // by node of the model, of its own
+    std::vector<uint8_t> mIsChanging; // by node of the model: whether an animation can change if it is shown
 };
 
 /// Hides what a new copy does not show at rest.
