@@ -23,10 +23,10 @@ protected:
 
 inline std::string workersName(testing::TestParamInfo<int> const& parameter) { return std::to_string(parameter.param); }
 
-/// False if `condition` does not become true within ten seconds, so that a hanging test fails instead.
+/// False if `condition` does not become true within a minute, so that a hanging test fails instead.
 template <class Condition>
 bool becomesTrue(Condition&& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!condition()) {
         if (std::chrono::steady_clock::now() > deadline) return false;
         std::this_thread::yield();

@@ -272,12 +272,12 @@ TEST(Program, CtrlCEndsTheRunWithAReportOfWhatIsDone) {
                                          {},
                                          out / "log.txt" });
     ASSERT_TRUE(child.ok()) << child.error().message;
-    for (int i = 0; i < 6000 && readJournal(journal).cases.empty(); ++i)
+    for (int i = 0; i < 60000 && readJournal(journal).cases.empty(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     ASSERT_FALSE(readJournal(journal).cases.empty());
     ::kill(child->id(), SIGINT);
     std::optional<tools::ChildEnd> end;
-    for (int i = 0; i < 12000 && !end; ++i) {
+    for (int i = 0; i < 60000 && !end; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         end = child->poll();
     }

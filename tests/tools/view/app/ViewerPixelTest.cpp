@@ -140,8 +140,7 @@ TEST(ViewerPixels, AFrameMayBeSavedWhilePixelsAreOnTheirWay) {
     headless.viewer->document().view.debugView = DebugView::Numerics;
     headless.viewer->perform(Action::Compare);
     headless.click({ 320, 200 });
-    for (int i = 0; i < 1000 && !headless.viewer->numerics().isWaiting(); ++i) headless.viewer->step(0.01);
-    EXPECT_TRUE(headless.viewer->numerics().isWaiting());
+    EXPECT_TRUE(headless.stepUntil([&] { return headless.viewer->numerics().isWaiting(); }));
     headless.viewer->perform(Action::SaveFrame);
     headless.settle();
     EXPECT_THAT(headless.viewer->takeMessages(), testing::Contains(HasSubstr("filament-replay draws it again")));

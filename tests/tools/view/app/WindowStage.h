@@ -53,6 +53,7 @@ protected:
             const bool drew = mViewer->step(0.01);
             quiet = events.empty() && !drew && !mViewer->isLoading() && mViewer->idleSeconds() > 0.1 ? quiet + 1 : 0;
         }
+        EXPECT_EQ(quiet, 3) << "still busy after three minutes";
         mViewer->stage().engine().waitIdle();
     }
     void handle(InputEvent const& event) {

@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -108,12 +109,15 @@ protected:
         dialog.draw();
         ImGui::Render();
     }
+    /// Until the disk has answered, however many frames that takes.
     void settle() {
         for (int i = 0; i < 3; ++i) frame();
-        for (int i = 0; i < 5000 && dialog.isReading(); ++i) {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (dialog.isReading() && std::chrono::steady_clock::now() < deadline) {
             std::this_thread::yield();
             frame();
         }
+        EXPECT_FALSE(dialog.isReading()) << "after a minute";
         frame();
     }
     void open(FilePurpose purpose = FilePurpose::Open, std::string name = {}) {
