@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cmgen: bakes an environment into NAME.ktx2, which loadEnvironment() takes in place of the picture, and shows what the
-// engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done, 1: it failed
-// (one line on standard error), 2: wrong arguments.
+// engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done; 1: it failed,
+// or the arguments are wrong (one line on standard error).
 #include "base/math/Half.h"
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
@@ -10,17 +10,18 @@
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCpp.h"
-#include "tools/common/StandardOutput.h"
+#include "tools/common/CommandLine.h"
+#include "tools/common/Program.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
-
-#include <unistd.h>
 
 using namespace filament;
 using namespace filament::assets;
@@ -123,8 +124,7 @@ Result<void> writeDfg(std::filesystem::path const& path, Image const& table) {
 }
 
 void printProgress(std::string_view stage, size_t done, size_t total) {
-    std::fprintf(stderr, "\r\033[K%.*s %zu/%zu", static_cast<int>(stage.size()), stage.data(), done, total);
-    std::fflush(stderr);
+    tools::showProgress(fmt::format("{} {}/{}", stage, done, total));
 }
 
 void printLoss(const char* name, EncodeLoss const& loss) {
@@ -152,19 +152,18 @@ Result<void> writePackage(Arguments const& arguments, EnvironmentData const& dat
                                                   : writeBakedEnvironment(data, file);
 }
 
-Result<void> run(Arguments const& arguments) {
+Result<void> bake(Arguments const& arguments) {
     if (Result<void> checked = checkPackageFile(arguments); !checked) return checked;
     jobs::JobSystem jobs({ .workers = arguments.workers });
-    const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    EnvironmentOptions options{ .useCache = false,
-                                .faceSize = arguments.size,
-                                .samples = arguments.samples,
-                                .format = arguments.format,
-                                .mapping = arguments.mapping };
-    if (terminal) options.progress = printProgress;
+    const EnvironmentOptions options{ .useCache = false,
+                                      .faceSize = arguments.size,
+                                      .samples = arguments.samples,
+                                      .format = arguments.format,
+                                      .mapping = arguments.mapping,
+                                      .progress = printProgress };
     const auto start = std::chrono::steady_clock::now();
     const Result<EnvironmentData> data = loadEnvironment(arguments.environment, jobs, options);
-    if (terminal) std::fprintf(stderr, "\r\033[K");
+    tools::clearProgress();
     if (!data) return data.error();
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
 
@@ -182,16 +181,16 @@ Result<void> run(Arguments const& arguments) {
                 data->statistics.fromCache ? "read" : "baked", elapsed.count());
     printLoss("specular", data->statistics.specularLoss);
     printLoss("sky", data->statistics.skyLoss);
-    return tools::finishOutput();
+    return {};
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+/// Empty after the help text.
+Result<std::optional<Arguments>> parse(int argc, const char* const* argv) {
     Arguments arguments;
     CLI::App app(
             "Bakes an equirectangular .hdr or .exr, or a cube map in a .ktx2: NAME.ktx2 for the engine, and to look at "
-            "specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr");
+            "specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr",
+            "cmgen");
     app.add_option("environment", arguments.environment, "the picture")->required();
     const std::map<std::string, PackageKind> packages{ { "ktx2", PackageKind::Ktx2 }, { "fenv", PackageKind::Fenv } };
     app.add_option("--package", arguments.package,
@@ -217,14 +216,16 @@ int main(int argc, char** argv) {
             ->check(CLI::Range(-1, 256));
     app.add_flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
     app.add_option("--exposure", arguments.exposure, "factor of the previews")->capture_default_str();
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& problem) {
-        if (app.exit(problem) != 0) return 2;
-        return tools::finishOutput() ? 0 : 1;
-    }
-    const Result<void> done = run(arguments);
-    if (done) return 0;
-    std::fprintf(stderr, "cmgen: %s\n", done.error().message.c_str());
-    return 1;
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return parsed.error();
+    return *parsed ? std::optional(std::move(arguments)) : std::nullopt;
 }
+
+int run(Arguments const& arguments) {
+    const Result<void> done = bake(arguments);
+    return done ? 0 : tools::failed(done.error());
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return tools::runProgram("cmgen", argc, argv, parse, run); }

@@ -17,6 +17,7 @@ namespace {
 std::mutex gMutex;
 std::atomic<bool> gProgressShown = false;
 std::string_view gProgram = "filament";
+ProgressPace gPace{ ProgressPace::Clock::now() };
 
 void clearProgressLocked() {
     if (!gProgressShown) return;
@@ -36,10 +37,20 @@ std::string oneLine(std::string_view text) {
 
 void setProgramName(std::string_view name) { gProgram = name; }
 
+bool ProgressPace::isDue(Clock::time_point now) {
+    if (now - mLast < kBetweenProgressLines) return false;
+    mLast = now;
+    return true;
+}
+
 void showProgress(std::string_view text) {
     static const bool sTerminal = ::isatty(STDERR_FILENO) == 1;
-    if (!sTerminal) return;
     const std::lock_guard lock(gMutex);
+    if (!sTerminal) {
+        if (gPace.isDue(ProgressPace::Clock::now()))
+            std::fprintf(stderr, "%s: %s\n", gProgram.data(), oneLine(text).c_str());
+        return;
+    }
     std::fprintf(stderr, "\r\x1b[K%s", oneLine(text).c_str());
     std::fflush(stderr);
     gProgressShown = true;
