@@ -14,6 +14,7 @@
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
+#include "filament_core/prepare/GuardBand.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
@@ -157,12 +158,16 @@ struct Renderer::Impl final : engine::Dependent {
     /// Both only ever grow.
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
-    /// As the view asks for it, at the share of its pixels that there is time for. Depths are not cut.
+    /// As the view asks for it, at the share of its pixels that there is time for. Depths are not cut, and what nothing
+    /// would read is not drawn.
     prepare::ViewInput inputFor(Scene const& scene, View const& view, bool hasDepthTarget) const {
         Effects effects = clamped(view.effects);
         effects.resolution.scale = shares.scale(effects.resolution);
         prepare::ViewInput input = inputOf(view, effects, contentsOf(scene));
-        if (hasDepthTarget) input.size = input.inside(), input.band = 0;
+        const auto looksBeside = [&] {
+            return prepare::looksBesidePicture(scene.impl().upToDate(), input.quality, effects);
+        };
+        if (input.band > 0 && (hasDepthTarget || !looksBeside())) input.size = input.inside(), input.band = 0;
         return input;
     }
 

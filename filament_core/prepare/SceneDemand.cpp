@@ -310,12 +310,6 @@ uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debu
     return min(max(uint2(float2(size) * scale + 0.5f), 1u), size);
 }
 
-uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView) {
-    const bool isGatheredLarger = drawn != size && gathersLarger(quality, debugView);
-    if (!effects.guardBand.enabled || debugView != DebugView::None || isGatheredLarger) return 0;
-    return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
-}
-
 SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;

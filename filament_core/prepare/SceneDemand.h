@@ -203,9 +203,6 @@ float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView deb
 /// The pixels that a view draws of `size`.
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);
 
-/// How many pixels are drawn besides on each side, if `drawn` are those of the picture and `size` those that it shows.
-uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView);
-
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
 bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Demand as a pure function, and as what prepareFrame() finds in scenes: without a device.
 #include "filament_core/prepare/SceneDemand.h"
+#include "filament_core/prepare/GuardBand.h"
+#include "filament_core/scene/SceneData.h"
 
 #include <gtest/gtest.h>
 
@@ -304,12 +306,43 @@ TEST(SceneDemand, DrawsAGuardBandOnlyWhereItIsCutOff) {
     DemandInput input;
     EXPECT_EQ(words(Effect::GuardBand, input), "switched off: guardBand=off");
     input.effects = effects;
-    EXPECT_EQ(words(Effect::GuardBand, input),
-              "a debug view is shown, the target has depth, or gathering enlarges the picture");
+    EXPECT_EQ(
+            words(Effect::GuardBand, input),
+            "nothing looks beside the picture, a debug view is shown, the target has depth, or gathering enlarges the "
+            "picture");
     input.band = 11;
     EXPECT_EQ(words(Effect::GuardBand, input), "11 pixels on each side are drawn and cut off");
     input.effects.guardBand.width = 0;
     EXPECT_EQ(words(Effect::GuardBand, input), "its width is 0");
+}
+
+TEST(SceneDemand, DrawsAGuardBandOnlyForWhatLooksBesideThePicture) {
+    scene::SceneData scene;
+    EXPECT_FALSE(looksBesidePicture(scene, {}, {}));
+    const auto looks = [&](auto const& change) {
+        Quality quality;
+        Effects effects;
+        change(quality, effects);
+        return looksBesidePicture(scene, quality, effects);
+    };
+    EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.ao = AmbientOcclusionTerm::Sao; }));
+    EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.ssr = true; }));
+    EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.antiAliasing = AntiAliasing::Taa; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.bloom.enabled = true; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.lensFlare.enabled = true; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.depthOfField.enabled = true; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.motionBlur.enabled = true; }));
+    EXPECT_FALSE(looks([](Quality& quality, Effects& effects) {
+        quality.antiAliasing = AntiAliasing::Fxaa;
+        quality.upscale = Upscaling::EdgeAdaptive;
+        effects.vignette.enabled = effects.grain.enabled = effects.grading.enabled = effects.autoExposure.enabled =
+                true;
+        effects.chromaticAberration.enabled = effects.sharpening.enabled = effects.fog.enabled = true;
+    })) << "these come after the cut, or look at their own pixel alone";
+    scene::addLight(scene, { .contactShadows = false });
+    EXPECT_FALSE(looksBesidePicture(scene, {}, {}));
+    scene::addLight(scene, { .contactShadows = true });
+    EXPECT_TRUE(looksBesidePicture(scene, {}, {}));
 }
 
 TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {

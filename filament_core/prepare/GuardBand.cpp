@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/GuardBand.h"
+
+#include "filament_core/prepare/SceneDemand.h"
+#include "filament_core/scene/SceneData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace filament::prepare {
+namespace {
+
+bool hasRefraction(scene::SceneData const& scene) {
+    scene::Drawables const& drawables = scene.renderables.drawables;
+    return std::ranges::any_of(std::views::iota(0u, drawables.limit()), [&](uint32_t number) {
+        return drawables.use(number).users > 0 &&
+               drawables[number].material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
+    });
+}
+
+} // namespace
+
+bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, Effects const& effects) {
+    if (quality.ao != AmbientOcclusionTerm::Off || quality.ssr || quality.antiAliasing == AntiAliasing::Taa)
+        return true;
+    if (effects.bloom.enabled || effects.lensFlare.enabled) return true;
+    if (effects.depthOfField.enabled || effects.motionBlur.enabled) return true;
+    if (std::ranges::any_of(scene.lights.records, &scene::LightRecord::contactShadows)) return true;
+    return quality.refraction == RefractionSource::Screen && hasRefraction(scene);
+}
+
+uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView) {
+    const bool isGatheredLarger = drawn != size && gathersLarger(quality, debugView);
+    if (!effects.guardBand.enabled || debugView != DebugView::None || isGatheredLarger) return 0;
+    return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
+}
+
+} // namespace filament::prepare
