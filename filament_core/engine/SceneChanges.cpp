@@ -11,7 +11,14 @@ using engine::PublicCall;
 
 namespace {
 
-bool hasBounds(GeometryDesc const& desc) { return desc.boundsMin.x <= desc.boundsMax.x; }
+constexpr const char* kWrongBounds = "the minimum of the bounds is above their maximum, or no number";
+
+/// Those of nobody have their minimum above their maximum on every axis.
+bool hasBounds(GeometryDesc const& desc) {
+    if (glm::all(glm::greaterThan(desc.boundsMin, desc.boundsMax))) return false;
+    if (!glm::all(glm::lessThanEqual(desc.boundsMin, desc.boundsMax))) misused(kWrongBounds);
+    return true;
+}
 
 /// The deformation of a renderable fits other vertices, too.
 void checkDeformation(Engine::Impl const& engine, scene::Deformation const& deformation, VertexBuffer vertices) {
@@ -107,7 +114,7 @@ void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {
 void Scene::setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax) {
     const PublicCall call(mImpl, "Scene::setBounds(Renderable, float3, float3)");
     const GeometryDesc named{ .boundsMin = boundsMin, .boundsMax = boundsMax };
-    FILAMENT_ASSERT(hasBounds(named), "bounds have a minimum below their maximum");
+    if (!hasBounds(named)) misused(kWrongBounds);
     scene::setBounds(mImpl->changed(), renderable, { boundsMin, boundsMax });
     mImpl->follow(renderable, named);
 }

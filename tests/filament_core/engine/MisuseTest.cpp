@@ -16,6 +16,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -542,6 +543,30 @@ TEST(MisuseOfOwnersDeathTest, WhatWasMovedFromIsNotUsed) {
     const LoadTicket<Model> given(std::move(ticket));
     EXPECT_DEATH((void)ticket.poll(), test::misuseLine("LoadTicket::poll(size_t): the ticket was moved from; use the "
                                                        "one that it was moved to"));
+}
+
+// ---- bounds
+
+TEST(MisuseOfBoundsDeathTest, NoAxisIsTurnedRoundAlone) {
+    World world;
+    Handles& all = world.all;
+    const float kNan = std::numeric_limits<float>::quiet_NaN();
+    const auto line = [](const char* call) {
+        return test::misuseLine(
+                fmt::format("{}: the minimum of the bounds is above their maximum, or no number", call));
+    };
+    for (const float3 low : { float3(2, 0, 0), float3(0, 2, 0), float3(0, 0, 2), float3(0, kNan, 0) }) {
+        EXPECT_DEATH(world.scene.setBounds(all.renderable, low, float3(1)),
+                     line("Scene::setBounds(Renderable, float3, float3)"));
+        const GeometryDesc geometry{
+            .vertices = all.vertices, .indices = all.indices, .boundsMin = low, .boundsMax = float3(1)
+        };
+        EXPECT_DEATH(world.scene.setGeometry(all.renderable, geometry),
+                     line("Scene::setGeometry(Renderable, GeometryDesc)"));
+    }
+    EXPECT_DEATH(world.scene.setBounds(all.renderable, kNoBoundsMin, kNoBoundsMax),
+                 line("Scene::setBounds(Renderable, float3, float3)"));
+    world.scene.setBounds(all.renderable, float3(1), float3(1)); // a point
 }
 
 // ---- threads
