@@ -12,13 +12,13 @@ void keepMoving(Document& document, Document const& current) {
     if (document.model.file == current.model.file) document.playback = current.playback;
 }
 
+} // namespace
+
 bool isSameEdit(Document const& a, Document const& b) {
     Document other = b;
     keepMoving(other, a);
     return a == other;
 }
-
-} // namespace
 
 void History::note(Document const& document, bool isEditing) {
     if (isEditing || isSameEdit(document, mNow)) return;

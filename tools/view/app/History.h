@@ -11,6 +11,9 @@
 
 namespace filament::view {
 
+/// Whether they differ in nothing but camera, playback and size.
+bool isSameEdit(Document const& a, Document const& b);
+
 class History {
 public:
     static constexpr size_t kSteps = 100;

@@ -99,10 +99,13 @@ public:
             mViewer.step(std::chrono::duration<double>(now - last).count());
             last = now;
             printMessages();
-            if (mViewer.isClosed()) return; // its stage may be gone
+            if (mViewer.isClosed()) break; // its stage may be gone
             followFullScreen();
             noteFrames();
         }
+        mViewer.keepEdits();
+        printMessages();
+        if (mViewer.isClosed()) return;
         mViewer.stage().engine().waitIdle();
         noteFrames();
     }

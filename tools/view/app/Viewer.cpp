@@ -57,6 +57,7 @@ Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget con
         : mOptions(options), mTarget(target), mDocument(std::move(document)), mFirstCamera(mDocument.view.camera),
           mUi(target.scale), mInput(target.clipboard), mHistory(mDocument), mRecent(options.recentFiles) {
     mDocument.view.size = max(target.pixels, uint2(1));
+    mSaved = mDocument;
     if (!options.model.empty())
         (void)mRecent.add(options.model); // a list that cannot be written is no reason to say so
     mPanels.fileDialog.recent = mRecent.files();

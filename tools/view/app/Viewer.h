@@ -69,6 +69,9 @@ public:
     /// more, it saves the document, says where, and is closed.
     void setBackend(Backend backend);
     bool isClosed() const { return mIsClosed; }
+    /// For the end of a window: a document with edits that no file has goes to last.json beside the recent files; a
+    /// message says so.
+    void keepEdits();
     bool isLoading() const { return mStage && mStage->progress().isLoading; }
     bool wantsFullScreen() const { return mIsFullScreen; }
 
@@ -137,6 +140,7 @@ private:
     ViewerOptions mOptions;
     ViewerTarget mTarget;
     Document mDocument;
+    Document mSaved; ///< as it was opened, or saved last
     Camera mFirstCamera{};
     std::unique_ptr<Stage> mStage;
     Owned<SwapChain> mChain;

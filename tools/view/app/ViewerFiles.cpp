@@ -87,6 +87,15 @@ void Viewer::saveDocumentFile() {
     const std::filesystem::path file = freshName(".json");
     const Result<void> saved = saveDocument(file, mDocument);
     note(saved ? fmt::format("saved {}", file.string()) : saved.error().message);
+    if (saved) mSaved = mDocument;
+}
+
+void Viewer::keepEdits() {
+    if (mOptions.recentFiles.empty() || isSameEdit(mDocument, mSaved)) return;
+    const std::filesystem::path file = mOptions.recentFiles.parent_path() / "last.json";
+    const Result<void> saved = saveDocument(file, mDocument);
+    note(saved ? fmt::format("edits that were not saved: filament-view --document {} opens them", file.string())
+               : saved.error().message);
 }
 
 void Viewer::savePicture() {

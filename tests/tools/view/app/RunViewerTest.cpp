@@ -93,6 +93,7 @@ TEST_F(RunViewer, OpensPanelsAndRemembersItsModel) {
     EXPECT_THAT(error, testing::HasSubstr("--select nobody: the model has no node of this name"));
     EXPECT_TRUE(loadImage(picture).ok());
     EXPECT_THAT(RecentFiles(recentFilesPath()).files(), testing::ElementsAre(showcaseFiles().model));
+    EXPECT_FALSE(fs::exists(recentFilesPath().replace_filename("last.json"))) << "nothing was edited";
     unsetenv("XDG_STATE_HOME");
 }
 

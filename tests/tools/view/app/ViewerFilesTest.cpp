@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include <ctime>
+#include <fstream>
 #include <thread>
 
 namespace filament::view {
@@ -193,6 +194,29 @@ TEST_P(ViewerFiles, DocumentsAndCamerasTravelAsText) {
     viewer().takeMessages();
     headless->press('V', { .control = true });
     EXPECT_THAT(viewer().takeMessages(), testing::ElementsAre(HasSubstr("the clipboard: this is no JSON text")));
+}
+
+TEST_P(ViewerFiles, EditsThatWereNotSavedAreKept) {
+    const fs::path last = folder / "state/last.json";
+    settle();
+    viewer().document().view.camera.exposure.iso *= 2; // no edit
+    viewer().keepEdits();
+    EXPECT_FALSE(fs::exists(last));
+    viewer().document().view.effects.bloom.enabled = true;
+    viewer().perform(Action::SaveDocument);
+    viewer().keepEdits();
+    EXPECT_FALSE(fs::exists(last)) << "a file has it";
+    viewer().document().view.effects.bloom.strength = 0.7f;
+    viewer().perform(Action::Quit);
+    viewer().keepEdits();
+    const Result<Document> kept = loadDocument(last);
+    ASSERT_TRUE(kept.ok()) << kept.error().message;
+    EXPECT_EQ(*kept, viewer().document());
+    EXPECT_THAT(viewer().takeMessages(), testing::Contains(HasSubstr(last.string())));
+    fs::remove_all(folder / "state");
+    std::ofstream(folder / "state") << "in the way";
+    viewer().keepEdits();
+    EXPECT_THAT(viewer().takeMessages(), testing::Contains(HasSubstr("last.json"))) << "not kept, and said so";
 }
 
 TEST_P(ViewerFiles, ControlOOpensTheDialogAndKeysAreItsOwn) {
