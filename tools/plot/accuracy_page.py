@@ -14,6 +14,7 @@ from style import BLUE, ORANGE, BadInput, field, finite, load_json
 COLORS, TITLES = {"vulkan": BLUE, "gles": ORANGE}, {"vulkan": "Vulkan", "gles": "OpenGL ES"}
 WIDTH, HEIGHT = 460, 250  # of a figure, in its own units
 LEFT, RIGHT, TOP, BOTTOM = 58, 14, 14, 40
+WHOLE = ("preset", "budget")  # these choose everything, not one value
 COMMAND = "build/release/bin/filament-accuracy"
 
 STYLE = """
@@ -108,6 +109,50 @@ def figure(effect, values, backends):
                      f'({value["milliseconds"][backend]:.4g} ms), {TITLES.get(backend, backend)}')
             parts.append(mark(to_x(value["ratio"][backend]), to_y(value["ownError"]), row, backend, title))
     return "".join(parts) + "</svg>"
+
+
+WIDE, HIGH = 1000, 420
+FARTHEST = 2.2  # times the default: what takes longer lies at the edge
+
+
+def dot(x, y, backend, is_whole, name, title):
+    """Of all effects, so without a number; it leads to its effect."""
+    size = 7 if is_whole else 4
+    corner = size if backend == "vulkan" else 1
+    return (f'<a href="#{escaped(name)}"><rect x="{x - size:.1f}" y="{y - size:.1f}" width="{2 * size}" height="{2 * size}" rx="{corner}" '
+            f'fill="{COLORS[backend]}" fill-opacity="{1 if is_whole else 0.6}" stroke="{"#222" if is_whole else "#fff"}">'
+            f'<title>{escaped(title)}</title></rect></a>')
+
+
+def whole_frames(data):
+    """Every value of every effect that the scene of whole frames shows: what it changes of the picture, and of its time."""
+    points = [(effect, value, backend) for effect in data["effects"] for value in effect["values"] for backend in COLORS
+              if effect["cost"] == "frame" and effect.get("linear") and effect["frame"] == data["frame"]
+              and backend in value.get("ratio", {}) and finite(value, "totalError", effect["name"]) > 0]
+    if not points:
+        return ""
+    times = [min(value["ratio"][backend], FARTHEST) for _, value, backend in points]
+    to_x = lambda time: LEFT + 12 + (time - min(times)) / max(max(times) - min(times), 1e-9) * (WIDE - LEFT - RIGHT - 24)
+    most = 1.05 * max(value["totalError"] for _, value, _ in points)
+    to_y = lambda error: HIGH - BOTTOM - error / most * (HIGH - BOTTOM - TOP)
+    parts = [f'<svg viewBox="0 0 {WIDE} {HIGH}" role="img" aria-label="error of the whole frame over its time, all values">']
+    for i in range(5):
+        y = to_y(most * i / 4)
+        parts.append(f'<path d="M{LEFT} {y:.1f}H{WIDE - RIGHT}" stroke="#e4e4e4"/><text x="{LEFT - 5}" y="{y + 4:.1f}" '
+                     f'text-anchor="end">{percent(most * i / 4)}</text>')
+    for i in range(6):
+        time = min(times) + (max(times) - min(times)) * i / 5
+        x = to_x(time)
+        parts.append(f'<path d="M{x:.1f} {TOP}V{HIGH - BOTTOM}" stroke="#e4e4e4"/><text x="{x:.1f}" y="{HIGH - BOTTOM + 14}" '
+                     f'text-anchor="middle">{time:.2f}</text>')
+    for (effect, value, backend), time in sorted(zip(points, times), key=lambda one: one[0][0]["name"] in WHOLE):
+        title = (f'{effect["title"]}: {value["value"]}, {percent(value["totalError"])}, × {value["ratio"][backend]:.3g}, {TITLES[backend]}')
+        parts.append(dot(to_x(time), to_y(value["totalError"]), backend, effect["name"] in WHOLE, effect["name"], title))
+    return ('<section id="whole-frames"><h2>Whole frames</h2><p>The error of the whole frame against the best value of every effect, over '
+            'its time in that of the default: each value of each effect alone. Large markers are presets and budgets. Point at a marker for '
+            f'its name; a click leads to it. What takes more than {FARTHEST} times as long lies at the right edge.</p>' + "".join(parts)
+            + f'<text x="{LEFT}" y="{HIGH - 6}">error over time, × the default: round {TITLES["vulkan"]}, square {TITLES["gles"]}'
+            + "</text></svg></section>")
 
 
 # -------------------------------------------------------------------------------------------------------- tables
@@ -238,6 +283,6 @@ def page(folder):
     skipped = "".join(f"<li>{escaped(one['name'])}: needs {escaped(one['reason'])}</li>" for one in data.get("skipped", []))
     return ('<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, '
             f'initial-scale=1"><title>What accuracy costs</title><style>{STYLE}</style></head><body>\n'
-            + introduction(data, links) + glance(data["effects"]) + "\n".join(section(effect) for effect in data["effects"])
+            + introduction(data, links) + glance(data["effects"]) + whole_frames(data) + "\n".join(section(effect) for effect in data["effects"])
             + "\n".join(fragments) + (f"<section><h2>Not measured</h2><ul>{skipped}</ul></section>" if skipped else "")
             + HOW_TO_ADD + f"<script>{SCRIPT}</script></body></html>\n")

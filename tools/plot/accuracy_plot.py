@@ -195,13 +195,6 @@ def draw_effect(effect):
     return figure
 
 
-def worth_a_name(point, backend, typical):
-    """Its time differs for sure and by 5 %, or its error does by 8 %."""
-    median, low, high = point.ratios[backend]
-    is_slower_or_faster = abs(median - 1) > 0.05 and not low <= 1 <= high
-    return is_slower_or_faster or not 0.92 < point.total / typical < 1.08
-
-
 def draw_frames(effects, frame):
     """Every value of every effect alone, and the presets: time against the default, error against the best of all."""
     shown = [e for e in effects if e.cost == "frame" and e.linear and e.frame == frame]
@@ -211,32 +204,32 @@ def draw_frames(effects, frame):
     figure, panels = plt.subplots(1, len(backends), figsize=(10, 6), sharey=True, squeeze=False)
     figure.subplots_adjust(left=0.085, right=0.985, bottom=0.15, top=0.945, wspace=0.06)
     everything = [p for e in shown for p in e.points]
-    typical = sorted(p.total for p in everything)[len(everything) // 2]
     for axes, backend in zip(panels[0], backends):
         zero = error_axis(axes, [p.total for p in everything])
         near = [p.ratios[backend] for p in everything if backend in p.ratios and p.ratios[backend][0] < FARTHEST]
         time_limits(axes, [(max(low, 0.5), min(high, FARTHEST)) for _, low, high in near] or [(1, 1)])
         right = axes.get_xlim()[1]
-        labels, all_points = [], []
+        places = {id(p): (p.ratios[backend][0], p.total if p.total > 0 else zero) for p in everything if backend in p.ratios}
+        edge = frontier(list(places.values()))
+        labels = []
         for i, effect in enumerate(shown):
             is_setting = effect.name in SETTINGS_MARKERS  # of everything, not one value alone
             color = "#222222" if is_setting else EFFECT_COLORS[i % len(EFFECT_COLORS)]
             for point in effect.points:
                 if backend not in point.ratios:
                     continue
-                median, low, high = point.ratios[backend]
-                x, y = min(median, right), point.total if point.total > 0 else zero
-                all_points.append((median, y))
+                _, low, high = point.ratios[backend]
+                median, y = places[id(point)]
+                x = min(median, right)
                 axes.errorbar([x], [y], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="none",
                               ecolor="#cccccc", elinewidth=0.8, zorder=1)
                 marker = ">" if median > right else SETTINGS_MARKERS.get(effect.name, "o")
                 axes.plot([x], [y], marker=marker, markersize=7 if is_setting else 4.5, color=color, linestyle="none",
                           zorder=4 if is_setting else 3, clip_on=False)
-                if is_setting or worth_a_name(point, backend, typical):
+                if is_setting or (median, y) in edge:
                     name = f"{effect.name} {point.label}" if is_setting else f"{effect.name}: {point.label.split('=')[-1]}"
                     labels.append((x, y, name if median <= right else f"{name}, {median:.2g} ×", color,
                                    "bold" if is_setting else "normal"))
-        edge = frontier(all_points)
         axes.step([x for x, _ in edge], [y for _, y in edge], where="post", color=GREY, linewidth=1.2, zorder=2)
         axes.grid(True)
         axes.set_title(BACKEND_TITLES.get(backend, backend))
@@ -244,8 +237,8 @@ def draw_frames(effects, frame):
         figure.canvas.draw()
         place_labels(axes, labels)
     panels[0][0].set_ylabel("error of the frame, RMS")
-    figure.text(0.085, 0.03, "Diamonds: presets. Squares: budgets. Dots: one value of one effect alone; those without a name are near the default. "
-                "Grey line: what nothing beats in both.", fontsize=8, color="#666666")
+    figure.text(0.085, 0.03, "Diamonds: presets. Squares: budgets. Dots: one value of one effect alone. Grey line: what nothing beats in both; "
+                "dots have names there.", fontsize=8, color="#666666")
     return figure
 
 

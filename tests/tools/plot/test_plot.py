@@ -335,6 +335,31 @@ class AccuracyPage(unittest.TestCase):
             self.assertTrue(accuracy_page.LEFT <= float(x) <= accuracy_page.WIDTH - 16, x)
             self.assertTrue(0 <= float(y) <= accuracy_page.HEIGHT - accuracy_page.BOTTOM, y)
 
+    def test_whole_frames_show_every_value_of_the_scene(self):
+        data = self.data()
+        self.assertNotIn("Whole frames", accuracy_page.page(self.folder(data)), "no effect is linear")
+        effect = data["effects"][0]
+        effect["linear"] = True
+        for value, error in zip(effect["values"], (0.25, 0.1)):
+            value["totalError"] = error
+        data["effects"].append({**effect, "name": "preset", "title": "Presets"})
+        data["effects"].append({**effect, "name": "other", "title": "Elsewhere", "frame": "another"})
+        html = accuracy_page.page(self.folder(data))
+        figure = html[html.index('id="whole-frames"'):html.index("</svg>", html.index('id="whole-frames"'))]
+        self.assertEqual(figure.count('<a href="#e">'), 4)
+        self.assertEqual(figure.count('<a href="#preset">'), 4)
+        self.assertNotIn("Elsewhere", figure)
+        self.assertIn("<title>An &lt;effect&gt;: fine, 10 %, × 5, Vulkan</title>", figure)
+        places = [(float(x), float(y)) for x, y in re.findall(r'<rect x="([^"]+)" y="([^"]+)"', figure)]
+        self.assertEqual(len(places), 8)
+        for x, y in places:
+            self.assertTrue(accuracy_page.LEFT <= x <= accuracy_page.WIDE - accuracy_page.RIGHT, x)
+            self.assertTrue(0 <= y <= accuracy_page.HIGH - accuracy_page.BOTTOM, y)
+        self.assertEqual(len({x for x, _ in places}), 6, "1, 2 and 5 times the default, in two sizes of markers")
+        effect["values"][0]["totalError"] = float("nan")
+        with self.assertRaisesRegex(accuracy_page.BadInput, "'totalError' is not a finite number"):
+            accuracy_page.page(self.folder(data))
+
     def test_fragments_have_their_pictures_beside_their_tables(self):
         text = '<section id="f"><h2>F</h2><figure><img src="a.png"></figure><table><tr></tr></table></section>'
         html = accuracy_page.page(self.folder(self.data(), one=text))
