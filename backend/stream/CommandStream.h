@@ -55,6 +55,10 @@ struct LatencyStatistics {
     LatencyDistribution backPressure;   ///< acquire() waiting for a buffer
 };
 
+/// Whoever waits for an answer gives up after this. A frame of a minute is no fault: a driver that draws on the CPU needs
+/// it for what a GPU draws at once, for thousands of lights say, and longer on a busy machine.
+inline constexpr std::chrono::minutes kLongestFrame{ 15 };
+
 struct CommandStreamOptions {
     uint32_t maxFramesAhead = 2;  ///< submitted but not yet replayed
     int driverCore = -1;          ///< pin the driver thread to this core; -1: no pinning
@@ -128,8 +132,7 @@ public:
     /// Blocks until a submitted read-back arrives. Timeout if it takes longer (with the command that the driver thread
     /// is in), DeviceLost if the device is gone, NotFound if the device finished all work without a result (the
     /// read-back failed: see takeErrors()).
-    Result<std::vector<std::byte>> waitReadback(Ticket ticket,
-                                                std::chrono::milliseconds timeout = std::chrono::seconds(60));
+    Result<std::vector<std::byte>> waitReadback(Ticket ticket, std::chrono::milliseconds timeout = kLongestFrame);
     std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds
     /// Errors since the last call, oldest first.
     std::vector<DriverError> takeErrors();

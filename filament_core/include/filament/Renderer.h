@@ -114,7 +114,7 @@ public:
 
     /// Requests the pixels rendered last; poll takePixels() for them. A ticket of 0 means out of memory. If pixels
     /// never arrive, because the device refused the image or was lost, takePixels() returns an image without bytes, and
-    /// waitPixels() an error.
+    /// waitPixels() an error, which is Timeout after 15 minutes.
     PixelTicket readPixels(SwapChain swapChain);
     PixelTicket readPixels(RenderTarget target);
     std::optional<Image> takePixels(PixelTicket ticket);
