@@ -211,8 +211,19 @@ private:
         const auto use = [&](TextureRef& slot, uint32_t image) { slot = ref, slot.image = image; };
         if (images.color != kNone) use(material.baseColor, images.color);
         if (images.normal != kNone) use(material.normal, images.normal);
+        ref.image = images.color;
+        readBump(reader, ref, material);
         if (images.surface != kNone) use(material.metallicRoughness, images.surface);
         if (images.emission != kNone) use(material.emissive, images.emission);
+    }
+
+    /// `bump`: the picture of colours is a height. `normals`: false leaves out the set's own relief.
+    static void readBump(JsonReader& reader, TextureRef const& heights, MaterialData& material) {
+        if (reader.has("bump")) material.bump.map = heights;
+        reader.read("bump", material.bump.factor, -10, 10);
+        bool usesNormals = true;
+        reader.read("normals", usesNormals);
+        if (!usesNormals) material.normal = {};
     }
 
     // KHR_texture_transform: translation * rotation * scale.

@@ -735,6 +735,7 @@ std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>(
 std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
 std::unique_ptr<StreamEdit> lastMip() { return mipTexelEdit(kSmallestLevel, 0); }
 std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
+std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bumpFactor", 1, 1.05f); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMutations[] = {
@@ -756,6 +757,7 @@ constexpr Mutation kMutations[] = {
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "thickness", "thickness of solids + 5 %", thickness },
+    { "bump", "bumps 5 % higher", bump },
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
     { "oneWeight", "what blends in any order weighs the same at any distance", make<OneWeightEdit> },

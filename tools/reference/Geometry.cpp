@@ -173,6 +173,14 @@ Varyings varyingsAt(Part const& part, TrianglePoint const& point) {
     varyings.faceNormal = normalizedOrZero(faceNormal(part, point.triangle));
     const double3 a(part.positions[corners.a]), b(part.positions[corners.b]), c(part.positions[corners.c]);
     varyings.longestEdge = std::max({ glm::distance(a, b), glm::distance(b, c), glm::distance(c, a) });
+    varyings.edges[0] = b - a;
+    varyings.edges[1] = c - a;
+    for (size_t set = 0; set < 2; ++set) {
+        std::vector<float2> const& uvs = part.uvs[set];
+        if (uvs.empty()) continue;
+        varyings.uvEdges[set][0] = double2(uvs[corners.b]) - double2(uvs[corners.a]);
+        varyings.uvEdges[set][1] = double2(uvs[corners.c]) - double2(uvs[corners.a]);
+    }
     varyings.normal = corners.mix(part.normals);
     varyings.tangent = corners.mix(part.tangents);
     return varyings;

@@ -52,6 +52,8 @@ struct Varyings {
     double4 tangent{ 0, 0, 0, 1 };
     double4 color{ 1.0 };
     double2 uvs[2]{ double2(0.0), double2(0.0) };
+    double3 edges[2]{ double3(0.0), double3(0.0) }; ///< from the first corner to the second and to the third
+    double2 uvEdges[2][2]{};                        ///< of each set, along those edges
 };
 
 Varyings varyingsAt(Part const& part, TrianglePoint const& point);

@@ -84,8 +84,8 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     surface.position = varyings.position;
     surface.geometricNormal = varyings.faceNormal * side;
     surface.view = view;
-    surface.normal = at.mappedNormal(part.material->normal, part.material->normalScale);
-    if (has(part.material->normal)) surface.unmappedNormal = at.smoothNormal();
+    surface.normal = at.bumpedNormal();
+    if (has(part.material->normal) || has(part.material->bump.map)) surface.unmappedNormal = at.smoothNormal();
     surface.tangent = double3(varyings.tangent) * side;
     surface.uv = varyings.uvs[0];
     // The precision of Embree's floats: 2^-24 of the coordinates and, for the distance along a ray, about 2^-23 of the

@@ -3,6 +3,8 @@
 
 #include "tools/reference/TextureLookup.h"
 
+#include <algorithm>
+
 namespace filament::reference {
 namespace {
 
@@ -13,11 +15,16 @@ double3 normalizedOr(double3 v, double3 fallback) {
 
 } // namespace
 
-double4 MaterialPoint::fetch(assets::TextureRef const& texture) const {
-    double2 uv = varyings.uvs[texture.uvSet];
-    if (texture.hasTransform) uv = double2(double3x3(texture.uvTransform) * double3(uv, 1.0));
+double2 MaterialPoint::uvOf(assets::TextureRef const& texture) const {
+    const double2 uv = varyings.uvs[texture.uvSet];
+    return texture.hasTransform ? double2(double3x3(texture.uvTransform) * double3(uv, 1.0)) : uv;
+}
+
+double4 MaterialPoint::fetchAt(assets::TextureRef const& texture, double2 uv) const {
     return lookUp((*part.images)[texture.image], texture.sampler, uv);
 }
+
+double4 MaterialPoint::fetch(assets::TextureRef const& texture) const { return fetchAt(texture, uvOf(texture)); }
 
 double2 MaterialPoint::fetchScalars(assets::TexturePair const& pair) const {
     if (!has(pair.texture)) return double2(1.0);
@@ -43,6 +50,34 @@ double3 MaterialPoint::mappedNormal(assets::TextureRef const& map, double scale)
     if (!has(map)) return smoothNormal();
     const double3 texel = double3(fetch(map)) * 2.0 - 1.0;
     return normalizedOr(toWorld({ texel.x * scale, texel.y * scale, texel.z }), smoothNormal());
+}
+
+double2 MaterialPoint::riseAlongEdges() const {
+    assets::BumpData const& bump = material().bump;
+    assets::Image const& image = (*part.images)[bump.map.image];
+    const double2 size(image.width, image.height), uv = uvOf(bump.map), toU(0.5 / size.x, 0), toV(0, 0.5 / size.y);
+    const auto height = [&](double2 at) { return fetchAt(bump.map, at).x * bump.factor; };
+    const double2 perTexel(height(uv + toU) - height(uv - toU), height(uv + toV) - height(uv - toV));
+    double2 rise(0.0);
+    for (int edge = 0; edge < 2; ++edge) {
+        double2 step = varyings.uvEdges[bump.map.uvSet][edge];
+        if (bump.map.hasTransform) step = double2(double3x3(bump.map.uvTransform) * double3(step, 0.0));
+        rise[edge] = glm::dot(perTexel, step * size);
+    }
+    return rise;
+}
+
+double3 MaterialPoint::bumpedNormal() const {
+    const double3 normal = mappedNormal(material().normal, material().normalScale);
+    if (!material().bump.isUsed() || !has(material().bump.map)) return normal;
+    const double2 rise = riseAlongEdges();
+    const double3 n = smoothNormal();
+    const double3 acrossSecond = glm::cross(varyings.edges[1], n), acrossFirst = glm::cross(n, varyings.edges[0]);
+    const double area = glm::dot(varyings.edges[0], acrossSecond);
+    if (area == 0 || rise == double2(0.0)) return normal;
+    const double3 gradient = (acrossSecond * rise.x + acrossFirst * rise.y) * (side / area);
+    const double upright = has(material().normal) ? std::max(glm::dot(n, normal), 0.0) : 1.0;
+    return normalizedOr(normal - gradient * upright, normal);
 }
 
 } // namespace filament::reference

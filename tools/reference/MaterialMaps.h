@@ -29,6 +29,16 @@ struct MaterialPoint {
     double3 smoothNormal() const;
     /// Unit; smoothNormal() if there is no map.
     double3 mappedNormal(assets::TextureRef const& map, double scale) const;
+    /// EXT_materials_bump: mappedNormal() of the normal map, tilted by the surface gradient of the heights. The
+    /// formulas are those of shaders/material/gltf/bump.glsl, with the triangle's edges in place of derivatives, and
+    /// texels as the width that heights are averaged over.
+    double3 bumpedNormal() const;
+
+private:
+    double2 uvOf(assets::TextureRef const& texture) const;
+    double4 fetchAt(assets::TextureRef const& texture, double2 uv) const;
+    /// Metres that the height grows along the edges of the triangle.
+    double2 riseAlongEdges() const;
 };
 
 } // namespace filament::reference

@@ -32,6 +32,7 @@ constexpr std::array kRows{
     PropertyRow{ "/materials/{}/alphaCutoff", kMaterial, AlphaCutoff, 1, 0, kFloats },
     PropertyRow{ "/materials/{}/normalTexture/scale", kMaterial, NormalScale, 1, -kFloats, kFloats },
     PropertyRow{ "/materials/{}/occlusionTexture/strength", kMaterial, OcclusionStrength, 1, 0, 1 },
+    PropertyRow{ "/materials/{}/extensions/EXT_materials_bump/bumpFactor", kMaterial, BumpFactor, 1, -kHalfs, kHalfs },
     PropertyRow{ EXTENSION "anisotropy/anisotropyStrength", kMaterial, AnisotropyStrength, 1, 0, 1 },
     PropertyRow{ EXTENSION "anisotropy/anisotropyRotation", kMaterial, AnisotropyRotation, 1, -kFloats, kFloats },
     PropertyRow{ EXTENSION "clearcoat/clearcoatFactor", kMaterial, ClearCoat, 1, 0, 1 },
@@ -86,6 +87,7 @@ constexpr std::array kTexturePaths{
     TexturePath{ "normalTexture", MapName::Normal },
     TexturePath{ "occlusionTexture", MapName::Occlusion },
     TexturePath{ "emissiveTexture", MapName::Emissive },
+    TexturePath{ "extensions/EXT_materials_bump/bumpTexture", MapName::Bump },
     TexturePath{ EXTENSION "clearcoat/clearcoatTexture", MapName::ClearCoat },
     TexturePath{ EXTENSION "clearcoat/clearcoatRoughnessTexture", MapName::ClearCoat, true },
     TexturePath{ EXTENSION "clearcoat/clearcoatNormalTexture", MapName::ClearCoatNormal },
@@ -174,6 +176,8 @@ Field fieldOf(MaterialData& m, PropertyName name, MapName map) {
         return one(m.normalScale);
     case OcclusionStrength:
         return one(m.occlusionStrength);
+    case BumpFactor:
+        return one(m.bump.factor);
     case UvOffset:
         return { &mapOf(m, map).placement.offset.x, 2 };
     case UvRotation:
@@ -253,6 +257,8 @@ TextureRef& mapOf(MaterialData& m, MapName map) {
         return m.occlusion;
     case MapName::Emissive:
         return m.emissive;
+    case MapName::Bump:
+        return m.bump.map;
     case MapName::ClearCoat:
         return m.clearCoat.maps.texture;
     case MapName::ClearCoatNormal:
@@ -280,6 +286,7 @@ void keepProperty(MaterialData& m, PropertyName name) {
     const PropertyName first = name;
     m.isAnimated = true;
     if (first == AnisotropyStrength) m.anisotropy.isAnimated = true;
+    if (first == BumpFactor) m.bump.isAnimated = true;
     if (first == ClearCoat) m.clearCoat.isAnimated = true;
     if (first == DiffuseTransmission) m.diffuseTransmission.isAnimated = true;
     if (first == Dispersion) m.transmission.isDispersionAnimated = true;

@@ -196,7 +196,7 @@ struct GltfTexturePair {
 /// `values` holds everything except the texture references, which the loader fills in from the infos.
 struct GltfMaterial {
     MaterialData values;
-    GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive;
+    GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive, bump;
     GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness;
     GltfTexturePair clearCoat, sheen, specular, iridescence, transmission, diffuseTransmission;
 };

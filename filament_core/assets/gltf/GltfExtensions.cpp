@@ -24,6 +24,7 @@ constexpr std::array kExtensions{
     GltfExtension{ "EXT_lights_ies", "points with a photometric profile" },
     GltfExtension{ "EXT_lights_image_based",
                    "the environment of the file lights the scene if the program gives no other" },
+    GltfExtension{ "EXT_materials_bump", "a map of heights that tilts the normal" },
     GltfExtension{ "KHR_materials_anisotropy", "highlights stretched along a direction" },
     GltfExtension{ "KHR_materials_clearcoat",
                    "a clear layer over the material, with a roughness and a normal of its own" },

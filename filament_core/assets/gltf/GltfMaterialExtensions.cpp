@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The KHR_materials extensions, one function each. Ranges are those of the specifications; an unlimited range ends
+// The extensions of materials, one function each. Ranges are those of the specifications; an unlimited range ends
 // where 16 bits do, because shaders may compute in them.
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
 
@@ -62,6 +62,12 @@ void parseAnisotropy(Extensions const& extensions, GltfMaterial& material) {
     anisotropy.strength = node["anisotropyStrength"].numberInRange(0, 0, 1);
     anisotropy.rotationRadians = node["anisotropyRotation"].numberInRange(0, -kMaxFloat, kMaxFloat);
     material.anisotropy = extensions.texture(node, "anisotropyTexture");
+}
+
+void parseBump(Extensions const& extensions, GltfMaterial& material) {
+    const JsonNode node = extensions.at("EXT_materials_bump");
+    material.values.bump.factor = node["bumpFactor"].numberInRange(1, -kMaxHalf, kMaxHalf);
+    material.bump = extensions.texture(node, "bumpTexture");
 }
 
 void parseIridescence(Extensions const& extensions, GltfMaterial& material) {
@@ -148,6 +154,7 @@ void warnAboutLayers(Extensions const& extensions, const char* model) {
 
 void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material) {
     const Extensions extensions{ node, textureCount };
+    parseBump(extensions, material);
     const JsonNode glossiness = extensions.at("KHR_materials_pbrSpecularGlossiness");
     if (extensions.at("KHR_materials_unlit").exists()) {
         material.values.unlit = true;

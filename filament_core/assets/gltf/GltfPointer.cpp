@@ -197,6 +197,8 @@ GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map, bool isSecond) {
         return &m.occlusion;
     case MapName::Emissive:
         return &m.emissive;
+    case MapName::Bump:
+        return &m.bump;
     case MapName::ClearCoat:
         return ofPair(m.clearCoat);
     case MapName::ClearCoatNormal:

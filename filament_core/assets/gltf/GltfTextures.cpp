@@ -34,6 +34,7 @@ public:
         data.normal = textureFor(material.normal, false);
         data.occlusion = textureFor(material.occlusion, false);
         data.emissive = textureFor(material.emissive, true);
+        if (data.bump.isUsed()) data.bump.map = textureFor(material.bump, false);
         if (data.specularGlossiness) {
             data.specularGlossiness->map = textureFor(material.specularGlossiness, true);
             return data;

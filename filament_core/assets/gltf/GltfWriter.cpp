@@ -92,7 +92,7 @@ Result<void> checkPrimitive(GlbScene const& scene, GlbPrimitive const& primitive
 Result<void> checkMaterial(GlbScene const& scene, size_t index) {
     MaterialData const& material = scene.materials[index];
     for (TextureRef const* texture : { &material.baseColor, &material.metallicRoughness, &material.normal,
-                                       &material.occlusion, &material.emissive }) {
+                                       &material.occlusion, &material.emissive, &material.bump.map }) {
         if (texture->image != kNone && texture->image >= scene.images.size()) {
             return fail(ErrorCode::InvalidArgument, "materials[{}]: an image is out of range", index);
         }

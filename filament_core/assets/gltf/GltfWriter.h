@@ -3,8 +3,8 @@
 ///   In      triangles with float attributes, MaterialData, LightData, PNG images, a forest of nodes.
 ///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices if they suffice. Materials
 ///           write only values that differ from glTF's defaults, and KHR_materials_unlit,
-///           KHR_materials_emissive_strength, KHR_texture_transform, KHR_lights_punctual and EXT_lights_image_based if
-///           used. The same scene gives the same bytes.
+///           KHR_materials_emissive_strength, EXT_materials_bump, KHR_texture_transform, KHR_lights_punctual and
+///           EXT_lights_image_based if used. The same scene gives the same bytes.
 ///   Thread  any.
 ///   Memory  twice the size of the file.
 ///   Fails   InvalidArgument, naming the element: an index out of range, attributes of different length, a node with

@@ -117,6 +117,12 @@ void addTransmission(TransmissionData const& transmission, Json& json, Json& roo
     useExtension("KHR_materials_volume", root);
 }
 
+void addBump(BumpData const& bump, TextureWriter& textures, Json& json, Json& root) {
+    json["extensions"]["EXT_materials_bump"] = { { "bumpTexture", textures.info(bump.map) } };
+    addUnlessDefault(json["extensions"]["EXT_materials_bump"], "bumpFactor", bump.factor, 1.0f);
+    useExtension("EXT_materials_bump", root);
+}
+
 void addMaterialExtensions(MaterialData const& material, Json& json, Json& root) {
     if (material.unlit) {
         json["extensions"]["KHR_materials_unlit"] = Json::object();
@@ -144,6 +150,7 @@ Json materialJson(MaterialData const& material, TextureWriter& textures, Json& r
     if (emissive != float3(0.0f)) json["emissiveFactor"] = { emissive.x, emissive.y, emissive.z };
     addAlpha(material, json);
     addUnlessDefault(json, "doubleSided", material.doubleSided, false);
+    if (material.bump.map.image != kNone) addBump(material.bump, textures, json, root);
     addMaterialExtensions(material, json, root);
     return json;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialData: a glTF material as plain values: the core of glTF 2.0 and the KHR_materials extensions.
+/// MaterialData: a glTF material as plain values: the core of glTF 2.0 and the extensions of materials.
 ///   Every extension is a struct whose defaults have no effect; isUsed() says whether the file uses it. Colours are
 ///   linear Rec. 709, factors are in the ranges of their specifications (the parser clamps them), and only maps of used
 ///   extensions are present.
@@ -89,6 +89,14 @@ struct AnisotropyData {
     bool isUsed() const { return strength > 0 || isAnimated; }
 };
 
+/// EXT_materials_bump.
+struct BumpData {
+    float factor = 1; ///< metres of world space for a height of 1; negative: dents
+    TextureRef map;   ///< red: height
+    bool isAnimated = false;
+    bool isUsed() const { return factor != 0 || isAnimated; }
+};
+
 /// KHR_materials_iridescence.
 struct IridescenceData {
     float factor = 0;
@@ -142,6 +150,7 @@ struct MaterialData {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    BumpData bump;
 
     // ---- at most one of the two; then none of those below is used
     bool unlit = false; ///< KHR_materials_unlit

@@ -114,6 +114,10 @@ void setCommonMaps(Settings& settings, MaterialData const& material) {
     settings.parameter("occlusionStrength", material.occlusionStrength);
     settings.parameter("emissiveFactor", material.emissiveFactor * material.emissiveStrength);
     settings.map("normal", "hasNormalMap", material.normal);
+    if (material.bump.isUsed() && material.bump.map.image != kNone) {
+        settings.parameter("bumpFactor", material.bump.factor);
+        settings.map("bump", "hasBumpMap", material.bump.map);
+    }
     if (!material.specularGlossiness && sharesTexel(material.occlusion, material.metallicRoughness))
         settings.feature("occlusionInMetallicRoughness");
     else

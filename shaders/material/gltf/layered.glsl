@@ -19,6 +19,7 @@ vec4 gltfDiffuseTransmissionMaps() {
 void material(inout MaterialInputs material) {
     gltfNormals(material);
     prepareMaterial(material);
+    gltfBump();
     gltfSurface(material);
     gltfLayers(material);
 }

@@ -6,5 +6,6 @@
 void material(inout MaterialInputs material) {
     if (materialConstants_hasNormalMap) material.normal = gltfNormal();
     prepareMaterial(material);
+    gltfBump();
     gltfSurface(material);
 }

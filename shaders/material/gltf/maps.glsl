@@ -24,3 +24,5 @@ vec4 gltfEmissive() {
     }
     return emissive;
 }
+
+#include "shaders/material/gltf/bump.glsl"

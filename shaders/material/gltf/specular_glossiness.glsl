@@ -7,6 +7,7 @@
 void material(inout MaterialInputs material) {
     if (materialConstants_hasNormalMap) material.normal = gltfNormal();
     prepareMaterial(material);
+    gltfBump();
     material.baseColor = gltfBaseColor();
     material.specularColor = materialParams.specularFactor;
     material.glossiness = materialParams.glossinessFactor;

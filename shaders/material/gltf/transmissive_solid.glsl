@@ -6,6 +6,7 @@
 void material(inout MaterialInputs material) {
     gltfNormals(material);
     prepareMaterial(material);
+    gltfBump();
     gltfSurface(material);
     gltfLayers(material);
     vec2 amounts = gltfTransmission();

@@ -76,6 +76,43 @@ TEST(MaterialExtensions, ClearCoatHasItsFactorRoughnessAndNormalAndLeavesTheBase
     EXPECT_LT(glm::distance(square.seen(-1).coat.normal, -bent), 1e-4) << "from behind";
 }
 
+/// Heights that grow by `step` (of 255) a texel along u, eight texels wide.
+assets::Image ramp(int step) {
+    assets::Image image{ .width = 8, .height = 1, .format = Format::RGBA8, .data = {} };
+    for (int x = 0; x < 8; ++x) image.data.insert(image.data.end(), 4, static_cast<std::byte>(x * step));
+    return image;
+}
+
+TEST(MaterialExtensions, BumpsTiltTheNormalAgainstTheSlopeOfTheHeight) {
+    Square square;
+    square.images.push_back(ramp(17));
+    square.material.bump = { .factor = 0.5f, .map = { .image = 0 } };
+    const double slope = 0.5 * 8 * 17 / 255; // metres of height per metre: u is 1 at x = 1
+    expectNear(square.seen().normal, glm::normalize(double3(-slope, 0, 1)), "uphill along x");
+    expectNear(square.seen(-1).normal, glm::normalize(double3(slope, 0, -1)), "the same relief from behind");
+    EXPECT_TRUE(square.seen().unmappedNormal) << "lamps below the geometry's horizon are hidden";
+    square.material.bump.factor = -0.5f;
+    expectNear(square.seen().normal, glm::normalize(double3(slope, 0, 1)), "dents");
+    square.material.bump.map.hasTransform = true;
+    square.material.bump.map.uvTransform = float3x3(float3(0, 1, 0), float3(1, 0, 0), float3(0, 0, 1));
+    expectNear(square.seen().normal, glm::normalize(double3(0, slope, 1)), "u and v exchanged, and so mirrored");
+    square.material.bump.factor = 0;
+    expectNear(square.seen().normal, { 0, 0, 1 }, "no relief");
+}
+
+TEST(MaterialExtensions, TheSlopesOfBumpsAndNormalMapsAddUp) {
+    Square square;
+    square.images.push_back(ramp(17));
+    square.material.bump = { .factor = 0.5f, .map = { .image = 0 } };
+    square.material.normal = square.texel({ 204, 128, 230, 255 });
+    const double slope = 0.5 * 8 * 17 / 255;
+    const double3 texel(204 / 127.5 - 1, 128 / 127.5 - 1, 230 / 127.5 - 1);
+    const double3 sum = glm::normalize(double3(texel.x / texel.z - slope, texel.y / texel.z, 1));
+    EXPECT_LT(glm::distance(square.seen().normal, sum), 1e-4);
+    square.material.clearCoat.factor = 1;
+    expectNear(square.seen().coat.normal, { 0, 0, 1 }, "the coat is smooth");
+}
+
 TEST(MaterialExtensions, SheenTakesItsColorFromRgbAndItsRoughnessFromAlpha) {
     Square square;
     square.material.sheen.color = { 0.5f, 1, 0.25f };

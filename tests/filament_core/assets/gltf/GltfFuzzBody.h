@@ -27,6 +27,7 @@ inline std::vector<TextureRef> texturesOf(MaterialData const& m) {
                                       m.metallicRoughness,
                                       m.normal,
                                       m.occlusion,
+                                      m.bump.map,
                                       m.emissive,
                                       m.clearCoat.maps.texture,
                                       m.clearCoat.normal,
@@ -67,6 +68,7 @@ inline const char* brokenPromise(ModelData const& model, MaterialData const& m) 
     for (const float factor : unitFactorsOf(m)) {
         if (!(factor >= 0 && factor <= 1)) return "factor";
     }
+    if (!(std::abs(m.bump.factor) <= 65504)) return "height of bumps";
     if (!(m.ior >= 1 && m.ior <= kOpaqueIor)) return "index of refraction";
     if (!(m.transmission.attenuationDistanceMeters > 0 && m.transmission.dispersion <= 100)) return "volume";
     if (m.unlit && m.specularGlossiness) return "shading model";

@@ -263,6 +263,47 @@ TEST(GltfMaterialExtensions, MapsOfWhatIsNotUsedAreNotDecoded) {
     EXPECT_THAT(model.images, IsEmpty());
 }
 
+TEST(GltfMaterialExtensions, BumpsHaveAFactorInMetresAndAMapOfData) {
+    const ModelData model = modelWith(R"({ "EXT_materials_bump": { "bumpFactor": -0.25, "bumpTexture": { "index": 1,
+        "texCoord": 1, "extensions": { "KHR_texture_transform": { "scale": [ 2, 3 ] } } } } })");
+    BumpData const& bump = model.materials[0].bump;
+    EXPECT_EQ(bump.factor, -0.25f);
+    EXPECT_EQ(bump.map.uvSet, 1u);
+    EXPECT_TRUE(bump.map.hasTransform);
+    EXPECT_EQ(bump.map.uvTransform[1].y, 3.0f);
+    ASSERT_LT(bump.map.image, model.images.size());
+    EXPECT_EQ(model.images[bump.map.image].format, backend::Format::RGBA8) << "linear";
+}
+
+TEST(GltfMaterialExtensions, TheFactorOfBumpsIsOneAndWithoutAMapThereAreNone) {
+    EXPECT_EQ(materialWith(R"({ "EXT_materials_bump": { "bumpTexture": { "index": 0 } } })").bump.factor, 1.0f);
+    EXPECT_EQ(materialWith(R"({ "EXT_materials_bump": { "bumpFactor": 2 } })").bump.map.image, kNone);
+    EXPECT_EQ(materialWith("{}").bump.map.image, kNone);
+    EXPECT_THAT(modelWith(R"({ "EXT_materials_bump": { "bumpFactor": 0, "bumpTexture": { "index": 0 } } })").images,
+                IsEmpty());
+}
+
+TEST(GltfMaterialExtensions, ABumpThatIsNotOneIsRefusedOrClamped) {
+    const ModelData high = modelWith(R"({ "EXT_materials_bump": { "bumpFactor": 1e9 } })");
+    EXPECT_EQ(high.materials[0].bump.factor, 65504.0f);
+    EXPECT_THAT(high.warnings, ElementsAre(HasSubstr("materials[0].extensions.EXT_materials_bump.bumpFactor: 1")));
+    for (const char* wrong : { R"({ "bumpFactor": "deep" })", R"({ "bumpFactor": null })", R"({ "bumpTexture": 3 })",
+                               R"({ "bumpTexture": { "index": -1 } })", R"({ "bumpTexture": { "index": 4 } })",
+                               R"({ "bumpTexture": {} })" }) {
+        const TestFile file = triangleWith({ { "EXT_materials_bump", Json::parse(wrong) } });
+        const Result<ModelData> model = file.load();
+        ASSERT_FALSE(model) << wrong;
+        EXPECT_THAT(model.error().message, HasSubstr("EXT_materials_bump.bump")) << wrong;
+    }
+}
+
+TEST(GltfMaterialExtensions, GlossyMaterialsHaveBumpsToo) {
+    const MaterialData material = materialWith(R"({ "KHR_materials_pbrSpecularGlossiness": {},
+        "EXT_materials_bump": { "bumpTexture": { "index": 0 } } })");
+    EXPECT_TRUE(material.specularGlossiness);
+    EXPECT_NE(material.bump.map.image, kNone);
+}
+
 TEST(GltfMaterialExtensions, AnisotropyGivesTangentsToWhatHasNone) {
     TestFile file = triangleWith(Json::parse(R"({ "KHR_materials_anisotropy": { "anisotropyStrength": 1 } })"));
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });

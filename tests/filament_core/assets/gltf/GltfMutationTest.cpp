@@ -30,6 +30,7 @@ struct Specimen {
 Specimen specimenFrom(Json const& root, Bytes binary) { return { root.dump(), std::move(binary) }; }
 
 constexpr const char* kExtensions = R"({
+    "EXT_materials_bump": { "bumpFactor": 0.5, "bumpTexture": { "index": 1, "texCoord": 1 } },
     "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatTexture": { "index": 0 },
         "clearcoatRoughnessTexture": { "index": 1 }, "clearcoatNormalTexture": { "index": 0 } },
     "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ], "sheenColorTexture": { "index": 0 },
@@ -106,6 +107,7 @@ Specimen pointerSpecimen() {
     file.root["materials"][0]["extensions"].erase("KHR_materials_clearcoat");
     file.root["materials"][0]["extensions"].erase("KHR_materials_sheen");
     file.root["materials"][0]["extensions"]["KHR_materials_iridescence"].erase("iridescenceThicknessTexture");
+    file.root["materials"][0]["extensions"]["EXT_materials_bump"].erase("bumpTexture");
     file.root["nodes"][0]["camera"] = 0;
     file.root["nodes"][0]["extensions"] =
             Json::parse(R"({ "KHR_node_visibility": { "visible": false }, "KHR_lights_punctual": { "light": 0 } })");
@@ -124,6 +126,7 @@ Specimen pointerSpecimen() {
         { "/materials/0/pbrMetallicRoughness/roughnessFactor", 0 },
         { "/materials/0/extensions/KHR_materials_volume/attenuationColor", 2 },
         { "/materials/0/extensions/KHR_materials_ior/ior", 0 },
+        { "/materials/0/extensions/EXT_materials_bump/bumpFactor", 0 },
         { "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 0 },
         { "/cameras/0/orthographic/ymag", 0 },
         { "/cameras/0/orthographic/zfar", 0 },

@@ -124,6 +124,21 @@ TEST(GltfMaterialSettings, WhiteLightHasTheAttenuationColourAfterTheAttenuationD
         EXPECT_NEAR(std::exp(-absorption[c] * 0.25f), material.transmission.attenuationColor[c], 1e-6f);
 }
 
+TEST(GltfMaterialSettings, BumpsNeedAMapAndAFactor) {
+    MaterialData material;
+    EXPECT_EQ(settingsOf(material, false).package, "gltf_lit_opaque");
+    material.bump = { .factor = 0.5f, .map = { .image = 0 } };
+    const GltfMaterialSettings settings = settingsOf(material, false);
+    EXPECT_EQ(settings.package, "gltf_lit_opaque");
+    EXPECT_EQ(parameter<float>(settings, "bumpFactor"), 0.5f);
+    ASSERT_EQ(settings.maps.size(), 1u);
+    EXPECT_EQ(settings.maps[0].stem, "bump");
+    material.bump.factor = 0;
+    EXPECT_TRUE(settingsOf(material, false).maps.empty());
+    material.bump.isAnimated = true;
+    EXPECT_EQ(settingsOf(material, false).maps.size(), 1u);
+}
+
 TEST(GltfMaterialSettings, TheRotationOfAnisotropyIsADirection) {
     MaterialData material;
     material.anisotropy = { .strength = 1, .rotationRadians = 1.5707964f };
