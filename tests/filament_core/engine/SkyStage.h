@@ -28,7 +28,7 @@ struct SkyObjects {
     Owned<Texture> cube;
     Owned<IndirectLight> light;
 
-    SkyObjects(MaterialStage& stage, Sky const& sky) {
+    SkyObjects(Engine& engine, Sky const& sky) {
         constexpr uint32_t kSide = 64, kLevels = 5;
         std::vector<uint16_t> texels;
         for (uint32_t level = 0; level < kLevels; ++level) {
@@ -42,18 +42,25 @@ struct SkyObjects {
                 texels.push_back(halfFromFloat(1.0f));
             }
         }
-        cube = stage.engine.own(stage.engine.create(TextureDesc{ .kind = TextureKind::Cube,
-                                                                 .format = Format::RGBA16F,
-                                                                 .width = kSide,
-                                                                 .height = kSide,
-                                                                 .layers = 6,
-                                                                 .levels = kLevels,
-                                                                 .pixels = std::as_bytes(std::span(texels)) }));
+        cube = engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube,
+                                                     .format = Format::RGBA16F,
+                                                     .width = kSide,
+                                                     .height = kSide,
+                                                     .layers = 6,
+                                                     .levels = kLevels,
+                                                     .pixels = std::as_bytes(std::span(texels)) }));
         IndirectLightDesc desc{ .specular = cube, .specularLevels = kLevels };
         desc.irradianceSh[0] = float4(sky.base, 0);
         desc.irradianceSh[1].y = desc.irradianceSh[2].z = desc.irradianceSh[3].x = sky.slope.x * 2 / 3;
-        light = stage.engine.own(stage.engine.create(desc));
-        stage.scene.setIndirectLight(light, Lux{ 1 / stage.view.camera.exposure.factor() });
+        light = engine.own(engine.create(desc));
+    }
+    SkyObjects(MaterialStage& stage, Sky const& sky) : SkyObjects(stage.engine, sky) {
+        shine(stage.scene, stage.view.camera);
+    }
+
+    /// Undoes the exposure of the camera, so that pixels are radiances.
+    void shine(Scene& scene, Camera const& camera) const {
+        scene.setIndirectLight(light, Lux{ 1 / camera.exposure.factor() });
     }
 };
 
