@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that change what exists allocate nothing from the heap, on no thread: vertices, indices, texels, lights,
-// nodes, parameters, visibility.
+// nodes, parameters, visibility, animations.
 #include "tests/faults/FailingAllocator.h"
 #include "tests/faults/FaultStage.h"
 
+#include <filament/Animator.h>
+#include <filament/Gltf.h>
 #include <filament/Mesh.h>
 
 #include <fmt/format.h>
@@ -28,6 +30,8 @@ public:
               picture(engine.own(engine.create(TextureDesc{ .width = 16, .height = 16, .levels = 5 }))),
               material(engine.own(*createBuiltInMaterial(engine, "litTextured"))),
               instance(engine.own(engine.createInstance(material))),
+              model(loadGltf(engine, tools::sourceDir() / "tests/conformance/scenes/models/animated.gltf").value()),
+              animator(model, scene, scene.add(model)),
               frames(engine.own(engine.create(SwapChainDesc{ .size = view.size }))) {
         EXPECT_TRUE(engine.set(instance, "baseColorMap", picture));
         for (int i = 0; i < kNodes; ++i) {
@@ -54,6 +58,8 @@ public:
     Owned<Texture> picture;
     Owned<Material> material;
     Owned<MaterialInstance> instance;
+    Model model; // properties of materials, lights, nodes and maps
+    Animator animator;
     Owned<SwapChain> frames;
     std::array<Node, kNodes> nodes;
     std::array<Renderable, kNodes> renderables;
@@ -114,10 +120,16 @@ void setVisibility(SteadyStage& stage, int frame) {
         stage.scene.setVisible(stage.renderables[i], (static_cast<size_t>(frame) + i) % 3 != 0);
 }
 
+void animate(SteadyStage& stage, int frame) {
+    const double seconds = 0.125 * (frame % 9); // what is hidden at rest appears
+    if (frame % 2 == 0) return stage.animator.apply(0, seconds);
+    stage.animator.crossFade(0, seconds, 0, 1 - seconds, 0.25);
+}
+
 constexpr std::array kChanges{
     Change{ "vertices", updateVertices },  Change{ "indices", updateIndices }, Change{ "texels", updateTexels },
     Change{ "lights", setLights },         Change{ "nodes", moveNodes },       Change{ "parameters", setParameters },
-    Change{ "visibility", setVisibility },
+    Change{ "visibility", setVisibility }, Change{ "animations", animate },
 };
 
 constexpr Change kNothing{ "nothing", [](SteadyStage&, int) {} };

@@ -51,13 +51,16 @@ bool sharesTexel(TextureRef const& a, TextureRef const& b) {
 /// Collects the settings of one material; missing properties leave no trace.
 class Settings {
 public:
-    Settings(std::string package, size_t maxMaps) : mMaxMaps(maxMaps) { mSettings.package = std::move(package); }
+    Settings(GltfMaterialSettings& settings, size_t maxMaps)
+            : mMaxMaps(maxMaps), mSettings(&settings), mParameters(settings.parameters) {}
+    /// Of parameters alone.
+    explicit Settings(GltfParameters& parameters) : mParameters(parameters) {}
 
     void constant(const char* name, std::variant<bool, int32_t, float> value) {
-        mSettings.constants.push_back({ name, value });
+        if (mSettings) mSettings->constants.push_back({ name, value });
     }
     void feature(const char* has) { constant(has, true); }
-    void parameter(const char* name, ParameterValue const& value) { mSettings.parameters.push_back({ name, value }); }
+    void parameter(const char* name, ParameterValue const& value) { mParameters.push_back({ name, value }); }
 
     void map(const char* stem, const char* has, TextureRef const& texture) {
         if (texture.image == kNone || !hasRoomFor(stem)) return;
@@ -72,22 +75,22 @@ public:
         addMap(stem, pair.texture);
     }
 
-    GltfMaterialSettings take() { return std::move(mSettings); }
-
 private:
     bool hasRoomFor(const char* stem) {
-        if (mSettings.maps.size() < mMaxMaps) return true;
-        mSettings.leftOut.emplace_back(stem);
+        if (!mSettings) return false;
+        if (mSettings->maps.size() < mMaxMaps) return true;
+        mSettings->leftOut.emplace_back(stem);
         return false;
     }
     void addMap(std::string const& stem, TextureRef const& texture) {
-        if (texture.uvSet != 0) mSettings.constants.push_back({ stem + "Uv", static_cast<int32_t>(texture.uvSet) });
-        if (texture.hasTransform) mSettings.constants.push_back({ stem + "Transform", true });
-        mSettings.maps.push_back({ stem, texture });
+        if (texture.uvSet != 0) mSettings->constants.push_back({ stem + "Uv", static_cast<int32_t>(texture.uvSet) });
+        if (texture.hasTransform) mSettings->constants.push_back({ stem + "Transform", true });
+        mSettings->maps.push_back({ stem, texture });
     }
 
-    size_t mMaxMaps;
-    GltfMaterialSettings mSettings;
+    size_t mMaxMaps = 0;
+    GltfMaterialSettings* mSettings = nullptr;
+    GltfParameters& mParameters;
 };
 
 void setCore(Settings& settings, MaterialData const& material, bool hasVertexColor) {
@@ -200,16 +203,13 @@ void setTransmission(Settings& settings, assets::TransmissionData const& data, f
     settings.parameter("absorption", glm::min(absorption, float3(kMaxHalf)));
 }
 
-} // namespace
-
-GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale, size_t maxMaps) {
-    Settings settings(withSuffix(familyOf(material), material.alphaMode), maxMaps);
+void setAll(Settings& settings, MaterialData const& material, bool hasVertexColor, float scale) {
     setCore(settings, material, hasVertexColor);
-    if (material.unlit) return settings.take();
+    if (material.unlit) return;
     material.specularGlossiness ? setSpecularGlossiness(settings, *material.specularGlossiness)
                                 : setMetallicRoughness(settings, material);
     setCommonMaps(settings, material);
-    if (material.specularGlossiness) return settings.take();
+    if (material.specularGlossiness) return;
     setClearCoat(settings, material.clearCoat);
     setSheen(settings, material.sheen);
     setSpecular(settings, material);
@@ -217,7 +217,21 @@ GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColo
     setIridescence(settings, material.iridescence);
     setDiffuseTransmission(settings, material.diffuseTransmission);
     setTransmission(settings, material.transmission, scale);
-    return settings.take();
+}
+
+} // namespace
+
+GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale, size_t maxMaps) {
+    GltfMaterialSettings all{ .package = withSuffix(familyOf(material), material.alphaMode) };
+    Settings settings(all, maxMaps);
+    setAll(settings, material, hasVertexColor, scale);
+    return all;
+}
+
+void readParameters(MaterialData const& material, bool hasVertexColor, float scale, GltfParameters& parameters) {
+    parameters.clear();
+    Settings settings(parameters);
+    setAll(settings, material, hasVertexColor, scale);
 }
 
 } // namespace filament

@@ -23,10 +23,12 @@ struct GltfMap {
     assets::TextureRef texture;
 };
 
+using GltfParameters = std::vector<std::pair<const char*, ParameterValue>>; ///< literals
+
 struct GltfMaterialSettings {
     std::string package;
     std::vector<MaterialConstant> constants; ///< only those that differ from the defaults
-    std::vector<std::pair<const char*, ParameterValue>> parameters;
+    GltfParameters parameters;
     std::vector<GltfMap> maps;
     std::vector<std::string> leftOut; ///< stems of maps that did not fit; only their factors count
 };
@@ -35,5 +37,8 @@ struct GltfMaterialSettings {
 /// `maxMaps`: maps that the device can sample beside the engine's textures; the maps of the last layers go first.
 GltfMaterialSettings settingsOf(assets::MaterialData const& material, bool hasVertexColor, float scale = 1,
                                 size_t maxMaps = SIZE_MAX);
+
+/// The `parameters` of settingsOf() in place of those that are there. Allocates only if they have never been as many.
+void readParameters(assets::MaterialData const& material, bool hasVertexColor, float scale, GltfParameters& parameters);
 
 } // namespace filament

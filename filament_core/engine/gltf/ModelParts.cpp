@@ -59,25 +59,26 @@ constexpr std::array kParameters{
     ParameterRow{ AttenuationColor, "absorption" },
 };
 
-struct StemRow {
+struct MapRow {
     MapName map;
-    const char* stem;
+    std::string_view stem;
+    const char* matrix; ///< the parameter
 };
-constexpr std::array kStems{
-    StemRow{ MapName::BaseColor, "baseColor" },
-    StemRow{ MapName::MetallicRoughness, "metallicRoughness" },
-    StemRow{ MapName::Normal, "normal" },
-    StemRow{ MapName::Occlusion, "occlusion" },
-    StemRow{ MapName::Emissive, "emissive" },
-    StemRow{ MapName::Bump, "bump" },
-    StemRow{ MapName::ClearCoat, "clearCoat" },
-    StemRow{ MapName::ClearCoatNormal, "clearCoatNormal" },
-    StemRow{ MapName::Sheen, "sheen" },
-    StemRow{ MapName::Specular, "specular" },
-    StemRow{ MapName::Anisotropy, "anisotropy" },
-    StemRow{ MapName::Iridescence, "iridescence" },
-    StemRow{ MapName::Transmission, "transmission" },
-    StemRow{ MapName::DiffuseTransmission, "diffuseTransmission" },
+constexpr std::array kMaps{
+    MapRow{ MapName::BaseColor, "baseColor", "baseColorUvMatrix" },
+    MapRow{ MapName::MetallicRoughness, "metallicRoughness", "metallicRoughnessUvMatrix" },
+    MapRow{ MapName::Normal, "normal", "normalUvMatrix" },
+    MapRow{ MapName::Occlusion, "occlusion", "occlusionUvMatrix" },
+    MapRow{ MapName::Emissive, "emissive", "emissiveUvMatrix" },
+    MapRow{ MapName::Bump, "bump", "bumpUvMatrix" },
+    MapRow{ MapName::ClearCoat, "clearCoat", "clearCoatUvMatrix" },
+    MapRow{ MapName::ClearCoatNormal, "clearCoatNormal", "clearCoatNormalUvMatrix" },
+    MapRow{ MapName::Sheen, "sheen", "sheenUvMatrix" },
+    MapRow{ MapName::Specular, "specular", "specularUvMatrix" },
+    MapRow{ MapName::Anisotropy, "anisotropy", "anisotropyUvMatrix" },
+    MapRow{ MapName::Iridescence, "iridescence", "iridescenceUvMatrix" },
+    MapRow{ MapName::Transmission, "transmission", "transmissionUvMatrix" },
+    MapRow{ MapName::DiffuseTransmission, "diffuseTransmission", "diffuseTransmissionUvMatrix" },
 };
 
 void require(Result<void> const& result) {
@@ -85,32 +86,36 @@ void require(Result<void> const& result) {
     FILAMENT_ASSERT(result.ok(), "the materials of a model have the parameters that animations of the model change");
 }
 
-/// What the property changes of an instance with these settings; nothing where its material does not have it.
-void setParameter(Engine::Impl& engine, MaterialInstance instance, GltfMaterialSettings const& settings,
-                  AnimatedProperty const& property) {
+MapRow const& rowOf(MapName map) { return *std::ranges::find(kMaps, map, &MapRow::map); }
+
+/// Whether the material has what the property changes: maps can be left out.
+bool hasTarget(GltfMaterialSettings const& settings, AnimatedProperty const& property) {
+    return property.map == MapName::None ||
+           std::ranges::any_of(settings.maps, [&](GltfMap const& map) { return map.stem == rowOf(property.map).stem; });
+}
+
+/// What the property changes of an instance with these parameters; nothing where its material does not have it.
+void setParameter(Engine::Impl& engine, MaterialInstance instance, assets::MaterialData& material,
+                  GltfParameters const& parameters, AnimatedProperty const& property) {
     if (property.map != MapName::None) {
-        auto const* stem = std::ranges::find(kStems, property.map, &StemRow::map);
-        const auto map =
-                std::ranges::find_if(settings.maps, [&](GltfMap const& each) { return each.stem == stem->stem; });
-        if (map == settings.maps.end()) return; // left out
-        return require(engine.set(instance, map->stem + "UvMatrix", map->texture.uvTransform));
+        const float3x3 matrix = mapOf(material, property.map).uvTransform;
+        return require(engine.set(instance, rowOf(property.map).matrix, matrix));
     }
     auto const* row = std::ranges::find(kParameters, property.name, &ParameterRow::property);
     FILAMENT_ASSERT(row != kParameters.end(), "every animated property of a material is a parameter");
-    for (auto const& [name, value] : settings.parameters) {
+    for (auto const& [name, value] : parameters) {
         if (std::string_view(name) == row->parameter) require(engine.set(instance, name, value));
     }
 }
 
 /// By node: whether it and all above are visible.
-std::vector<uint8_t> shownNodes(Model::Impl const& model, std::span<const uint8_t> isVisible) {
-    std::vector<uint8_t> isShown(model.nodes.size());
+void findShownNodes(Model::Impl const& model, std::span<const uint8_t> isVisible, std::vector<uint8_t>& isShown) {
+    isShown.resize(model.nodes.size());
     for (size_t i = 0; i < model.nodes.size(); ++i) {
         const uint32_t parent = model.nodes[i].parent, with = model.nodes[i].visibleWith;
         isShown[i] = isVisible[i] && (parent == Model::Impl::kRoot || isShown[parent]) &&
                      (with == Model::Impl::kRoot || isShown[with]);
     }
-    return isShown;
 }
 
 /// By node: whether an animation can change if it is shown.
@@ -119,7 +124,8 @@ std::vector<uint8_t> changingNodes(Model::Impl const& model) {
     for (AnimatedProperty const& property : model.properties) {
         if (property.owner == PropertyOwner::Node) isLasting[property.object] = 0;
     }
-    std::vector<uint8_t> isChanging = shownNodes(model, isLasting);
+    std::vector<uint8_t> isChanging;
+    findShownNodes(model, isLasting, isChanging);
     for (uint8_t& node : isChanging) node = !node;
     return isChanging;
 }
@@ -152,10 +158,9 @@ void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data,
 }
 
 /// Renderables and lights of visible nodes are shown, those of others are not; the program keeps what no animation
-/// hides. `isChanging`: changingNodes(). `lights`: of the file.
-void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy, std::span<const uint8_t> isVisible,
+/// hides. `isShown`: findShownNodes(). `isChanging`: changingNodes(). `lights`: of the file.
+void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy, std::span<const uint8_t> isShown,
           std::span<const uint8_t> isChanging, std::span<const assets::LightData> lights) {
-    const std::vector<uint8_t> isShown = shownNodes(model, isVisible);
     for (size_t i = 0; i < copy.renderables.size(); ++i) {
         const Renderable renderable = copy.renderables[i];
         const uint32_t node = model.renderables[i].ofNode;
@@ -174,10 +179,18 @@ void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy,
 ModelParts::ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root)
         : mModel(model), mScene(scene), mRoot(root) {
     if (model.properties.empty()) return;
-    for (Model::Impl::AnimatedMaterial const& material : model.animatedMaterials) mMaterials.push_back(material.data);
+    for (Model::Impl::AnimatedMaterial const& material : model.animatedMaterials) {
+        mMaterials.push_back(material.data);
+        const GltfMaterialSettings settings = settingsOf(material.data, false, 1, model.maxMaps);
+        std::vector<uint32_t>& targets = mTargets.emplace_back();
+        for (const uint32_t i : material.properties) {
+            if (hasTarget(settings, model.properties[i])) targets.push_back(i);
+        }
+    }
     mLights = model.lightsOfFile;
     mIsVisible = visibleAtRest(model);
     mIsChanging = changingNodes(model);
+    findShownNodes(model, mIsVisible, mIsShown);
 }
 
 void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> isMoved) {
@@ -206,7 +219,10 @@ void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> 
         }
     }
     for (size_t i = 0; i < mMaterials.size(); ++i) writeMaterial(i, values, isMoved);
-    if (movesVisibility) show(mModel, mScene, *copy, mIsVisible, mIsChanging, mLights);
+    if (movesVisibility) {
+        findShownNodes(mModel, mIsVisible, mIsShown);
+        show(mModel, mScene, *copy, mIsShown, mIsChanging, mLights);
+    }
     if (movesLights) writeLights(isMoved);
 }
 
@@ -222,31 +238,31 @@ void ModelParts::writeMaterial(size_t animated, std::span<const float4> values, 
     if (!isChanged) return;
     for (Model::Impl::AnimatedInstance const& each : shared.instances) {
         const MaterialInstance own = ownInstance(mScene, copy, each.instance);
-        const GltfMaterialSettings settings =
-                settingsOf(mMaterials[animated], each.hasVertexColor, each.scale, mModel.maxMaps);
-        for (const uint32_t i : shared.properties) {
-            if (isMoved[i]) setParameter(mScene.engine, own, settings, mModel.properties[i]);
+        readParameters(mMaterials[animated], each.hasVertexColor, each.scale, mParameters);
+        for (const uint32_t i : mTargets[animated]) {
+            if (isMoved[i]) setParameter(mScene.engine, own, mMaterials[animated], mParameters, mModel.properties[i]);
         }
     }
 }
 
 void ModelParts::writeLights(std::span<const uint8_t> isMoved) {
     CopyOfModel const& copy = *mScene.copies.find(mRoot);
-    const std::vector<uint8_t> isShown = shownNodes(mModel, mIsVisible);
     for (size_t i = 0; i < copy.lights.size(); ++i) {
         Model::Impl::PartLight const& part = mModel.lights[i];
         for (size_t k = 0; k < isMoved.size(); ++k) {
             AnimatedProperty const& property = mModel.properties[k];
             if (isMoved[k] && property.owner == PropertyOwner::Light && property.object == part.source)
-                changeLight(mScene, copy.lights[i], mLights[part.source], property.name, isShown[part.node]);
+                changeLight(mScene, copy.lights[i], mLights[part.source], property.name, mIsShown[part.node]);
         }
     }
 }
 
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root) {
     const std::vector<uint8_t> isVisible = visibleAtRest(model);
-    if (std::ranges::count(isVisible, uint8_t{ 0 }) > 0)
-        show(model, scene, *scene.copies.find(root), isVisible, changingNodes(model), model.lightsOfFile);
+    if (std::ranges::count(isVisible, uint8_t{ 0 }) == 0) return;
+    std::vector<uint8_t> isShown;
+    findShownNodes(model, isVisible, isShown);
+    show(model, scene, *scene.copies.find(root), isShown, changingNodes(model), model.lightsOfFile);
 }
 
 } // namespace filament::engine

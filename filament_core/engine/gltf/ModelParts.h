@@ -5,10 +5,11 @@
 ///   Thread  app.   Fails: std::bad_alloc.
 ///   Memory  the data of the materials, lights and cameras of a model that has animated properties; else nothing.
 ///   Cost    a change of a material: its parameters are derived again, as at loading, so that a copy at some time has
-///           the bits of a file with these values.
+///           the bits of a file with these values. Once all properties have moved, nothing is allocated.
 #pragma once
 
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/GltfMaterialSettings.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
 
 #include <span>
@@ -34,7 +35,10 @@ private:
     Node mRoot;
     std::vector<assets::MaterialData> mMaterials; // parallel to the animated materials of the model
     std::vector<assets::LightData> mLights;       // parallel to those of the file
+    std::vector<std::vector<uint32_t>> mTargets;  // of the same: properties of the model that their instances have
+    GltfParameters mParameters;                   // of the material that is written
     std::vector<uint8_t> mIsVisible;              // by node of the model, of its own
+    std::vector<uint8_t> mIsShown;                // by node of the model, with those above
     std::vector<uint8_t> mIsChanging; // by node of the model: whether an animation can change if it is shown
 };
 
