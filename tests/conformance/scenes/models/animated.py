@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes animated.gltf beside this file: five squares, a point light and a spot with properties that
+"""Writes animated.gltf beside this file: six squares, a point light and a spot with properties that
 KHR_animation_pointer changes over one second.
 
-From left to right: a colour and a roughness; the transform of a texture; a square that is hidden at rest, with emission;
-the height of bumps; a clear coat. The point's intensity and the spot's cone and colour change as well."""
+From left to right: a colour and a roughness; the transform of a texture; a square that is hidden at rest, with
+emission; the height of bumps; a smooth clear coat over bumps; a glossy material with bumps.
+The point's intensity and the spot's cone and colour change as well."""
 import base64
 import json
 import pathlib
@@ -86,15 +87,15 @@ lights = "KHR_lights_punctual"
 model = {
     "asset": {"version": "2.0", "generator": "animated.py"},
     "extensionsUsed": ["EXT_materials_bump", "KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_clearcoat",
-                       "KHR_node_visibility", "KHR_texture_transform"],
+                       "KHR_materials_pbrSpecularGlossiness", "KHR_node_visibility", "KHR_texture_transform"],
     "extensions": {lights: {"lights": [
         {"type": "point", "intensity": 0},
         {"type": "spot", "intensity": 150000, "spot": {"innerConeAngle": 0, "outerConeAngle": 0.1}}]}},
     "scene": 0,
-    "scenes": [{"nodes": [0, 1, 2, 3, 4, 5, 6]}],
-    "nodes": [{"mesh": i, "translation": [1.1 * i - 2.2, 0, 0]} for i in range(5)] + [
-        {"translation": [-0.6, 1, 1], "extensions": {lights: {"light": 0}}},
-        {"translation": [2, 0, 2], "extensions": {lights: {"light": 1}}}],
+    "scenes": [{"nodes": [0, 1, 2, 3, 4, 5, 6, 7]}],
+    "nodes": [{"mesh": i, "translation": [1.1 * i - 2.75, 0, 0]} for i in range(6)] + [
+        {"translation": [-1.15, 1, 1], "extensions": {lights: {"light": 0}}},
+        {"translation": [1.6, 0, 2], "extensions": {lights: {"light": 1}}}],
     "materials": [
         {"pbrMetallicRoughness": {"metallicFactor": 0}},
         {"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {
@@ -103,8 +104,13 @@ model = {
         {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.4}, "extensions": {
             "EXT_materials_bump": {"bumpFactor": 0, "bumpTexture": {"index": 1}}}},
         {"pbrMetallicRoughness": {"baseColorFactor": [0.8, 0.5, 0.4, 1], "metallicFactor": 0}, "extensions": {
-            "KHR_materials_clearcoat": {"clearcoatFactor": 0, "clearcoatRoughnessFactor": 0.1}}}],
-    "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": i}]} for i in range(5)],
+            "KHR_materials_clearcoat": {"clearcoatFactor": 0, "clearcoatRoughnessFactor": 0.1},
+            "EXT_materials_bump": {"bumpFactor": -0.3, "bumpTexture": {"index": 1}}}},
+        {"extensions": {
+            "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.2, 0.4, 0.2, 1],
+                                                    "specularFactor": [0.3, 0.3, 0.3], "glossinessFactor": 0.6},
+            "EXT_materials_bump": {"bumpFactor": 0.3, "bumpTexture": {"index": 1}}}}],
+    "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": i}]} for i in range(6)],
     "textures": [{"source": 0}, {"source": 1}],
     "images": [{"uri": png(8, tile)}, {"uri": png(16, hill)}],
     "animations": [{"samplers": samplers, "channels": channels}],
