@@ -169,6 +169,8 @@ TEST(Bump, WhereTheHeightIsEvenNoBitChanges) {
     quad.material.bump = relief(3, 2);
     quad.uvs = std::vector<float2>(4, float2(0.3f, 0.6f));
     expectSame(pictureOf(quad), bare, "a triangle without an area of texture");
+    quad.material.bump.map.uvSet = 1;
+    expectSame(pictureOf(quad), bare, "coordinates that the mesh does not have");
 }
 
 TEST(Bump, NoFactorAndNoCoordinatesGiveNaN) {
