@@ -6,17 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace filament::prepare {
 namespace {
 
 bool hasRefraction(scene::SceneData const& scene) {
     scene::Drawables const& drawables = scene.renderables.drawables;
-    return std::ranges::any_of(std::views::iota(0u, drawables.limit()), [&](uint32_t number) {
-        return drawables.use(number).users > 0 &&
-               drawables[number].material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
-    });
+    for (uint32_t i = 0; i < drawables.limit(); ++i) {
+        if (drawables.use(i).users == 0) continue;
+        if (drawables[i].material->material->package.refractionMode == shader::RefractionMode::ScreenSpace) return true;
+    }
+    return false;
 }
 
 } // namespace

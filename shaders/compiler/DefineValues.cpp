@@ -32,7 +32,8 @@ public:
                 mOut.insert(mOut.end(), words.begin(), words.end());
                 return;
             }
-            mOut.insert(mOut.end(), { 5u << 16 | op, words[1], words[2], words[3], zeroOf(mPointees.at(words[1])) });
+            const uint32_t zero = zeroOf(mPointees.at(words[1])); // may add it to mOut
+            mOut.insert(mOut.end(), { 5u << 16 | op, words[1], words[2], words[3], zero });
         });
         mOut[kBoundWord] = mBound;
         return std::move(mOut);
