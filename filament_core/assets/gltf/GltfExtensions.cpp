@@ -19,6 +19,7 @@ constexpr std::array kExtensions{
     GltfExtension{ "KHR_node_visibility", "nodes that are not visible hide what is below them" },
     GltfExtension{ "KHR_animation_pointer",
                    "animations of materials, texture transforms, lights, cameras and visibility" },
+    GltfExtension{ "MSFT_lod", "the finest level is drawn at every size; coarser nodes and materials are left out" },
     GltfExtension{ "EXT_mesh_gpu_instancing", "a mesh at many places, as instances" },
     GltfExtension{ "KHR_lights_punctual", "suns, points and spots in lux and candela" },
     GltfExtension{ "EXT_lights_ies", "points with a photometric profile" },

@@ -220,6 +220,7 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
                      .camera = node["camera"].index(counts.cameras, "cameras"),
                      .isVisible = node.extension("KHR_node_visibility")["visible"].boolean(true),
+                     .levels = parseGltfLevels(node, counts.nodes),
                      .weights = node["weights"].numberList(),
                      .instancing = {},
                      .profiledLight = parseGltfProfiledLight(node.extension("EXT_lights_ies"), counts.profiles) };
@@ -444,6 +445,7 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     checkExtensions(root, diagnostics);
     parseElements(root, document);
     if (diagnostics.ok()) checkForest(document.nodes, diagnostics);
+    if (diagnostics.ok()) markCoarserLevels(document.nodes, diagnostics);
     if (diagnostics.ok()) checkWeights(document.meshes, document.nodes, diagnostics);
     if (diagnostics.ok()) document.roots = parseRoots(root, document.nodes);
     if (!diagnostics.ok()) return document;

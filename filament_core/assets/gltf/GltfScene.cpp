@@ -188,7 +188,8 @@ public:
             const auto [node, parent, isAboveVisible] = mOpen.back();
             mOpen.pop_back();
             GltfNode const& source = mDocument.nodes[node];
-            const bool isVisible = isAboveVisible && (source.isVisible || source.isVisibilityAnimated);
+            const bool isVisible =
+                    isAboveVisible && !source.isCoarserLevel && (source.isVisible || source.isVisibilityAnimated);
             const bool isShown = requests && isVisible;
             const auto added = static_cast<uint32_t>(mScene.nodes.size());
             mScene.nodeOf[node] = added;

@@ -7,6 +7,8 @@
 ///           with the same name follows the file's nodes: a child for each instance of EXT_mesh_gpu_instancing, or a
 ///           root for a skinned mesh, whose place does not depend on its node (section 3.7.3.3). Joints outside the
 ///           default scene come with their ancestors and descendants, but without their meshes.
+///           Of nodes with levels of detail (MSFT_lod) the finest is shown; the others stay, like hidden nodes, without
+///           meshes and lights.
 ///   Thread  one. Cost: linear in the nodes.
 ///   Limits  2^20 instances of EXT_mesh_gpu_instancing per node; skins of more than 256 joints are dropped.
 ///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.

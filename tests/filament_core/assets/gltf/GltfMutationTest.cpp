@@ -96,7 +96,8 @@ Specimen writtenSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
-/// KHR_animation_pointer: properties of every owner, poses and weights.
+/// KHR_animation_pointer: properties of every owner, poses and weights; with levels of detail of which one is listed
+/// twice.
 Specimen pointerSpecimen() {
     TestFile file = TestFile::triangle();
     const size_t target = file.add(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
@@ -110,7 +111,11 @@ Specimen pointerSpecimen() {
     file.root["materials"][0]["extensions"]["EXT_materials_bump"].erase("bumpTexture");
     file.root["nodes"][0]["camera"] = 0;
     file.root["nodes"][0]["extensions"] =
-            Json::parse(R"({ "KHR_node_visibility": { "visible": false }, "KHR_lights_punctual": { "light": 0 } })");
+            Json::parse(R"({ "KHR_node_visibility": { "visible": false }, "KHR_lights_punctual": { "light": 0 },
+                "MSFT_lod": { "ids": [ 1, 2 ] } })");
+    file.root["nodes"].push_back(Json::parse(R"({ "mesh": 0, "extensions": { "MSFT_lod": { "ids": [ 2 ] } } })"));
+    file.root["nodes"].push_back(Json::parse(R"({ "mesh": 0 })"));
+    file.root["scenes"][0]["nodes"] = Json::array({ 0, 1, 2 });
     file.root["cameras"] = Json::parse(R"([ { "type": "orthographic", "orthographic": { "xmag": 1, "ymag": 1,
         "znear": 0, "zfar": 2 } } ])");
     file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
