@@ -13,7 +13,7 @@ using test::onBothApis;
 
 constexpr float4 kMaskColor{ 1, 0, 0, 1 }, kSeenThrough{ 0, 1, 0, 1 }, kBareBackground{ 0, 0, 0, 1 };
 
-std::string coloured(std::string_view properties = "") {
+std::string stencilMaterial(std::string_view properties = "") {
     return fmt::format(R"(material {{ name : stencil, shadingModel : unlit, requires : [ color ], {} }}
 fragment {{ void material(inout MaterialInputs material) {{
     prepareMaterial(material);
@@ -25,7 +25,7 @@ fragment {{ void material(inout MaterialInputs material) {{
 /// A surface of a colour with a stencil state, in the middle of the picture.
 void add(MaterialStage& stage, float4 color, StencilFace const& face, std::string_view properties = "",
          test::Square const& square = {}) {
-    const MaterialInstance instance = stage.material(coloured(properties), test::kNoLights);
+    const MaterialInstance instance = stage.material(stencilMaterial(properties), test::kNoLights);
     stage.engine.setStencil(instance, bothSides(face));
     stage.add(instance, { { square.z, color, square.facesCamera, square.halfSide } });
 }
@@ -94,7 +94,7 @@ public:
     /// One more step, nearer than those before it.
     void add(float4 color, StencilFace const& face) {
         const MaterialInstance instance =
-                mStage.material(coloured("blending : transparent, depthWrite : false"), test::kNoLights);
+                mStage.material(stencilMaterial("blending : transparent, depthWrite : false"), test::kNoLights);
         mStage.engine.setStencil(instance, bothSides(face));
         double4x4 world(1);
         world[3].z = mDepth;
@@ -180,14 +180,14 @@ TEST(Stencil, MasksSelectTheBitsThatAreReadAndWritten) {
 TEST(Stencil, WhatFailsDepthOrStencilHasOperationsOfItsOwn) {
     for (const bool isHidden : { false, true }) {
         const float4 color = seen([&](MaterialStage& stage) {
-            stage.add(stage.material(coloured(), test::kNoLights),
+            stage.add(stage.material(stencilMaterial(), test::kNoLights),
                       { { .z = isHidden ? 0.0f : -3.0f, .color = kBareBackground } });
             Chain chain(stage); // behind the surface at z = 0, or before that at z = -3
             chain.add({}, { .onDepthFail = StencilOperation::Replace,
                             .onPass = StencilOperation::IncrementClamp,
                             .reference = 9 });
             const MaterialInstance shown =
-                    stage.material(coloured("blending : transparent, depthCulling : false"), test::kNoLights);
+                    stage.material(stencilMaterial("blending : transparent, depthCulling : false"), test::kNoLights);
             stage.engine.setStencil(shown, bothSides({ .test = StencilTest::Equal,
                                                        .reference = isHidden ? uint8_t{ 9 } : uint8_t{ 1 } }));
             stage.add(shown, { { 1, kSeenThrough } });
@@ -205,8 +205,8 @@ TEST(Stencil, WhatFailsDepthOrStencilHasOperationsOfItsOwn) {
 TEST(Stencil, TheSidesOfASurfaceHaveAStateEach) {
     for (const bool facesCamera : { false, true }) {
         const float4 color = seen([&](MaterialStage& stage) {
-            const MaterialInstance mask =
-                    stage.material(coloured("culling : none, colorWrite : false, depthWrite : false"), test::kNoLights);
+            const MaterialInstance mask = stage.material(
+                    stencilMaterial("culling : none, colorWrite : false, depthWrite : false"), test::kNoLights);
             stage.engine.setStencil(mask,
                                     StencilState{ .front = { .onPass = StencilOperation::Replace, .reference = 1 },
                                                   .back = { .onPass = StencilOperation::Replace, .reference = 2 } });
@@ -273,7 +273,7 @@ TEST(Stencil, RunsOnlyIfSomethingVisibleHasAState) {
         auto engine = test::makeEngine(backend);
         ASSERT_TRUE(engine);
         MaterialStage stage(*engine);
-        const MaterialInstance instance = stage.material(coloured(), test::kNoLights);
+        const MaterialInstance instance = stage.material(stencilMaterial(), test::kNoLights);
         stage.add(instance, { { 0, kSeenThrough } });
         Renderer renderer(*engine);
         const auto why = [&] {
@@ -296,7 +296,7 @@ TEST(Stencil, StatesThatDifferInTheirReferenceShareAPipeline) {
         auto engine = test::makeEngine(backend);
         ASSERT_TRUE(engine);
         MaterialStage stage(*engine);
-        const MaterialInstance instance = stage.material(coloured(), test::kNoLights);
+        const MaterialInstance instance = stage.material(stencilMaterial(), test::kNoLights);
         stage.add(instance, { { 0, kSeenThrough } });
         const auto pipelinesAfter = [&](uint8_t reference) {
             engine->setStencil(instance, bothSides({ .onPass = StencilOperation::Replace, .reference = reference }));
