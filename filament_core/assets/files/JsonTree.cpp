@@ -143,6 +143,18 @@ std::vector<std::string> JsonNode::textsOf(const char* key) const {
     return texts;
 }
 
+std::vector<double> JsonNode::numbersOf(const char* key) const {
+    if (!mValue || !mValue->is_object()) return {};
+    const auto member = mValue->find(key);
+    if (member == mValue->end() || !member->is_array()) return {};
+    std::vector<double> numbers;
+    for (json const& element : *member) {
+        if (!element.is_number()) return {};
+        numbers.push_back(element.get<double>());
+    }
+    return numbers;
+}
+
 void JsonNode::refuse(std::string_view expected) const {
     const char* found = mValue ? mValue->type_name() : "nothing";
     mDiagnostics->refuse(ErrorCode::Corrupt, "{}: must be {}, found {}", mPath.empty() ? "the file" : mPath, expected,

@@ -60,6 +60,7 @@ public:
     /// A list of texts in what is the file's own business ("extras"): empty if this is no object, or its member `key`
     /// is anything else.
     std::vector<std::string> textsOf(const char* key) const;
+    std::vector<double> numbersOf(const char* key) const; ///< the same for numbers
 
 private:
     void refuse(std::string_view expected) const;

@@ -147,6 +147,7 @@ struct GltfNode {
     bool isVisibilityAnimated = false; ///< KHR_animation_pointer: it may be shown later
     bool isCoarserLevel = false;       ///< MSFT_lod: another node is the same thing in more detail
     std::vector<uint32_t> levels;      ///< MSFT_lod: nodes that are the same thing in less detail, the finest first
+    std::vector<double> coverage;      ///< MSFT_screencoverage of the node and its levels, as the file has them
     std::vector<float> weights;
     std::optional<GltfInstancing> instancing;
     std::optional<GltfProfiledLight> profiledLight;

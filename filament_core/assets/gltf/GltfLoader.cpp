@@ -190,7 +190,8 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!goesOn(options, diagnostics)) return {};
     if (options.deformation == GltfDeformation::Kept) keepAnimated(document);
-    GltfScene scene = planScene(document, options.deformation, diagnostics);
+    if (options.levels == GltfLevels::All) adoptLevels(document);
+    GltfScene scene = planScene(document, options.deformation, options.levels, diagnostics);
     Content content;
     content.primitives = listPrimitives(document, scene, diagnostics);
     if (!diagnostics.ok()) return {};
@@ -226,6 +227,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
         }
     }
     model.nodes = std::move(scene.nodes);
+    model.levels = std::move(scene.levels);
     model.cameras = std::move(document.cameras);
     model.skins = std::move(scene.skins);
     addProfiledLights(std::move(scene.profiledLights), std::move(profiles), document.lights, model);

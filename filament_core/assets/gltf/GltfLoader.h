@@ -40,6 +40,7 @@ struct GltfOptions {
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
     GeometryStorage storage{};
     GltfDeformation deformation = GltfDeformation::AtRest;
+    GltfLevels levels = GltfLevels::Finest;
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
     GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files
     /// Requested from any thread: the load ends before its next image or primitive, with Cancelled. Must outlive it.

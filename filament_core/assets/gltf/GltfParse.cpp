@@ -221,6 +221,7 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .camera = node["camera"].index(counts.cameras, "cameras"),
                      .isVisible = node.extension("KHR_node_visibility")["visible"].boolean(true),
                      .levels = parseGltfLevels(node, counts.nodes),
+                     .coverage = parseGltfCoverage(node),
                      .weights = node["weights"].numberList(),
                      .instancing = {},
                      .profiledLight = parseGltfProfiledLight(node.extension("EXT_lights_ies"), counts.profiles) };

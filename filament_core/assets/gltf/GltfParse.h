@@ -32,9 +32,11 @@ GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount);
 std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, size_t profileCount); ///< of a node
 /// MSFT_lod of a node: its levels of lower detail. Those that the file does not have are dropped, with a warning.
 std::vector<uint32_t> parseGltfLevels(JsonNode const& node, size_t nodeCount);
+std::vector<double> parseGltfCoverage(JsonNode const& node);
 /// Sets isCoarserLevel of every node that another one lists as a level. An entry that would leave nothing to draw, or
-/// that contradicts the list of a node before it, is ignored, with a warning. The children must form a forest. Cost:
-/// linear in the nodes and levels; nothing without levels.
+/// that contradicts the list of a node before it, is dropped, with a warning; one below its node, which is only shown
+/// with it, is dropped without. The children must form a forest. Cost: linear in the nodes and levels; nothing without
+/// levels.
 void markCoarserLevels(std::vector<GltfNode>& nodes, Diagnostics& diagnostics);
 GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageCount);
 /// The light that each scene names, if any.

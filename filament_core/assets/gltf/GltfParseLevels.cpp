@@ -51,12 +51,14 @@ public:
         if (level == node) return "is the node itself; list only coarser levels";
         if (mFiner[level] != kNone) return "is a coarser level already; list each level once";
         if (finest(node) == level) return "is the same thing in more detail; list only coarser levels";
-        if (mAncestry.isAbove(level, node)) return "is above the node; levels must not contain finer ones";
+        if (mAncestry.isAbove(level, node) || mAncestry.isAbove(level, finest(node)))
+            return "is above the node; levels must not contain finer ones";
         mFiner[level] = node;
         return nullptr;
     }
 
     bool isCoarser(uint32_t node) const { return mFiner[node] != kNone; }
+    bool isBelow(uint32_t level, uint32_t node) const { return mAncestry.isAbove(node, level); }
 
 private:
     /// The end of the chain; it is shortened on the way, so that long chains are walked once.
@@ -88,14 +90,21 @@ std::vector<uint32_t> parseGltfLevels(JsonNode const& node, size_t nodeCount) {
     return levels;
 }
 
+std::vector<double> parseGltfCoverage(JsonNode const& node) {
+    return node.extension("MSFT_lod").exists() ? node["extras"].numbersOf("MSFT_screencoverage")
+                                               : std::vector<double>();
+}
+
 void markCoarserLevels(std::vector<GltfNode>& nodes, Diagnostics& diagnostics) {
     if (std::ranges::all_of(nodes, [](GltfNode const& node) { return node.levels.empty(); })) return;
     LevelLists lists(nodes);
     for (uint32_t i = 0; i < nodes.size(); ++i) {
-        for (const uint32_t level : nodes[i].levels) {
-            if (const char* reason = lists.add(i, level))
+        std::erase_if(nodes[i].levels, [&](uint32_t level) {
+            const char* const reason = lists.add(i, level);
+            if (reason)
                 diagnostics.warn("nodes[{}].extensions.MSFT_lod.ids: nodes[{}] {}; it was ignored", i, level, reason);
-        }
+            return reason || lists.isBelow(level, i);
+        });
     }
     for (uint32_t i = 0; i < nodes.size(); ++i) nodes[i].isCoarserLevel = lists.isCoarser(i);
 }

@@ -7,9 +7,11 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace filament::assets {
 namespace {
@@ -177,9 +179,10 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
 /// Adds nodes of the file together with their descendants.
 class NodeList {
 public:
-    NodeList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
-             Diagnostics& diagnostics)
-            : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+    NodeList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfLevels levels,
+             GltfScene& scene, Diagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mLevels(levels), mScene(scene),
+              mDiagnostics(diagnostics) {}
 
     /// `requests` is null for nodes that are not shown and only serve as joints.
     void add(std::vector<uint32_t> const& roots, RequestList* requests) {
@@ -188,8 +191,8 @@ public:
             const auto [node, parent, isAboveVisible] = mOpen.back();
             mOpen.pop_back();
             GltfNode const& source = mDocument.nodes[node];
-            const bool isVisible =
-                    isAboveVisible && !source.isCoarserLevel && (source.isVisible || source.isVisibilityAnimated);
+            const bool isLeftOut = source.isCoarserLevel && mLevels == GltfLevels::Finest;
+            const bool isVisible = isAboveVisible && !isLeftOut && (source.isVisible || source.isVisibilityAnimated);
             const bool isShown = requests && isVisible;
             const auto added = static_cast<uint32_t>(mScene.nodes.size());
             mScene.nodeOf[node] = added;
@@ -201,7 +204,8 @@ public:
                                      .camera = requests ? source.camera : kNone,
                                      .morphWeights = {},
                                      .pose = source.pose,
-                                     .isVisible = source.isVisible || !source.isVisibilityAnimated });
+                                     .isVisible = source.isVisible || !source.isVisibilityAnimated,
+                                     .isCoarserLevel = source.isCoarserLevel });
             if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);
             if (isShown && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
             push(source.children, added, isVisible);
@@ -228,6 +232,7 @@ private:
 
     GltfDocument const& mDocument;
     std::vector<double4x4> const& mWorldFromNode;
+    GltfLevels mLevels;
     GltfScene& mScene;
     Diagnostics& mDiagnostics;
     std::vector<Open> mOpen;
@@ -239,6 +244,64 @@ std::vector<uint32_t> parentsOf(GltfDocument const& document) {
         for (const uint32_t child : document.nodes[i].children) parents[child] = i;
     }
     return parents;
+}
+
+/// Calls visit(finest level, another level) for each thing with levels, its levels in order; those that levels list
+/// themselves follow them.
+template <class Visit>
+void visitLevels(GltfDocument const& document, Visit const& visit) {
+    std::vector<uint32_t> open;
+    const auto push = [&](uint32_t node) {
+        std::vector<uint32_t> const& levels = document.nodes[node].levels;
+        open.insert(open.end(), levels.rbegin(), levels.rend());
+    };
+    for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+        if (document.nodes[i].isCoarserLevel) continue;
+        push(i);
+        while (!open.empty()) {
+            const uint32_t level = open.back();
+            open.pop_back();
+            visit(i, level);
+            push(level);
+        }
+    }
+}
+
+/// Where the file says nothing: a quarter of the area of the level before, half as wide and high. The last level is
+/// then shown however small the thing is.
+std::vector<double> leastCoverageOf(std::vector<double> const& given, uint32_t node, size_t count,
+                                    Diagnostics& diagnostics) {
+    std::vector<double> least;
+    bool isMended = false;
+    for (size_t i = 0; i < count; ++i) {
+        const double most = i == 0 ? 1e30 : least.back();
+        const double usual = i + 1 == count ? 0 : 0.25 * std::min(most, 1.0);
+        const double value = i < given.size() ? given[i] : usual;
+        least.push_back(std::clamp(value, 0.0, most));
+        isMended |= value != least.back();
+    }
+    if (isMended)
+        diagnostics.warn(
+                "nodes[{}].extras.MSFT_screencoverage: must be 0 or more and not increase from level to level; "
+                "it was limited to that",
+                node);
+    return least;
+}
+
+void collectLevels(GltfDocument const& document, GltfScene& scene, Diagnostics& diagnostics) {
+    uint32_t finest = kNone; // of the last entry
+    std::vector<uint32_t> sources;
+    visitLevels(document, [&](uint32_t node, uint32_t level) {
+        if (scene.nodeOf[node] == kNone || scene.nodeOf[level] == kNone) return;
+        if (std::exchange(finest, node) != node) {
+            scene.levels.push_back({ { scene.nodeOf[node] }, {} });
+            sources.push_back(node);
+        }
+        scene.levels.back().nodes.push_back(scene.nodeOf[level]);
+    });
+    for (size_t i = 0; i < sources.size(); ++i)
+        scene.levels[i].leastCoverage = leastCoverageOf(document.nodes[sources[i]].coverage, sources[i],
+                                                        scene.levels[i].nodes.size(), diagnostics);
 }
 
 /// Collects the skins that nodes keep, and gives those nodes the new indices.
@@ -285,14 +348,33 @@ void checkPlacements(GltfDocument const& document, GltfScene const& scene, Diagn
 
 } // namespace
 
-GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, Diagnostics& diagnostics) {
+void adoptLevels(GltfDocument& document) {
+    std::vector<uint32_t> parents = parentsOf(document);
+    std::vector<bool> isRoot(document.nodes.size(), false);
+    for (const uint32_t root : document.roots) isRoot[root] = true;
+    std::vector<std::pair<uint32_t, uint32_t>> adopted; // finest level, and the one that is in no scene
+    visitLevels(document, [&](uint32_t node, uint32_t level) {
+        if (parents[level] == kNone && !isRoot[level]) adopted.emplace_back(node, level);
+    });
+    for (auto const& [node, level] : adopted) {
+        parents[level] = parents[node];
+        if (parents[node] != kNone)
+            document.nodes[parents[node]].children.push_back(level);
+        else if (isRoot[node])
+            document.roots.push_back(level);
+    }
+}
+
+GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, GltfLevels levels,
+                    Diagnostics& diagnostics) {
     GltfScene scene;
     scene.nodeOf.resize(document.nodes.size(), kNone);
     scene.meshNodes.resize(document.nodes.size());
     const std::vector<double4x4> worldFromNode = worldTransforms(document, diagnostics);
     RequestList requests(document, worldFromNode, deformation, scene, diagnostics);
-    NodeList nodes(document, worldFromNode, scene, diagnostics);
+    NodeList nodes(document, worldFromNode, levels, scene, diagnostics);
     nodes.add(document.roots, &requests);
+    if (levels == GltfLevels::All) collectLevels(document, scene, diagnostics);
     collectSkins(document, nodes, scene, diagnostics);
     checkPlacements(document, scene, diagnostics);
     return scene;

@@ -7,8 +7,8 @@
 ///           with the same name follows the file's nodes: a child for each instance of EXT_mesh_gpu_instancing, or a
 ///           root for a skinned mesh, whose place does not depend on its node (section 3.7.3.3). Joints outside the
 ///           default scene come with their ancestors and descendants, but without their meshes.
-///           Of nodes with levels of detail (MSFT_lod) the finest is shown; the others stay, like hidden nodes, without
-///           meshes and lights.
+///           Of nodes with levels of detail (MSFT_lod), GltfLevels::Finest leaves the coarser ones without meshes and
+///           lights, like hidden nodes; GltfLevels::All lists the levels of each.
 ///   Thread  one. Cost: linear in the nodes.
 ///   Limits  2^20 instances of EXT_mesh_gpu_instancing per node; skins of more than 256 joints are dropped.
 ///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.
@@ -33,6 +33,7 @@ struct GltfScene {
     std::vector<NodeData> nodes;
     std::vector<GltfMeshRequest> meshes;
     std::vector<SkinData> skins; ///< those that requests keep
+    std::vector<LevelsData> levels;
     /// NodeData::profiledLight is an index into these: a profile of the document, and its multiplier as intensity.
     std::vector<LightData> profiledLights;
 
@@ -40,6 +41,10 @@ struct GltfScene {
     std::vector<std::vector<uint32_t>> meshNodes; ///< by node of the file: the nodes that carry its mesh
 };
 
-GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, Diagnostics& diagnostics);
+/// For GltfLevels::All, before planScene(): coarser levels that are in no scene take part in the one of their finest
+/// level, with the same parent.
+void adoptLevels(GltfDocument& document);
+GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, GltfLevels levels,
+                    Diagnostics& diagnostics);
 
 } // namespace filament::assets

@@ -73,8 +73,11 @@ void growBounds(Box& box, PrimitiveData const& primitive, double4x4 const& world
 
 Box boundsOf(ModelData const& model) {
     Box box;
+    std::vector<bool> isCoarser; // or below one that is
     for (NodeData const& node : model.nodes) {
-        if (node.mesh == kNone) continue;
+        const auto isOf = [&](uint32_t other) { return other != kNone && isCoarser[other]; };
+        isCoarser.push_back(node.isCoarserLevel || isOf(node.parent) || isOf(node.visibleWith));
+        if (node.mesh == kNone || isCoarser.back()) continue;
         for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives)
             growBounds(box, primitive, node.worldFromNode);
     }

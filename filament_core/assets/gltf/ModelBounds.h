@@ -16,7 +16,8 @@ namespace filament::assets {
 /// Extends `box` by one primitive.
 void growBounds(Box& box, PrimitiveData const& primitive, double4x4 const& worldFromMesh);
 
-/// Of all nodes with a mesh, in the space of the file's scene; empty without vertices.
+/// Of all nodes with a mesh, except those of coarser levels of detail, in the space of the file's scene; empty without
+/// vertices.
 Box boundsOf(ModelData const& model);
 
 } // namespace filament::assets

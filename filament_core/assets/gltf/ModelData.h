@@ -25,6 +25,12 @@
 
 namespace filament::assets {
 
+/// What is loaded of things with levels of detail (MSFT_lod).
+enum class GltfLevels : uint8_t {
+    Finest, ///< nodes of coarser levels have neither meshes nor lights
+    All,
+};
+
 /// Where skins and morph targets are applied.
 enum class GltfDeformation : uint8_t {
     AtRest, ///< by the loader, once: the vertices are those of the rest pose
@@ -136,6 +142,15 @@ struct NodeData {
     NodePose pose{};                 ///< parentFromNode decomposed: the start of animations
     bool isVisible = true;           ///< of its own; false only where an animation may show it
     uint32_t visibleWith = kNone;    ///< a node of a skinned mesh: the one of the file, before this one
+    bool isCoarserLevel = false;     ///< MSFT_lod: at first not shown
+};
+
+/// MSFT_lod: a thing in several levels of detail.
+struct LevelsData {
+    std::vector<uint32_t> nodes; ///< into ModelData::nodes: two or more, the finest first
+    /// Of each level: how much of the picture's area (prepare/ScreenCoverage.h) the thing covers at least where the
+    /// level is shown. >= 0, and not more than that of the level before.
+    std::vector<double> leastCoverage;
 };
 
 struct SkinData {
@@ -149,7 +164,8 @@ struct ModelData {
     std::vector<Image> images; ///< with full mip chains; format RGBA8Srgb for colours, RGBA8 for data
     std::vector<MaterialData> materials;
     std::vector<MeshData> meshes;
-    std::vector<NodeData> nodes; ///< of the default scene, parents before children
+    std::vector<NodeData> nodes;    ///< of the default scene, parents before children
+    std::vector<LevelsData> levels; ///< with GltfLevels::All
     std::vector<LightData> lights;
     std::vector<CameraData> cameras;
     std::vector<LightProfileData> profiles;

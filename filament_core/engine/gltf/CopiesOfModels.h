@@ -36,6 +36,16 @@ private:
     EngineLink mLink;
 };
 
+/// What is shown of a copy. All is empty until an animation or a level of detail changes it.
+struct ShownParts {
+    std::vector<assets::LightData> lights; ///< as an animation left those of the file
+    std::vector<uint8_t> isVisible;        ///< by node of the model: of its own, as an animation left it
+    std::vector<uint8_t> isOtherLevel;     ///< by node of the model: another level of the same thing is shown
+    std::vector<uint32_t> levels; ///< by entry of Model::Impl::levels: which one is shown; as many as it has: none
+    std::vector<uint8_t> isShown; ///< by node of the model: with all above
+    std::vector<Box> boxes;       ///< scratch of chooseLevels(), by node of the model
+};
+
 struct CopyOfModel {
     Node root;
     std::shared_ptr<const Model::Impl> model;
@@ -44,6 +54,7 @@ struct CopyOfModel {
     std::vector<Light> lights;           ///< parallel to the model's
     std::vector<OwnMaterial> own{};
     std::vector<assets::CameraData> cameras{}; ///< as an animation left those of the file; empty: as they are there
+    ShownParts parts{};
     std::string variant{};
 
     /// The copy's own instance instead of a shared one, if it has one.

@@ -52,6 +52,7 @@ public:
             mModel->profiles.back() = mEngine.createLightProfile(profile.file, profile.name);
         }
         placeNodes();
+        findChangingNodes(*mModel);
         return std::move(mModel);
     }
 
@@ -153,8 +154,9 @@ private:
     /// made with their places: instanceFor() adds them.
     void keepAnimated() {
         mModel->properties = std::move(mData.animatedProperties);
-        if (mModel->properties.empty()) return;
+        mModel->levels = std::move(mData.levels);
         mModel->lightsOfFile = mData.lights;
+        if (mModel->properties.empty()) return;
         mModel->camerasOfFile = mData.cameras;
         mModel->maxMaps = GltfMaterials::choiceOf(mEngine).maxMaps;
         for (uint32_t i = 0; i < mModel->properties.size(); ++i) {
@@ -396,6 +398,7 @@ assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
     assets::GltfOptions loaderOptions{
         .storage = { options.positions, options.tangents },
         .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
+        .levels = options.allLevels ? assets::GltfLevels::All : assets::GltfLevels::Finest,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
     if (options.progress) {

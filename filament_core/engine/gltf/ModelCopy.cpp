@@ -4,6 +4,7 @@
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/ModelParts.h"
 #include "filament_core/scene/SceneSkins.h"
 
 #include <algorithm>
@@ -392,6 +393,29 @@ Result<void> ModelCopy::setMorphWeight(std::string_view target, float weight) {
         }
         return isKnown ? Result<void>{} : unknown(call.copy, "morph target", target, namesOf(all));
     });
+}
+
+std::vector<CopyLevels> ModelCopy::levels() const {
+    const CopyCall call(mScene, mRoot, "ModelCopy::levels()");
+    std::vector<CopyLevels> list;
+    for (size_t i = 0; i < call.copy.model->levels.size(); ++i) {
+        assets::LevelsData const& levels = call.copy.model->levels[i];
+        CopyLevels& added = list.emplace_back();
+        for (const uint32_t node : levels.nodes) added.nodes.push_back(call.copy.nodes[node]);
+        added.leastCoverage = levels.leastCoverage;
+        if (const uint32_t shown = call.copy.parts.levels[i]; shown < levels.nodes.size()) added.shown = shown;
+    }
+    return list;
+}
+
+void ModelCopy::chooseLevels(View const& view, float bias) {
+    const CopyCall call(mScene, mRoot, "ModelCopy::chooseLevels(View, float)");
+    if (!(bias > 0)) misused(fmt::format("the bias is {}; it must be above 0", bias));
+    if (view.size.x == 0 || view.size.y == 0) misused("the view has no pixels");
+    if (call.copy.model->levels.empty()) return;
+    const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
+    const prepare::CoverageLens lens = prepare::coverageLens(view.camera.position(), view.camera.clipFromView(aspect));
+    engine::chooseLevels(*call.copy.model, call.scene, call.copy, lens, static_cast<double>(bias));
 }
 
 std::vector<std::string> ModelCopy::animations() const {

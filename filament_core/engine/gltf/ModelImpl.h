@@ -85,10 +85,13 @@ struct Model::Impl {
     std::vector<PartLight> lights;
     std::vector<PartCamera> cameras;
 
+    std::vector<assets::LevelsData> levels; ///< their nodes are those of `nodes`
+    std::vector<uint8_t> mayChange;         ///< by node: whether an animation or a level can show or hide it
+    std::vector<assets::LightData> lightsOfFile;
+
     // KHR_animation_pointer: empty without it
     std::vector<assets::AnimatedProperty> properties; ///< channels refer to them; materials: into `animatedMaterials`
     std::vector<AnimatedMaterial> animatedMaterials;
-    std::vector<assets::LightData> lightsOfFile;
     std::vector<assets::CameraData> camerasOfFile;
     size_t maxMaps = SIZE_MAX; ///< see settingsOf()
 

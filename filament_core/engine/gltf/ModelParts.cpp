@@ -108,32 +108,27 @@ void setParameter(Engine::Impl& engine, MaterialInstance instance, assets::Mater
     }
 }
 
-/// By node: whether it and all above are visible.
-void findShownNodes(Model::Impl const& model, std::span<const uint8_t> isVisible, std::vector<uint8_t>& isShown) {
-    isShown.resize(model.nodes.size());
+/// By node: whether it and all above have a mark.
+template <class Marks>
+void markWithParents(Model::Impl const& model, Marks const& hasMark, std::vector<uint8_t>& isMarked) {
+    isMarked.resize(model.nodes.size());
     for (size_t i = 0; i < model.nodes.size(); ++i) {
         const uint32_t parent = model.nodes[i].parent, with = model.nodes[i].visibleWith;
-        isShown[i] = isVisible[i] && (parent == Model::Impl::kRoot || isShown[parent]) &&
-                     (with == Model::Impl::kRoot || isShown[with]);
+        isMarked[i] = hasMark(i) && (parent == Model::Impl::kRoot || isMarked[parent]) &&
+                      (with == Model::Impl::kRoot || isMarked[with]);
     }
 }
 
-/// By node: whether an animation can change if it is shown.
-std::vector<uint8_t> changingNodes(Model::Impl const& model) {
-    std::vector<uint8_t> isLasting(model.nodes.size(), 1);
-    for (AnimatedProperty const& property : model.properties) {
-        if (property.owner == PropertyOwner::Node) isLasting[property.object] = 0;
-    }
-    std::vector<uint8_t> isChanging;
-    findShownNodes(model, isLasting, isChanging);
-    for (uint8_t& node : isChanging) node = !node;
-    return isChanging;
+void findShownNodes(Model::Impl const& model, ShownParts& parts) {
+    const auto isShown = [&](size_t node) {
+        const bool isVisible = parts.isVisible.empty() ? model.nodes[node].isVisible : parts.isVisible[node] != 0;
+        return isVisible && (parts.isOtherLevel.empty() || !parts.isOtherLevel[node]);
+    };
+    markWithParents(model, isShown, parts.isShown);
 }
 
-std::vector<uint8_t> visibleAtRest(Model::Impl const& model) {
-    std::vector<uint8_t> isVisible;
-    for (Model::Impl::PartNode const& node : model.nodes) isVisible.push_back(node.isVisible);
-    return isVisible;
+std::vector<assets::LightData> const& lightsOf(Model::Impl const& model, ShownParts const& parts) {
+    return parts.lights.empty() ? model.lightsOfFile : parts.lights;
 }
 
 /// Changes one property of a light: what the program set of the others stays.
@@ -157,24 +152,74 @@ void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data,
     scene::setLight(scene.changed(), light, record);
 }
 
-/// Renderables and lights of visible nodes are shown, those of others are not; the program keeps what no animation
-/// hides. `isShown`: findShownNodes(). `isChanging`: changingNodes(). `lights`: of the file.
-void show(Model::Impl const& model, Scene::Impl& scene, CopyOfModel const& copy, std::span<const uint8_t> isShown,
-          std::span<const uint8_t> isChanging, std::span<const assets::LightData> lights) {
-    for (size_t i = 0; i < copy.renderables.size(); ++i) {
-        const Renderable renderable = copy.renderables[i];
-        const uint32_t node = model.renderables[i].ofNode;
-        if (isChanging[node] && scene.data.renderables.index.contains(renderable))
-            scene::setVisible(scene.changed().renderables, renderable, isShown[node]);
+} // namespace
+
+namespace {
+
+std::vector<uint8_t> visibleAtRest(Model::Impl const& model) {
+    std::vector<uint8_t> isVisible;
+    for (Model::Impl::PartNode const& node : model.nodes) isVisible.push_back(node.isVisible);
+    return isVisible;
+}
+
+void markOtherLevels(Model::Impl const& model, ShownParts& parts) {
+    if (model.levels.empty()) return;
+    parts.isOtherLevel.assign(model.nodes.size(), 0);
+    for (size_t i = 0; i < model.levels.size(); ++i) {
+        std::vector<uint32_t> const& nodes = model.levels[i].nodes;
+        for (size_t k = 0; k < nodes.size(); ++k) parts.isOtherLevel[nodes[k]] = k != parts.levels[i];
     }
-    for (size_t i = 0; i < copy.lights.size(); ++i) {
-        Model::Impl::PartLight const& part = model.lights[i];
-        if (isChanging[part.node])
-            changeLight(scene, copy.lights[i], lights[part.source], LightIntensity, isShown[part.node]);
+}
+
+/// The box in the world of each node with all that is below it, shown or not.
+void findBoxes(Model::Impl const& model, scene::SceneData const& scene, CopyOfModel& copy) {
+    std::vector<Box>& boxes = copy.parts.boxes;
+    boxes.assign(model.nodes.size(), Box{});
+    const auto grow = [&](uint32_t node, Box const& by) {
+        if (node != Model::Impl::kRoot && !by.empty()) boxes[node].add(by);
+    };
+    for (size_t i = 0; i < copy.renderables.size(); ++i) {
+        if (scene.renderables.index.contains(copy.renderables[i]))
+            grow(model.renderables[i].ofNode,
+                 scene.renderables.bounds.at(scene.renderables.index.at(copy.renderables[i])));
+    }
+    for (size_t i = model.nodes.size(); i-- > 0;) {
+        grow(model.nodes[i].parent, boxes[i]);
+        grow(model.nodes[i].visibleWith, boxes[i]);
     }
 }
 
 } // namespace
+
+void showParts(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy) {
+    findShownNodes(model, copy.parts);
+    std::vector<uint8_t> const& isShown = copy.parts.isShown;
+    for (size_t i = 0; i < copy.renderables.size(); ++i) {
+        const Renderable renderable = copy.renderables[i];
+        const uint32_t node = model.renderables[i].ofNode;
+        if (model.mayChange[node] && scene.data.renderables.index.contains(renderable))
+            scene::setVisible(scene.changed().renderables, renderable, isShown[node]);
+    }
+    for (size_t i = 0; i < copy.lights.size(); ++i) {
+        Model::Impl::PartLight const& part = model.lights[i];
+        if (model.mayChange[part.node])
+            changeLight(scene, copy.lights[i], lightsOf(model, copy.parts)[part.source], LightIntensity,
+                        isShown[part.node]);
+    }
+}
+
+void findChangingNodes(Model::Impl& model) {
+    std::vector<uint8_t> mayChange(model.nodes.size(), 0);
+    for (AnimatedProperty const& property : model.properties) {
+        if (property.owner == PropertyOwner::Node) mayChange[property.object] = 1;
+    }
+    for (assets::LevelsData const& levels : model.levels) {
+        for (const uint32_t node : levels.nodes) mayChange[node] = 1;
+    }
+    markWithParents(
+            model, [&](size_t node) { return !mayChange[node]; }, model.mayChange);
+    for (uint8_t& node : model.mayChange) node = !node;
+}
 
 ModelParts::ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root)
         : mModel(model), mScene(scene), mRoot(root) {
@@ -187,10 +232,6 @@ ModelParts::ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root)
             if (hasTarget(settings, model.properties[i])) targets.push_back(i);
         }
     }
-    mLights = model.lightsOfFile;
-    mIsVisible = visibleAtRest(model);
-    mIsChanging = changingNodes(model);
-    findShownNodes(model, mIsVisible, mIsShown);
 }
 
 void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> isMoved) {
@@ -203,11 +244,13 @@ void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> 
         if (!isMoved[i] || property.object == kNone) continue;
         switch (property.owner) {
         case PropertyOwner::Node:
-            mIsVisible[property.object] = values[i].x != 0;
+            if (copy->parts.isVisible.empty()) copy->parts.isVisible = visibleAtRest(mModel);
+            copy->parts.isVisible[property.object] = values[i].x != 0;
             movesVisibility = true;
             break;
         case PropertyOwner::Light:
-            setValue(mLights[property.object], property.name, values[i]);
+            if (copy->parts.lights.empty()) copy->parts.lights = mModel.lightsOfFile;
+            setValue(copy->parts.lights[property.object], property.name, values[i]);
             movesLights = true;
             break;
         case PropertyOwner::Camera:
@@ -219,10 +262,7 @@ void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> 
         }
     }
     for (size_t i = 0; i < mMaterials.size(); ++i) writeMaterial(i, values, isMoved);
-    if (movesVisibility) {
-        findShownNodes(mModel, mIsVisible, mIsShown);
-        show(mModel, mScene, *copy, mIsShown, mIsChanging, mLights);
-    }
+    if (movesVisibility) showParts(mModel, mScene, *copy);
     if (movesLights) writeLights(isMoved);
 }
 
@@ -246,23 +286,41 @@ void ModelParts::writeMaterial(size_t animated, std::span<const float4> values, 
 }
 
 void ModelParts::writeLights(std::span<const uint8_t> isMoved) {
-    CopyOfModel const& copy = *mScene.copies.find(mRoot);
+    CopyOfModel& copy = *mScene.copies.find(mRoot);
+    if (copy.parts.isShown.empty()) findShownNodes(mModel, copy.parts);
     for (size_t i = 0; i < copy.lights.size(); ++i) {
         Model::Impl::PartLight const& part = mModel.lights[i];
         for (size_t k = 0; k < isMoved.size(); ++k) {
             AnimatedProperty const& property = mModel.properties[k];
             if (isMoved[k] && property.owner == PropertyOwner::Light && property.object == part.source)
-                changeLight(mScene, copy.lights[i], mLights[part.source], property.name, mIsShown[part.node]);
+                changeLight(mScene, copy.lights[i], copy.parts.lights[part.source], property.name,
+                            copy.parts.isShown[part.node]);
         }
     }
 }
 
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root) {
-    const std::vector<uint8_t> isVisible = visibleAtRest(model);
-    if (std::ranges::count(isVisible, uint8_t{ 0 }) == 0) return;
-    std::vector<uint8_t> isShown;
-    findShownNodes(model, isVisible, isShown);
-    show(model, scene, *scene.copies.find(root), isShown, changingNodes(model), model.lightsOfFile);
+    CopyOfModel& copy = *scene.copies.find(root);
+    copy.parts.levels.resize(model.levels.size(), 0);
+    markOtherLevels(model, copy.parts);
+    if (!model.levels.empty() || !std::ranges::all_of(model.nodes, &Model::Impl::PartNode::isVisible))
+        showParts(model, scene, copy);
+}
+
+void chooseLevels(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy, prepare::CoverageLens const& lens,
+                  double bias) {
+    findBoxes(model, scene.upToDate(), copy);
+    bool isChanged = false;
+    for (size_t i = 0; i < model.levels.size(); ++i) {
+        Box const& box = copy.parts.boxes[model.levels[i].nodes[0]];
+        const double radius = box.empty() ? 0 : 0.5 * glm::distance(box.min, box.max);
+        const double coverage = bias * prepare::screenCoverage(lens, box.center(), radius);
+        const uint32_t level = prepare::levelFor(model.levels[i].leastCoverage, coverage);
+        isChanged |= std::exchange(copy.parts.levels[i], level) != level;
+    }
+    if (!isChanged) return;
+    markOtherLevels(model, copy.parts);
+    showParts(model, scene, copy);
 }
 
 } // namespace filament::engine

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelParts: what animations change of a copy of a model beside its nodes: KHR_animation_pointer.
+/// ModelParts: what animations change of a copy of a model beside its nodes (KHR_animation_pointer), and which of its
+/// parts are shown, which levels of detail decide as well (MSFT_lod).
 ///   In      values of the model's animated properties.
 ///   Out     materials that the copy shares with no other one, lights, cameras, and which parts are shown.
 ///   Thread  app.   Fails: std::bad_alloc.
@@ -11,6 +12,7 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/prepare/ScreenCoverage.h"
 
 #include <span>
 #include <vector>
@@ -34,15 +36,22 @@ private:
     Scene::Impl& mScene;
     Node mRoot;
     std::vector<assets::MaterialData> mMaterials; // parallel to the animated materials of the model
-    std::vector<assets::LightData> mLights;       // parallel to those of the file
     std::vector<std::vector<uint32_t>> mTargets;  // of the same: properties of the model that their instances have
     GltfParameters mParameters;                   // of the material that is written
-    std::vector<uint8_t> mIsVisible;              // by node of the model, of its own
-    std::vector<uint8_t> mIsShown;                // by node of the model, with those above
-    std::vector<uint8_t> mIsChanging; // by node of the model: whether an animation can change if it is shown
 };
+
+/// Model::Impl::mayChange, from what else the model has.
+void findChangingNodes(Model::Impl& model);
+
+/// Renderables and lights of nodes that ShownParts shows are shown, those of others are not; the program keeps what no
+/// animation and no level of detail changes.
+void showParts(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy);
 
 /// Hides what a new copy does not show at rest.
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root);
+
+/// ModelCopy::chooseLevels().
+void chooseLevels(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy, prepare::CoverageLens const& lens,
+                  double bias);
 
 } // namespace filament::engine

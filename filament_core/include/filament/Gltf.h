@@ -29,6 +29,9 @@ struct GltfLoadOptions {
     /// False: skins and morph targets are applied once, in the rest pose, and animations are not loaded. This is
     /// cheaper to draw.
     bool deformable = true;
+    /// Of things with levels of detail (MSFT_lod): true loads all of them, for ModelCopy::chooseLevels(). False: the
+    /// finest alone, which takes less time and memory.
+    bool allLevels = false;
     /// True: buffers and images may also lie outside of the model's folder: behind absolute paths, "..", and links that
     /// lead out. Only for models that you trust.
     bool filesFromAnywhere = false;

@@ -19,9 +19,11 @@
 #include <filament/Camera.h>
 #include <filament/Gltf.h>
 #include <filament/Scene.h>
+#include <filament/View.h>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,6 +72,13 @@ struct CopyMorphTarget {
     float weight = 0;
 };
 
+/// A thing in several levels of detail (MSFT_lod), of a model that was loaded with GltfLoadOptions::allLevels.
+struct CopyLevels {
+    std::vector<Node> nodes{};           ///< the finest first
+    std::vector<double> leastCoverage{}; ///< of each: see ModelCopy::chooseLevels()
+    std::optional<uint32_t> shown{};     ///< into `nodes`; none: the thing is too small
+};
+
 class ModelCopy {
 public:
     /// InvalidArgument: the node is not the root of a copy of a model.
@@ -105,6 +114,17 @@ public:
     std::vector<CopyMorphTarget> morphTargets() const;
     /// Of all morph targets with this name: those of the primitives of a face, say. The other weights stay.
     Result<void> setMorphWeight(std::string_view target, float weight);
+
+    std::vector<CopyLevels> levels() const;
+    /// Shows of each thing with levels the first whose `leastCoverage` it reaches in this view, and none if it reaches
+    /// none; until the first call, the finest. Coverage is pi R^2 / (A d^2): the share of the picture's area A at
+    /// distance 1 that the sphere around its finest level has at the distance d of its centre, or pi R^2 / A for a
+    /// parallel lens. So turning the camera changes nothing, and nor do frames before: there is no hysteresis. Around
+    /// the camera it is infinite. `bias` > 0 multiplies it: 2 shows finer levels up to twice the area.
+    ///   Call it before each view that is to have levels of its own; all that is drawn for the view, shadows included,
+    ///   has the same ones. What an animation or the file hides stays hidden. A light of another level has no
+    ///   intensity.
+    void chooseLevels(View const& view, float bias = 1);
 
     /// What the model has for an Animator and for Scene::setVariant().
     std::vector<std::string> animations() const;

@@ -111,6 +111,19 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
     return nullptr;
 }
 
+inline const char* brokenPromise(ModelData const& model, LevelsData const& levels) {
+    if (levels.nodes.size() < 2 || levels.leastCoverage.size() != levels.nodes.size()) return "levels";
+    for (const uint32_t node : levels.nodes) {
+        if (node >= model.nodes.size()) return "node of a level";
+    }
+    double most = 1e30;
+    for (const double least : levels.leastCoverage) {
+        if (!(least >= 0 && least <= most)) return "coverage of a level";
+        most = least;
+    }
+    return nullptr;
+}
+
 inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
     if (node.mesh != kNone && node.mesh >= model.meshes.size()) return "mesh index";
     for (const uint32_t light : { node.light, node.profiledLight }) {
@@ -226,6 +239,7 @@ inline const char* brokenPromise(ModelData const& model) {
     check(model.images);
     check(model.materials);
     check(model.nodes);
+    check(model.levels);
     check(model.lights);
     check(model.skins);
     check(model.animations);
@@ -240,8 +254,8 @@ inline const char* brokenPromise(ModelData const& model) {
 inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path const& baseDirectory = "no such folder") {
     jobs::JobSystem jobs({ .workers = 0 });
     const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);
-    const Result<ModelData> kept =
-            loadGltfFromMemory(file, baseDirectory, jobs, { .deformation = GltfDeformation::Kept });
+    const Result<ModelData> kept = loadGltfFromMemory(
+            file, baseDirectory, jobs, { .deformation = GltfDeformation::Kept, .levels = GltfLevels::All });
     const char* broken = kept ? brokenPromise(*kept) : nullptr;
     if (!broken && !kept && kept.error().message.empty()) broken = "message";
     if (model && !broken) broken = brokenPromise(*model);

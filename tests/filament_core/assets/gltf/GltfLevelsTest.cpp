@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MSFT_lod: the finest level is loaded, and the others are not drawn on top of it.
+#include "filament_core/assets/gltf/ModelBounds.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
 #include <algorithm>
@@ -145,10 +146,98 @@ TEST(GltfLevels, AnIdThatIsNoNumberIsAnError) {
     }
 }
 
+ModelData allOf(TestFile const& file) {
+    const Result<ModelData> model = file.load({ .levels = GltfLevels::All });
+    EXPECT_TRUE(model) << (model ? "" : model.error().message);
+    return model ? std::move(*model) : ModelData{};
+}
+
+TEST(GltfLevels, AllOfThemAreListed) {
+    const ModelData model = allOf(lights(Json::parse("[ [ 1, 2 ], null, null, [ 4 ], null, null ]")));
+    EXPECT_EQ(shown(model), Shown(6, true));
+    ASSERT_EQ(model.levels.size(), 2u);
+    EXPECT_EQ(model.levels[0].nodes, (std::vector<uint32_t>{ 0, 1, 2 }));
+    EXPECT_EQ(model.levels[0].leastCoverage, (std::vector<double>{ 0.25, 0.0625, 0 })) << "by halves of the size";
+    EXPECT_EQ(model.levels[1].nodes, (std::vector<uint32_t>{ 3, 4 }));
+    EXPECT_FALSE(model.nodes[0].isCoarserLevel);
+    EXPECT_TRUE(model.nodes[2].isCoarserLevel);
+    EXPECT_TRUE(model.warnings.empty());
+    EXPECT_TRUE(loaded(lights(Json::parse("[ [ 1, 2 ], null, null ]"))).levels.empty()) << "unless asked for";
+}
+
+TEST(GltfLevels, LevelsOfLevelsFollowThem) {
+    const ModelData model = allOf(lights(Json::parse("[ [ 1, 3 ], [ 2 ], null, null ]")));
+    ASSERT_EQ(model.levels.size(), 1u);
+    EXPECT_EQ(model.levels[0].nodes, (std::vector<uint32_t>{ 0, 1, 2, 3 }));
+}
+
+TEST(GltfLevels, ThoseInNoSceneJoinTheirFinestOne) {
+    TestFile file = lights(Json::parse("[ [ 2, 3 ], null, null, null, [ 5 ], null ]"));
+    file.root["nodes"][1]["children"] = Json::array({ 0 });
+    file.root["nodes"][1]["translation"] = Json::array({ 5, 0, 0 });
+    file.root["nodes"][2]["translation"] = Json::array({ 0, 1, 0 });
+    file.root["nodes"][2]["children"] = Json::array({ 6 });
+    file.root["nodes"].push_back(file.root["nodes"][3]);
+    file.root["scenes"][0]["nodes"] = Json::array({ 1, 4 });
+    const ModelData model = allOf(file);
+    ASSERT_EQ(model.nodes.size(), 7u);
+    ASSERT_EQ(model.levels.size(), 2u);
+    std::vector<uint32_t> const& levels = model.levels[0].nodes;
+    ASSERT_EQ(levels.size(), 3u);
+    EXPECT_EQ(model.nodes[levels[1]].parent, model.nodes[levels[0]].parent);
+    EXPECT_EQ(double3(model.nodes[levels[1]].worldFromNode[3]), double3(5, 1, 0)) << "of the parent that it has now";
+    EXPECT_EQ(double3(model.nodes[levels[2]].worldFromNode[3]), double3(5, 0, 0));
+    EXPECT_EQ(model.nodes[model.levels[1].nodes[1]].parent, kNone) << "a root like its finest one";
+    EXPECT_EQ(std::ranges::count(model.nodes, kNone, &NodeData::light), 0);
+    EXPECT_EQ(loaded(file).nodes.size(), 3u) << "unless asked for";
+}
+
+TEST(GltfLevels, ThoseBelowTheirFinestAreNotListed) {
+    TestFile file = lights(Json::parse("[ [ 1, 2 ], null, null ]"));
+    file.root["nodes"][0]["children"] = Json::array({ 1 });
+    file.root["scenes"][0]["nodes"] = Json::array({ 0, 2 });
+    const ModelData model = allOf(file);
+    ASSERT_EQ(model.levels.size(), 1u);
+    EXPECT_EQ(model.levels[0].nodes, (std::vector<uint32_t>{ 0, 2 }));
+    EXPECT_TRUE(model.nodes[1].isCoarserLevel);
+}
+
+TEST(GltfLevels, CoverageIsMended) {
+    const auto coverage = [](Json const& given) {
+        TestFile file = lights(Json::parse("[ [ 1, 2 ], null, null ]"));
+        file.root["nodes"][0]["extras"] = given;
+        const ModelData model = allOf(file);
+        return std::pair(model.levels.at(0).leastCoverage, model.warnings.size());
+    };
+    const auto list = [&](const char* values) { return coverage({ { "MSFT_screencoverage", Json::parse(values) } }); };
+    using Least = std::vector<double>;
+    EXPECT_EQ(list("[ 0.5, 0.2, 0.01 ]"), (std::pair(Least{ 0.5, 0.2, 0.01 }, size_t{ 0 })));
+    EXPECT_EQ(list("[ 1, 0.5 ]"), (std::pair(Least{ 1, 0.5, 0 }, size_t{ 0 }))) << "the last one needs nothing";
+    EXPECT_EQ(list("[ 0.5 ]"), (std::pair(Least{ 0.5, 0.125, 0 }, size_t{ 0 })));
+    EXPECT_EQ(list("[ 0.5, 0.2, 0.01, 0.001, 0 ]"), (std::pair(Least{ 0.5, 0.2, 0.01 }, size_t{ 0 })));
+    EXPECT_EQ(list("[ 0.1, 0.2, -1 ]"), (std::pair(Least{ 0.1, 0.1, 0 }, size_t{ 1 })));
+    for (const char* other : { "[ \"0.5\" ]", "7", "{}", "[ null ]", "[]" })
+        EXPECT_EQ(list(other), (std::pair(Least{ 0.25, 0.0625, 0 }, size_t{ 0 })))
+                << other << " is the file's business";
+    EXPECT_EQ(coverage("text").first, (Least{ 0.25, 0.0625, 0 }));
+}
+
+TEST(GltfLevels, TheFinestAloneDecidesTheBounds) {
+    TestFile file = TestFile::triangle();
+    file.root["nodes"].push_back({ { "mesh", 0 }, { "translation", { 100, 0, 0 } } });
+    file.root["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = Json::array({ 1 });
+    file.root["scenes"] = Json::parse(R"([ { "nodes": [ 0, 1 ] } ])");
+    const Box all = boundsOf(allOf(file)), finest = boundsOf(loaded(file));
+    EXPECT_EQ(all.max, finest.max);
+}
+
 TEST(GltfLevels, LongChainsTakeLinearTime) {
     constexpr uint32_t kCount = 100'000;
     Json lists = Json::array();
     for (uint32_t i = 0; i < kCount; ++i) lists.push_back(i + 1 == kCount ? Json() : Json::array({ i + 1 }));
+    const ModelData all = allOf(lights(lists));
+    ASSERT_EQ(all.levels.size(), 1u);
+    EXPECT_EQ(all.levels[0].nodes.size(), kCount);
     const ModelData model = loaded(lights(lists));
     ASSERT_EQ(model.nodes.size(), kCount);
     EXPECT_EQ(std::ranges::count_if(model.nodes, [](NodeData const& node) { return node.light != kNone; }), 1);
