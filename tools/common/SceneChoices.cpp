@@ -50,6 +50,12 @@ Result<void> setModelFiles(SceneOptions& options, const char* option, std::strin
     return {};
 }
 
+Result<void> setModelLevels(SceneOptions& options, const char* option, std::string const& value) {
+    if (value != "finest" && value != "all") return invalidOption(option, value, "finest or all");
+    options.modelOptions.allLevels = value == "all";
+    return {};
+}
+
 using ChoiceText = std::string const&;
 
 constexpr std::array kChoiceFields{
@@ -110,6 +116,9 @@ constexpr std::array kChoiceFields{
                      return choose(o.modelOptions.tangents, tangentStorageFromName(value), option, value,
                                    "snorm16, snorm8 or float");
                  } },
+    ChoiceField{ { "model.levels", "finest, all", "finest",
+                   "of things with levels of detail: `all` draws those that the view asks for" },
+                 setModelLevels },
     ChoiceField{ { "model.files", "folder, anywhere", "folder",
                    "whether buffers and images outside of the model's folder are opened" },
                  setModelFiles },

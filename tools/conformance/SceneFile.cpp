@@ -56,6 +56,7 @@ void readEnvironment(JsonReader& reader, SceneSpec& spec) {
 void readGeometry(JsonReader& reader, GltfLoadOptions& options) {
     reader.choice("positions", options.positions, "asAuthored, half or unorm16", positionStorageFromName);
     reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", tangentStorageFromName);
+    reader.read("allLevels", options.allLevels);
 }
 
 void readAnimation(JsonReader& reader, SceneSpec& spec) {

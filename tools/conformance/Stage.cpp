@@ -5,6 +5,7 @@
 #include "tools/materials/PictureFile.h"
 
 #include <filament/Animator.h>
+#include <filament/ModelCopy.h>
 #include <fmt/core.h>
 #include <glm/ext/matrix_transform.hpp>
 
@@ -15,7 +16,8 @@ constexpr uint64_t kMaxObjects = 1'000'000; // a scene has 2^20 handles of a typ
 
 // Equal texts mean that it is loaded already.
 std::string keyOf(std::filesystem::path const& path, GltfLoadOptions const& options) {
-    return fmt::format("{} {} {}", path.string(), toString(options.positions), toString(options.tangents));
+    return fmt::format("{} {} {} {}", path.string(), toString(options.positions), toString(options.tangents),
+                       options.allLevels);
 }
 
 std::string keyOf(std::filesystem::path const& path, EnvironmentLoadOptions const& options) {
@@ -160,6 +162,8 @@ void Stage::setBack(uint32_t frames) {
     }
     mView.camera.worldFromView = back(mSpec.cameraMoves) * mLastCamera.worldFromView;
     mView.timeSeconds = mSpec.view.timeSeconds + seconds;
+    if (mMaterial) return;
+    for (const Node copy : mCopies) ModelCopy::of(*mScene, copy)->chooseLevels(mView);
 }
 
 /// Each with a renderer of its own: it is another camera's.

@@ -10,6 +10,7 @@
 #include <filament/Animator.h>
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
+#include <filament/ModelCopy.h>
 #include <filament/Scene.h>
 
 #include <algorithm>
@@ -130,6 +131,7 @@ private:
 
     std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
+    std::vector<Node> mCopies; ///< of it
     std::optional<Environment> mEnvironment;
     Owned<Texture> mPixels, mDirt;
     Owned<RenderTarget> mTarget;
@@ -163,7 +165,7 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     const Result<std::optional<uint32_t>> animation = animationOf(mOptions, *mModel);
     if (!animation) return animation.error();
     for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) {
-        const Node copy = mScene.add(*mModel, place);
+        const Node copy = mCopies.emplace_back(mScene.add(*mModel, place));
         if (*animation) Animator(*mModel, mScene, copy).apply(**animation, mOptions.seconds.value_or(0));
         if (mOptions.variant.empty()) continue;
         if (const Result<void> done = mScene.setVariant(copy, mOptions.variant); !done) return done.error();
@@ -207,6 +209,7 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                                                       .name = "pixels" }));
     mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
     mView = viewOf(mOptions);
+    for (const Node copy : mCopies) ModelCopy::of(mScene, copy)->chooseLevels(mView);
     return loadDirt();
 }
 

@@ -101,6 +101,7 @@ template <> struct Fields<GltfLoadOptions> {
     static constexpr auto list = std::tuple{ field("positions", &GltfLoadOptions::positions),
                                              field("tangents", &GltfLoadOptions::tangents),
                                              field("deformable", &GltfLoadOptions::deformable),
+                                             field("allLevels", &GltfLoadOptions::allLevels),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress
 };

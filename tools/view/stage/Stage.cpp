@@ -303,6 +303,7 @@ View Stage::Impl::frameView(FrameExtras const& extras) const {
     frame.viewport = extras.viewport;
     frame.debugDraw = extras.debugDraw;
     frame.visibleLayers = static_cast<Layers>(frame.visibleLayers & extras.visibleLayers);
+    scene->chooseLevels(frame);
     return frame;
 }
 

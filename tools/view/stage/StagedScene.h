@@ -42,6 +42,10 @@ public:
 
     Scene& scene() { return mScene; }
     ModelCopy const* copy() const { return mCopy ? &*mCopy : nullptr; }
+    /// Of things with levels of detail: those of this view.
+    void chooseLevels(View const& view) {
+        if (mCopy) mCopy->chooseLevels(view);
+    }
     Node root() const { return mRoot; }
     std::vector<Node> const& nodes() const { return mNodes; }
     std::optional<uint32_t> indexOf(Node node) const;
