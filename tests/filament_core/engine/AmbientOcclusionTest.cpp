@@ -29,12 +29,12 @@ Placed placed(double3 at, double3 halfSize = double3(1), double turn = 0, double
              glm::scale(double4x4(1), halfSize) };
 }
 
-struct Ray {
+struct OcclusionRay {
     double3 from, along;
 };
 
 /// The distance along a ray, or infinity.
-double distanceTo(Placed const& square, Ray const& ray) {
+double distanceTo(Placed const& square, OcclusionRay const& ray) {
     const double3 from(square.local * double4(ray.from, 1)), along(square.local * double4(ray.along, 0));
     const double t = -from.z / along.z;
     const double3 at = from + along * t;
@@ -47,7 +47,7 @@ struct Found {
     double3 normal{ 0 };
 };
 
-Found nearestOf(std::span<const Placed> squares, Ray const& ray) {
+Found nearestOf(std::span<const Placed> squares, OcclusionRay const& ray) {
     Found found;
     for (Placed const& square : squares) {
         const double distance = distanceTo(square, ray);
@@ -96,7 +96,7 @@ double openAt(std::span<const Placed> squares, double3 point, double3 normal, do
     return open / (24.0 * 48.0);
 }
 
-Ray rayOfPixel(View const& view, uint32_t x, uint32_t y) {
+OcclusionRay rayOfPixel(View const& view, uint32_t x, uint32_t y) {
     const double4x4 clip(view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y)));
     const double2 ndc((x + 0.5) / view.size.x * 2 - 1, (y + 0.5) / view.size.y * 2 - 1);
     const double3 along = double3x3(view.camera.worldFromView) * double3(ndc.x / clip[0][0], ndc.y / clip[1][1], -1);
@@ -140,7 +140,7 @@ Visibilities tracedVisibilities(View const& view, std::span<const Placed> square
     Visibilities traced;
     for (uint32_t y = 0; y < view.size.y; ++y) {
         for (uint32_t x = 0; x < view.size.x; ++x) {
-            const Ray ray = rayOfPixel(view, x, y);
+            const OcclusionRay ray = rayOfPixel(view, x, y);
             const Found found = nearestOf(squares, ray);
             const double3 point = ray.from + ray.along * found.distance;
             const bool isHit = std::isfinite(found.distance);

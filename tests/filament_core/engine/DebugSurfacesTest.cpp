@@ -292,13 +292,13 @@ INSTANTIATE_TEST_SUITE_P(Files, DebugModels,
 
 // ---- overdraw
 
-constexpr const char* kGlass = "material.baseColor = vec4(0.1, 0.1, 0.1, 0.1);";
+constexpr const char* kDarkGlass = "material.baseColor = vec4(0.1, 0.1, 0.1, 0.1);";
 
 TEST(DebugOverdraw, CountsWhatLiesBehindEachOther) {
     const std::array counts{ 1u, 2u, 3u, 5u, 8u, 9u, 20u, 70u, 256u };
     const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance pane =
-                stage.material(test::text("shadingModel : unlit, blending : transparent", kGlass));
+                stage.material(test::text("shadingModel : unlit, blending : transparent", kDarkGlass));
         std::vector<Image> all;
         uint32_t added = 0;
         for (const uint32_t count : counts) {
@@ -375,7 +375,7 @@ TEST(DebugWireframe, HidesWhatIsBehindAlsoWhatBlends) {
     const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
         const MaterialInstance pane =
-                stage.material(test::text("shadingModel : unlit, blending : transparent", kGlass));
+                stage.material(test::text("shadingModel : unlit, blending : transparent", kDarkGlass));
         std::vector<Image> all;
         stage.add(pane, { 0, 0, -1 }, 1.01);
         all.push_back(stage.draw(DebugView::WireframeAlone));

@@ -47,7 +47,7 @@ Image evenPicture(float3 light, SetView const& set, Format format = Format::RGBA
 
 float3 middleOf(Image const& image) { return halfPixel(image, image.width / 2, image.height / 2); }
 
-void expectNear(float3 a, float3 b, float share, std::string const& what) {
+void expectFinished(float3 a, float3 b, float share, std::string const& what) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], share * std::max(b[c], 0.05f)) << what << ", component " << c;
 }
 
@@ -62,23 +62,23 @@ const float3 kLights[] = { float3(0.18f), float3(0.5f, 0.2f, 0.05f), float3(0.02
 
 TEST(Grading, ExposureIsAFactor) {
     for (float3 const& light : kLights)
-        expectNear(gradedLight(light, [](Grading& g) { g.exposure = 1.5f; }), light * std::exp2(1.5f), 2e-3f,
-                   "1.5 stops");
+        expectFinished(gradedLight(light, [](Grading& g) { g.exposure = 1.5f; }), light * std::exp2(1.5f), 2e-3f,
+                       "1.5 stops");
 }
 
 TEST(Grading, WithoutSaturationOnlyLuminanceIsLeft) {
     for (float3 const& light : kLights) {
         const float3 grey(color::luminance(light));
-        expectNear(gradedLight(light, [](Grading& g) { g.saturation = 0; }), grey, 3e-3f, "grey");
+        expectFinished(gradedLight(light, [](Grading& g) { g.saturation = 0; }), grey, 3e-3f, "grey");
     }
 }
 
 TEST(Grading, ContrastTurnsAboutMiddleGrey) {
     for (const float contrast : { 0.5f, 1.5f }) {
         const auto set = [&](Grading& g) { g.contrast = contrast; };
-        expectNear(gradedLight(float3(0.18f), set), float3(0.18f), 5e-3f, "middle grey");
+        expectFinished(gradedLight(float3(0.18f), set), float3(0.18f), 5e-3f, "middle grey");
         // Two stops above it, on a logarithm of stops.
-        expectNear(gradedLight(float3(0.72f), set), float3(0.18f * std::exp2(2 * contrast)), 1e-2f, "two stops");
+        expectFinished(gradedLight(float3(0.72f), set), float3(0.18f * std::exp2(2 * contrast)), 1e-2f, "two stops");
     }
 }
 
@@ -92,8 +92,8 @@ TEST(Grading, SlopeOffsetAndPowerAreThoseOfTheDecisionList) {
     const auto set = [](Grading& g) { g.slope = float3(1.1f), g.offset = float3(-0.03f), g.power = float3(1.2f); };
     for (const double light : { 0.05, 0.18, 1.0, 6.0 }) {
         const double expected = lightOfAcesLog(std::pow(acesLog(light) * 1.1 - 0.03, 1.2));
-        expectNear(gradedLight(float3(static_cast<float>(light)), set), float3(static_cast<float>(expected)), 5e-3f,
-                   "grey");
+        expectFinished(gradedLight(float3(static_cast<float>(light)), set), float3(static_cast<float>(expected)), 5e-3f,
+                       "grey");
     }
 }
 
@@ -102,17 +102,17 @@ TEST(Grading, TonalRangesTouchTheirOwnLight) {
         g.shadows = float3(0.5f), g.midtones = float3(2), g.highlights = float3(3);
         g.tonalRanges = float4(0.1f, 0.2f, 1, 2);
     };
-    expectNear(gradedLight(float3(0.05f), set), float3(0.025f), 5e-3f, "shadows");
-    expectNear(gradedLight(float3(0.5f), set), float3(1), 5e-3f, "midtones");
-    expectNear(gradedLight(float3(4), set), float3(12), 5e-3f, "highlights");
+    expectFinished(gradedLight(float3(0.05f), set), float3(0.025f), 5e-3f, "shadows");
+    expectFinished(gradedLight(float3(0.5f), set), float3(1), 5e-3f, "midtones");
+    expectFinished(gradedLight(float3(4), set), float3(12), 5e-3f, "highlights");
 }
 
 TEST(Grading, CurvesAreAGammaAndALine) {
     const auto set = [](Grading& g) {
         g.shadowGamma = float3(2), g.midPoint = float3(0.5f), g.highlightScale = float3(0.25f);
     };
-    expectNear(gradedLight(float3(0.25f), set), float3(0.125f), 5e-3f, "below");
-    expectNear(gradedLight(float3(2.5f), set), float3(1), 5e-3f, "above");
+    expectFinished(gradedLight(float3(0.25f), set), float3(0.125f), 5e-3f, "below");
+    expectFinished(gradedLight(float3(2.5f), set), float3(1), 5e-3f, "above");
 }
 
 /// Light of the temperature that is to be white becomes grey, and the other way round.
@@ -131,7 +131,7 @@ TEST(Grading, WhiteBalanceMakesDaylightWhite) {
 TEST(Grading, TheMixerMixesChannels) {
     const auto swapped = [](Grading& g) { g.mixRed = float3(0, 0, 1), g.mixBlue = float3(1, 0, 0); };
     const float3 grey = gradedLight(float3(0.4f), swapped);
-    expectNear(grey, float3(0.4f), 3e-3f, "grey stays");
+    expectFinished(grey, float3(0.4f), 3e-3f, "grey stays");
     const float3 blue = gradedLight(float3(0.6f, 0.1f, 0.1f), swapped);
     EXPECT_GT(blue.z, 0.4f);
     EXPECT_LT(blue.x, 0.2f);
@@ -194,7 +194,7 @@ TEST(Vignette, LeavesTheMiddleAndEndsInItsColor) {
         view.effects.vignette = { .enabled = true, .midPoint = 0.3f, .feather = 0.2f, .color = { 0.5f, 0.25f, 0 } };
     });
     EXPECT_EQ(middleOf(image), float3(0.5f));
-    expectNear(halfPixel(image, 0, 0), float3(0.25f, 0.125f, 0), 1e-3f, "corner");
+    expectFinished(halfPixel(image, 0, 0), float3(0.25f, 0.125f, 0), 1e-3f, "corner");
     for (uint32_t y = 0; y < image.height; ++y) {
         for (uint32_t x = 0; x < image.width; ++x) {
             const float4 here = halfPixel(image, x, y);

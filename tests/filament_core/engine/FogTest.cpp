@@ -11,7 +11,7 @@ namespace {
 using test::MaterialStage;
 using test::onBothApis;
 
-constexpr float3 kPaint{ 0.8f, 0.4f, 0.2f };
+constexpr float3 kPaintInFog{ 0.8f, 0.4f, 0.2f };
 constexpr uint32_t kFogSide = 8;
 
 std::string paintText(std::string_view properties, std::string_view color = "vec4(0.8, 0.4, 0.2, 1.0)") {
@@ -81,7 +81,7 @@ void expectClosedForm(std::string const& material, Fog const& fog, double distan
         const double meters = distance / -direction.z;
         const bool isCutOff = fog.cutOffMeters > 0 && meters > fog.cutOffMeters;
         const double opacity = isCutOff ? 0 : opacityAlong(fog, eye.y, direction.y, fog.startMeters, meters);
-        expectHalf(seen, foggedPaint(kPaint, fog, opacity),
+        expectHalf(seen, foggedPaint(kPaintInFog, fog, opacity),
                    fmt::format("density {} falloff {} at {} m", fog.density, fog.heightFalloff, meters));
     });
 }
@@ -172,7 +172,7 @@ TEST(Fog, BlendedSurfacesAreFoggedAsMuchAsTheyCover) {
         });
         forFogPixels(image, [&](float4 seen, double3 direction) {
             const auto opacity = [&](double z) { return opacityAlong(fog, 0, direction.y, 0, z / -direction.z); };
-            const float3 behind = foggedPaint(kPaint, fog, opacity(9));
+            const float3 behind = foggedPaint(kPaintInFog, fog, opacity(9));
             expectHalf(seen, each.blend(kPane, kPaneAlpha, fog.color, opacity(3), behind), each.properties, 2);
         });
     }
@@ -191,7 +191,7 @@ TEST(Fog, MaterialsCompiledWithoutItHaveNone) {
     for (std::string const& material :
          { paintText("variantFilter : [ fog ]"), std::string(kBlackLit).insert(10, " variantFilter : [ fog ],") }) {
         forFogPixels(planeInFog(material, fog, 5),
-                     [&](float4 seen, double3) { expectHalf(seen, kPaint, "without fog"); });
+                     [&](float4 seen, double3) { expectHalf(seen, kPaintInFog, "without fog"); });
     }
 }
 
@@ -262,7 +262,7 @@ TEST(Fog, ScattersTheLightOfTheSunAroundIt) {
         const double meters = 6 / -direction.z;
         const double glow = 0.5 * 13 / (2 * 3.14159265358979) * std::pow(glm::dot(direction, double3(towards)), 12) *
                             opacityAlong(fog, 0, direction.y, 1, meters);
-        const float3 base = foggedPaint(kPaint, fog, opacityAlong(fog, 0, direction.y, 0, meters));
+        const float3 base = foggedPaint(kPaintInFog, fog, opacityAlong(fog, 0, direction.y, 0, meters));
         expectHalf(seen, base + float3(1, 0.5f, 0.25f) * static_cast<float>(glow), "glow");
     });
 }
@@ -280,7 +280,7 @@ TEST(Fog, TakesTheColourOfTheEnvironmentBehind) {
             const double opacity = opacityAlong(fog, 0, direction.y, 0, 5 / -direction.z);
             Fog colored = fog;
             if (fromEnvironment) colored.color *= test::kDirectionSky.radiance(float3(direction));
-            const float3 expected = foggedPaint(kPaint, colored, opacity);
+            const float3 expected = foggedPaint(kPaintInFog, colored, opacity);
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(seen[c], expected[c], 1.5e-2f) << "between texels of a cube of 4 x 4";
         });

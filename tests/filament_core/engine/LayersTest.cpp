@@ -10,9 +10,9 @@ namespace {
 using prepare::Random;
 
 constexpr uint2 kLayersSize(48, 48);
-constexpr Layers kShown = 0b0010'0101; // with the plane's, the default
+constexpr Layers kShownLayers = 0b0010'0101; // with the plane's, the default
 
-/// Boxes over a plane, each in some layers; `only`: those of `kShown` alone, all in the default layer.
+/// Boxes over a plane, each in some layers; `only`: those of `kShownLayers` alone, all in the default layer.
 void addBoxes(test::ShadowStage& stage, Scene& scene, uint32_t seed, bool only) {
     Random random(seed);
     stage.square.add(scene, stage.white, { 0, 0, 0 }, 4);
@@ -21,7 +21,7 @@ void addBoxes(test::ShadowStage& stage, Scene& scene, uint32_t seed, bool only) 
         const double3 at(random.within(-2.5, 2.5), random.within(-2.5, 2.5), random.within(0.3, 2));
         double4x4 world(random.within(0.2, 0.8));
         world[3] = double4(at, 1);
-        if (only && (layers & kShown) == 0) continue;
+        if (only && (layers & kShownLayers) == 0) continue;
         const Renderable box = stage.square.add(scene, stage.white, world);
         if (!only) scene.setLayers(box, kAllLayers, layers);
     }
@@ -34,10 +34,10 @@ Image drawn(test::ShadowStage& stage, ShadowFilter filter, uint32_t seed, bool o
     addBoxes(stage, scene, seed, only);
     View view = test::shadowedView({ 0, -5, 6 }, { 0, 0, 0.5 }, filter, kLayersSize);
     if (!only) {
-        view.visibleLayers = kShown;
+        view.visibleLayers = kShownLayers;
         // Far away, so that it would change the fit of the sun's maps.
         const Renderable far = stage.square.add(scene, stage.white, { 300, 200, -50 }, 20);
-        scene.setLayers(far, kAllLayers, static_cast<Layers>(0xFF ^ kShown));
+        scene.setLayers(far, kAllLayers, static_cast<Layers>(0xFF ^ kShownLayers));
     }
     return test::renderLinear(stage.engine, scene, view);
 }

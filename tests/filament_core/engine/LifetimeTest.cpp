@@ -12,7 +12,7 @@
 namespace filament {
 namespace {
 
-constexpr const char* kPaint = R"(material { name : paint, shadingModel : unlit, requires : [ uv0 ],
+constexpr const char* kUvPaint = R"(material { name : paint, shadingModel : unlit, requires : [ uv0 ],
     parameters : [ { type : float4, name : tint }, { type : sampler2d, name : picture } ] }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
     material.baseColor = materialParams.tint * texture(materialParams_picture, getUV0()); } })";
@@ -60,7 +60,7 @@ struct Painting {
         indices = engine.create(
                 IndexBufferDesc{ .indexCount = 6, .data = std::as_bytes(std::span(order)), .name = "order" });
         targets = engine.create(MorphTargetsDesc{ .vertexCount = 4, .targets = { { .positions = moved } } });
-        material = *engine.create(MaterialDesc{ .package = test::compiledPackage(kPaint) });
+        material = *engine.create(MaterialDesc{ .package = test::compiledPackage(kUvPaint) });
         instance = engine.createInstance(material, "red");
         EXPECT_TRUE(engine.set(instance, "tint", ParameterValue(float4(1, 0.5f, 0.25f, 1))));
         EXPECT_TRUE(engine.set(instance, "picture", texture));

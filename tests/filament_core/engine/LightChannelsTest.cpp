@@ -20,7 +20,7 @@ fragment { void material(inout MaterialInputs material) {
 
 constexpr uint32_t kSquaresASide = 4, kPicturePixels = 48; // squares and pixels a side
 
-struct Lamp {
+struct ChannelLamp {
     std::variant<SunLight, PointLight, SpotLight> light;
     LightChannels channels = 1;
 };
@@ -28,7 +28,7 @@ struct Lamp {
 /// Squares side by side, each with channels, under lamps with channels; one of the lamps is a sun.
 struct RandomChannels {
     std::array<LightChannels, kSquaresASide * kSquaresASide> squares{};
-    std::vector<Lamp> lamps;
+    std::vector<ChannelLamp> lamps;
 
     explicit RandomChannels(uint32_t seed) {
         Random random(seed);
@@ -84,7 +84,7 @@ struct ChannelStage : test::SquareStage {
             const Renderable renderable = square.add(scene, paint, at, 0.9);
             if (!only) scene.setLightChannels(renderable, random.squares[i]);
         }
-        for (Lamp const& lamp : random.lamps) {
+        for (ChannelLamp const& lamp : random.lamps) {
             if (only && (lamp.channels & *only) == 0) continue;
             std::visit(
                     [&](auto light) {

@@ -13,7 +13,7 @@ using test::rmsBetween;
 
 constexpr uint2 kPlaneSize(64, 48);
 
-constexpr std::string_view kPhoto = "material.baseColor = texture(materialParams_photo, getUV0() * 2.0);";
+constexpr std::string_view kPhotoLookUp = "material.baseColor = texture(materialParams_photo, getUV0() * 2.0);";
 constexpr std::string_view kOffset =
         "material.baseColor = textureOffset(materialParams_photo, getUV0() * 2.0, ivec2(1, -1));";
 constexpr std::string_view kGradients =
@@ -27,7 +27,7 @@ constexpr std::string_view kLevel = "material.baseColor = textureLod(materialPar
 /// A slanted square with noise of every frequency on it.
 class Photo {
 public:
-    explicit Photo(Backend backend, std::string_view code = kPhoto, std::string_view properties = "")
+    explicit Photo(Backend backend, std::string_view code = kPhotoLookUp, std::string_view properties = "")
             : engine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
               renderer(engine), mSquare(engine),
               mMaterial(test::loadMaterial(
@@ -131,7 +131,7 @@ TEST(MipBias, MakesAGatheredPictureAsSharpAsOneOfAllPixels) {
 
 /// The picture of a frame that is drawn at the gathered picture's levels: a bias is that of the sampled levels.
 TEST(MipBias, IsInEveryLookUpThatTakesItsLevelFromDerivatives) {
-    for (const std::string_view code : { kPhoto, kOffset, kGradients, kBiased, kProjected, kLevel }) {
+    for (const std::string_view code : { kPhotoLookUp, kOffset, kGradients, kBiased, kProjected, kLevel }) {
         std::vector<Image> images;
         for (const Backend backend : test::kBothApis) {
             Photo photo(backend, code);
@@ -148,7 +148,7 @@ TEST(MipBias, IsInEveryLookUpThatTakesItsLevelFromDerivatives) {
 
 /// Gradients and derivatives ask for the same levels, with a bias as without.
 TEST(MipBias, TurnsGradientsIntoThoseOfTheShownPixels) {
-    Photo byDerivatives(Backend::Vulkan, kPhoto), byGradients(Backend::Vulkan, kGradients);
+    Photo byDerivatives(Backend::Vulkan, kPhotoLookUp), byGradients(Backend::Vulkan, kGradients);
     const auto between = [&](MipBias bias) {
         return rmsBetween(byDerivatives.gathered(float2(0.5f), bias, 1), byGradients.gathered(float2(0.5f), bias, 1));
     };
@@ -163,7 +163,7 @@ TEST(MipBias, TurnsGradientsIntoThoseOfTheShownPixels) {
 TEST(MipBias, CutsTheSameHolesIntoDepths) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
-        Photo photo(backend, kPhoto, ", blending : masked");
+        Photo photo(backend, kPhotoLookUp, ", blending : masked");
         photo.view.quality.depthPrepass = DepthPrepass::On;
         photo.view.clearColor = float4(8, 0, 0, 1);
         photo.view.quality.antiAliasing = AntiAliasing::Taa;

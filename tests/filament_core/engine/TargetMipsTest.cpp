@@ -20,7 +20,7 @@ fragment { void material(inout MaterialInputs material) {
     vec4 texel = texelFetch(materialParams_picture, ivec2(gl_FragCoord.xy), materialParams.level);
     material.baseColor.rgb = materialParams.showsAlpha ? texel.aaa : texel.rgb;
 } })";
-constexpr const char* kFlat = R"(material { name : flat, shadingModel : unlit, culling : none,
+constexpr const char* kFlatOfMips = R"(material { name : flat, shadingModel : unlit, culling : none,
     parameters : [ { type : float4, name : color } ] }
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = materialParams.color; } })";
 
@@ -64,7 +64,7 @@ double4 expectedCode(Level const& above, uint2 size, uint2 at) {
 struct FilmStage {
     Engine engine;
     test::SquareMesh square{ engine };
-    Owned<Material> texels = test::loadMaterial(engine, kTexels), flat = test::loadMaterial(engine, kFlat);
+    Owned<Material> texels = test::loadMaterial(engine, kTexels), flat = test::loadMaterial(engine, kFlatOfMips);
     Owned<MaterialInstance> screen = engine.own(engine.createInstance(texels));
     std::vector<Owned<MaterialInstance>> flats;
     Scene scene{ engine }, room{ engine }; ///< what is filmed, and where its texels are shown
