@@ -69,6 +69,7 @@ std::string untracedParts(Document const& document) {
     if (!document.textures.empty()) parts.push_back("textures that were changed");
     if (!document.modelLights.empty()) parts.push_back("edits of the file's lights");
     if (!document.morphs.empty()) parts.push_back("morph weights");
+    if (document.model.options.allLevels) parts.push_back("other levels of detail than the finest");
     if (document.playback.animation) parts.push_back("animations");
     if (std::ranges::any_of(document.lights, hasProfile)) parts.push_back("profiles of lights");
     if (hasPictureEffects(document.view.effects)) parts.push_back("effects such as bloom");

@@ -23,6 +23,7 @@ TEST(TracedPicture, NamesWhatThePathTracerDoesNotSee) {
     EXPECT_THAT(untracedAfter([](Document& d) { d.view.effects.bloom.enabled = true; }), HasSubstr("bloom"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.view.effects.grading.enabled = true; }), HasSubstr("effects"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.look = "warm.cube"; }), HasSubstr("the look"));
+    EXPECT_THAT(untracedAfter([](Document& d) { d.model.options.allLevels = true; }), HasSubstr("levels of detail"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.lights.push_back({ .profileFile = "lamp.ies" }); }),
                 HasSubstr("profiles of lights"));
 }
