@@ -265,18 +265,20 @@ void addFinish(std::vector<Pair>& all, const char* file) {
 
 /// What a finished picture takes, beside a plain one.
 void addChain(std::vector<Pair>& all, const char* file) {
-    const auto chain = [](uint8_t samples) {
-        return [samples](Scene& scene, View& view) {
+    const auto chain = [](uint8_t samples, BloomResolution bloom = BloomResolution::Half) {
+        return [samples, bloom](Scene& scene, View& view) {
             scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
             view.samples = samples;
             view.quality.ao = AmbientOcclusionTerm::Sao;
             view.effects.ambientOcclusion.radiusMeters = 0.1f;
             view.effects.bloom.enabled = true;
+            view.quality.bloomResolution = bloom;
             view.quality.antiAliasing = AntiAliasing::Fxaa;
         };
     };
     const auto plain = withEffects([](View&) {});
     all.push_back({ "sun, pcf3, sao, bloom, fxaa", file, plain, chain(1) });
+    all.push_back({ "the same with bloomResolution=quarter", file, plain, chain(1, BloomResolution::Quarter) });
     all.push_back({ "the same with four samples", file, plain, chain(4) });
     all.push_back({ "four samples", file, plain, withEffects([](View& view) { view.samples = 4; }) });
 }
