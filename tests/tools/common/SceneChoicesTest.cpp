@@ -18,12 +18,12 @@ SceneOptions sunny() {
 
 /// What the choices change, as one text.
 std::string stateOf(SceneOptions const& o) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(o.debugView), o.samples,
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(o.debugView), o.samples,
                        o.sun->showsDisc, o.sun->contactShadows, o.sun->angularRadiusDegrees, o.sun->haloSize,
                        o.sun->haloFalloff, o.exactShaders, static_cast<int>(o.environmentOptions.format),
                        static_cast<int>(o.environmentOptions.roughnessMapping),
                        static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
-                       o.modelOptions.filesFromAnywhere);
+                       o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels);
 }
 
 TEST(SceneChoices, HaveTheirInitialValuesAtFirst) {
@@ -44,7 +44,7 @@ TEST(SceneChoices, ChangeWhatTheyName) {
         { "sun.haloFalloff", "7" },          { "exact", "off" },
         { "environment.format", "RGBM" },    { "environment.roughnessMapping", "linear" },
         { "model.positions", "half" },       { "model.tangents", "float" },
-        { "model.files", "anywhere" },
+        { "model.files", "anywhere" },       { "model.levels", "all" },
     };
     for (auto const& [name, value] : kChanges) {
         SceneOptions options = sunny();

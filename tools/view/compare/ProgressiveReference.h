@@ -6,8 +6,8 @@
 ///           filament-reference with the same settings, whatever was asked before.
 ///   Thread  all functions: one thread, which never waits: neither for a pass nor for the loading of a scene. Rays are
 ///           traced on one other thread, of lower priority.
-///   Cancel  setView(), stop() and the destructor end a pass within the time of one pixel: under 50 ms. A scene that is
-///           being loaded is loaded to its end first; the destructor waits for that.
+///   Cancel  setView(), stop() and the destructor end a pass within the time of one pixel: tens of milliseconds. A
+///           scene that is being loaded is loaded to its end first; the destructor waits for that.
 ///   Memory  the scene (Reference.h), 216 bytes a pixel with 16 passes, and two finished pictures.
 ///   Fails   status() says why: errors of the loader, of the scene, of the settings.
 #pragma once
