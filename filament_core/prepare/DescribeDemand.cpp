@@ -117,9 +117,8 @@ const char* describeNobody(Effect effect) {
     case Effect::MipBias:
         return "no frames are gathered into more pixels than they have";
     case Effect::GuardBand:
-        return "nothing looks beside the picture, a debug view is shown, the target has depth, or gathering enlarges "
-               "the "
-               "picture";
+        return "nothing looks beside the picture, a debug view is shown, the target has depth, or gathering "
+               "enlarges the picture";
     default:
         return "no light in view asks for them";
     }

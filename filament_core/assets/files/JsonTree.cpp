@@ -131,29 +131,29 @@ std::vector<float> JsonNode::numberList() const {
     return values;
 }
 
-std::vector<std::string> JsonNode::textsOf(const char* key) const {
-    if (!mValue || !mValue->is_object()) return {};
-    const auto member = mValue->find(key);
-    if (member == mValue->end() || !member->is_array()) return {};
-    std::vector<std::string> texts;
+namespace {
+
+/// Of an object: the elements of the array `key`, all of which `isWanted` accepts; else nothing.
+template <class T>
+std::vector<T> listOf(json const* object, const char* key, bool (json::*isWanted)() const noexcept) {
+    if (!object || !object->is_object()) return {};
+    const auto member = object->find(key);
+    if (member == object->end() || !member->is_array()) return {};
+    std::vector<T> list;
     for (json const& element : *member) {
-        if (!element.is_string()) return {};
-        texts.push_back(element.get<std::string>());
+        if (!(element.*isWanted)()) return {};
+        list.push_back(element.get<T>());
     }
-    return texts;
+    return list;
 }
 
-std::vector<double> JsonNode::numbersOf(const char* key) const {
-    if (!mValue || !mValue->is_object()) return {};
-    const auto member = mValue->find(key);
-    if (member == mValue->end() || !member->is_array()) return {};
-    std::vector<double> numbers;
-    for (json const& element : *member) {
-        if (!element.is_number()) return {};
-        numbers.push_back(element.get<double>());
-    }
-    return numbers;
+} // namespace
+
+std::vector<std::string> JsonNode::textsOf(const char* key) const {
+    return listOf<std::string>(mValue, key, &json::is_string);
 }
+
+std::vector<double> JsonNode::numbersOf(const char* key) const { return listOf<double>(mValue, key, &json::is_number); }
 
 void JsonNode::refuse(std::string_view expected) const {
     const char* found = mValue ? mValue->type_name() : "nothing";

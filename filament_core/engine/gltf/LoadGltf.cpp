@@ -155,8 +155,8 @@ private:
     void keepAnimated() {
         mModel->properties = std::move(mData.animatedProperties);
         mModel->levels = std::move(mData.levels);
+        if (mModel->properties.empty() && mModel->levels.empty()) return;
         mModel->lightsOfFile = mData.lights;
-        if (mModel->properties.empty()) return;
         mModel->camerasOfFile = mData.cameras;
         mModel->maxMaps = GltfMaterials::choiceOf(mEngine).maxMaps;
         for (uint32_t i = 0; i < mModel->properties.size(); ++i) {

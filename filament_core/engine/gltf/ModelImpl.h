@@ -85,9 +85,9 @@ struct Model::Impl {
     std::vector<PartLight> lights;
     std::vector<PartCamera> cameras;
 
-    std::vector<assets::LevelsData> levels; ///< their nodes are those of `nodes`
-    std::vector<uint8_t> mayChange;         ///< by node: whether an animation or a level can show or hide it
-    std::vector<assets::LightData> lightsOfFile;
+    std::vector<assets::LevelsData> levels;      ///< their nodes are those of `nodes`
+    std::vector<uint8_t> mayChange;              ///< by node: whether an animation or a level can show or hide it
+    std::vector<assets::LightData> lightsOfFile; ///< empty if neither levels nor animations show or change lights
 
     // KHR_animation_pointer: empty without it
     std::vector<assets::AnimatedProperty> properties; ///< channels refer to them; materials: into `animatedMaterials`

@@ -4,7 +4,8 @@
 ///   In      values of the model's animated properties.
 ///   Out     materials that the copy shares with no other one, lights, cameras, and which parts are shown.
 ///   Thread  app.   Fails: std::bad_alloc.
-///   Memory  the data of the materials, lights and cameras of a model that has animated properties; else nothing.
+///   Memory  the data of the materials of a model that has animated properties. Lights, cameras and what is shown are
+///           kept with the copy, for all animators and for levels of detail.
 ///   Cost    a change of a material: its parameters are derived again, as at loading, so that a copy at some time has
 ///           the bits of a file with these values. Once all properties have moved, nothing is allocated.
 #pragma once
