@@ -96,11 +96,6 @@ highp vec3 punctualLights(Surface surface) {
 #endif
 
 void addLights(Surface surface, inout highp vec3 sum) {
-#if defined(VARIANT_SHADOW_RECEIVER)
-    computeFacet();
-#else
-    if (quality_contactShadows != 0) computeFacet();
-#endif
 #if defined(VARIANT_SUN)
     highp vec3 visibility = vec3(1.0);
 #if defined(VARIANT_SHADOW_RECEIVER)

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragment stage of lit surface materials, entry point.
 
+// Before the author's code and the mask, which may discard neighbours: what a device does not go on with has undefined
+// derivatives (OpenGL ES Shading Language, "Derivative Functions"). GPUs stop there, Mesa's CPU drivers do not.
+void takeDerivatives() {
+#if defined(SPECULAR_ANTI_ALIASING)
+    shading_normalRight = dFdx(shading_geometricNormal);
+    shading_normalDown = dFdy(shading_geometricNormal);
+#endif
+#if defined(VARIANT_SHADOW_RECEIVER)
+    computeFacet();
+#else
+    if (quality_contactShadows != 0) computeFacet();
+#endif
+}
+
 void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
+    takeDerivatives();
     material(inputs);
 #if defined(PREPARE_AFTER_MATERIAL)
     prepareMaterial(inputs); // the author did not

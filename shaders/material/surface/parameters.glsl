@@ -10,11 +10,16 @@ highp float clampedRoughness(highp float perceptualRoughness) {
 #endif
 }
 
+#if defined(SPECULAR_ANTI_ALIASING)
+// How the geometry's normal changes from this pixel to its neighbours.
+highp vec3 shading_normalRight, shading_normalDown;
+#endif
+
 // The same; SPECULAR_ANTI_ALIASING adds the variation of the geometry's normals within a pixel.
 highp float shadedRoughness(highp float perceptualRoughness) {
     highp float roughness = perceptualRoughness;
 #if defined(SPECULAR_ANTI_ALIASING)
-    roughness = filteredPerceptualRoughness(roughness, dFdx(shading_geometricNormal), dFdy(shading_geometricNormal),
+    roughness = filteredPerceptualRoughness(roughness, shading_normalRight, shading_normalDown,
             SPECULAR_ANTI_ALIASING_VARIANCE, SPECULAR_ANTI_ALIASING_THRESHOLD);
 #endif
     return clampedRoughness(roughness);

@@ -5,6 +5,9 @@ void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
+#if defined(SHADOW_MULTIPLIER) && defined(VARIANT_SHADOW_RECEIVER)
+    computeFacet(); // before a discard: takeDerivatives() of lit materials
+#endif
     material(inputs);
     applyMask(inputs.baseColor);
 #if defined(BLENDS_IN_ANY_ORDER)
@@ -15,7 +18,6 @@ void main() {
 #if defined(SHADOW_MULTIPLIER)
     // The material's colour is that of a full shadow of the sun (materials guide, 4.2.29).
 #if defined(VARIANT_SHADOW_RECEIVER)
-    computeFacet();
     color *= vec4(1.0) - sunVisibility().rgbg; // coverage, as there is only one, is that of green
 #else
     color = vec4(0.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/package/EngineMaterials.h"
 
+#include "shaders/compiler/GlslToSpirv.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/Package.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace filament::shader {
 namespace {
@@ -51,6 +53,38 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         EXPECT_EQ(package.layout[kGroupView], viewGroupLayout()) << name;
         EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package))) << name;
     }
+}
+
+test::DerivativeUse derivativesOf(std::string_view main) {
+    const std::string glsl = "#version 450\nlayout(location = 0) in vec2 v; layout(location = 0) out vec2 o;\n"
+                             "void cut() { if (v.x < 0.5) discard; }\n" +
+                             std::string(main);
+    const auto spirv = spirvFromGlsl(glsl, backend::ShaderStage::Fragment, "test");
+    EXPECT_TRUE(spirv);
+    return spirv ? test::derivativeUse(*spirv) : test::DerivativeUse{};
+}
+
+TEST(EngineMaterials, AreSearchedForDerivativesInTheOrderOfCalls) {
+    const test::DerivativeUse before = derivativesOf("void main() { o = dFdx(v); cut(); }");
+    EXPECT_EQ(std::tuple(before.hasDiscard, before.beforeDiscard, before.afterDiscard), std::tuple(true, 1u, 0u));
+    const test::DerivativeUse after = derivativesOf("void main() { cut(); o = dFdx(v) + fwidth(v); }");
+    EXPECT_EQ(std::tuple(after.hasDiscard, after.beforeDiscard, after.afterDiscard), std::tuple(true, 0u, 2u));
+    EXPECT_FALSE(derivativesOf("void main() { o = dFdy(v); }").hasDiscard);
+}
+
+/// Drivers may stop at a discard; neighbours then have undefined derivatives. On Mesa no picture shows it.
+TEST(EngineMaterials, TakeDerivativesBeforeTheyDiscard) {
+    size_t discarding = 0, differentiating = 0;
+    for (const std::string_view name : engineMaterialNames()) {
+        for (Variant const& variant : read(name).variants) {
+            const test::DerivativeUse use = test::derivativeUse(variant.fragmentSpirv);
+            EXPECT_EQ(use.afterDiscard, 0u) << name << " " << int{ variant.key };
+            discarding += use.hasDiscard;
+            differentiating += use.hasDiscard && use.beforeDiscard > 0;
+        }
+    }
+    EXPECT_GT(discarding, 50u);
+    EXPECT_GT(differentiating, 50u);
 }
 
 /// As Filament's do; glTF has no property for it.
