@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
 #include <numbers>
 #include <unordered_set>
 
@@ -111,6 +112,8 @@ public:
             return inHighPrecision(mAt.operands[2]);
         if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && mAt.operands[1] == GLSLstd450PackHalf2x16)
             return packHalves();
+        if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && clampsInteger(mAt.operands[1]))
+            return lowerIntegerClamp().id;
         if (!mEditor.isFloat32(mAt.type)) return 0;
         if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && unpacksTwo(mAt.operands[1])) return unpackTwo();
         if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
@@ -240,10 +243,22 @@ private:
         return { &mEditor, mEditor.emit(spv::OpSelect, x.type(), { isNan, otherwise.id, result.id }) };
     }
 
-    /// min(max(x, low), high), where a driver knows one of them.
+    /// min(max(x, low), high), unless it is all the same to drivers: some take high first, which differs if it is less.
     Value lowerClamp() const {
-        if (!mayBeNan(0) && !mayBeNan(1) && !mayBeNan(2)) return {};
+        const std::span<const float> low = mEditor.constantOf(argument(1).id),
+                                     high = mEditor.constantOf(argument(2).id);
+        const bool isInOrder = !low.empty() && std::ranges::equal(low, high, std::less_equal{});
+        if (isInOrder && !mayBeNan(0)) return {};
         return limit(GLSLstd450FMin, limit(GLSLstd450FMax, argument(0), argument(1)), argument(2));
+    }
+
+    static bool clampsInteger(uint32_t function) {
+        return function == GLSLstd450SClamp || function == GLSLstd450UClamp;
+    }
+    Value lowerIntegerClamp() const {
+        const bool isSigned = mAt.operands[1] == GLSLstd450SClamp;
+        const Value raised = call(isSigned ? GLSLstd450SMax : GLSLstd450UMax, { argument(0), argument(1) });
+        return call(isSigned ? GLSLstd450SMin : GLSLstd450UMin, { raised, argument(2) });
     }
 
     /// mod(x, 0) of a 0 that a driver knows is x: Mesa makes 0 * floor(x / 0) to 0 when it writes code (lp_build_mul),

@@ -3,7 +3,7 @@
 ///   Why     Mesa uses different front ends for SPIR-V and GLSL, which expand some operations differently; the last bit
 ///           of a dot product then depends on the API. After this pass both see additions and multiplications.
 ///   What    dot, matrix products, outer product, determinant, inverse, normalize, length, distance, reflect, refract,
-///           cross, faceforward, mix, step, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the
+///           cross, faceforward, mix, clamp, step, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the
 ///           hyperbolic functions and their inverses, division by a constant (multiplication by its rounded
 ///           reciprocal), % of signed integers, and pow with a small whole exponent, which becomes products.
 ///           Conversions to integers are clamped to their range, and bit casts of NaN give one pattern

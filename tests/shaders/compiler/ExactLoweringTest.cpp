@@ -57,6 +57,10 @@ INSTANTIATE_TEST_SUITE_P(
                 Operation{ "OpVectorTimesMatrix", "u.a * u.m" }, Operation{ "OpMatrixTimesMatrix", "(u.m * u.n)[2]" },
                 Operation{ "OpOuterProduct", "outerProduct(u.a, u.b)[1]" }, Operation{ "OpFMod", "mod(u.a, u.b)" },
                 Operation{ "OpSMod", "vec4(int(u.a.x) % int(u.a.y))" }, Operation{ "OpFDiv", "u.a / 3.0" },
+                Operation{ "FClamp", "clamp(u.a, u.b, u.c)" },
+                Operation{ "FClamp", "clamp(u.a, vec4(0), vec4(1,1,-1,1))" },
+                Operation{ "SClamp", "vec4(clamp(int(u.a.x), int(u.b.x), 3))" },
+                Operation{ "UClamp", "vec4(clamp(uint(u.a.x), uint(u.b.x), 3u))" },
                 Operation{ "OpFDiv", "u.a / vec4(3.0, 5.0, 7.0, 9.0)" },
                 Operation{ "Length", "vec4(length(u.a), length(u.a.x), 0, 0)" },
                 Operation{ "Distance", "vec4(distance(u.a, u.b))" },
@@ -86,6 +90,11 @@ TEST(ExactLowering, TreatsWhatFollowsFromSpecialisationConstantsAsConstant) {
             test::disassembly(lowerExactly(optimized("vec4(u.s.x / (kSpec > 2.0 ? 7.0 : kSpec * 5.0))")));
     EXPECT_EQ(test::validationErrors(lowerExactly(optimized("vec4(u.s.x / (kSpec > 2.0 ? 7.0 : kSpec * 5.0))"))), "");
     EXPECT_NE(text.find("OpFDiv %float %float_1 "), std::string::npos) << text;
+}
+
+TEST(ExactLowering, KeepsClampsWhoseBoundsAreInOrder) {
+    const std::vector<uint32_t> before = asWritten("clamp(u.a, vec4(0.0), vec4(1.0, 0.0, 2.0, 3.0))");
+    EXPECT_EQ(lowerExactly(before), before);
 }
 
 TEST(ExactLowering, KeepsDivisionByAVariable) {
