@@ -79,7 +79,8 @@ vec3 visibleHalfVector(float nov, float alpha, vec2 disc) {
 float visibleLookUpWeight(float nov, float nol, float alpha) {
     float a2 = alpha * alpha;
     float view = sqrt(a2 + (1.0f - a2) * nov * nov), light = sqrt(a2 + (1.0f - a2) * nol * nol);
-    return nol * (nov + view) / max(nol * view + nov * light, 1e-6f);
+    float both = nol * view + nov * light;
+    return both > 0.0f ? nol * (nov + view) / both : 0.0f;
 }
 
 // The roughness to look such a direction up with: its lobe covers the share of the sphere that belongs to the sample.

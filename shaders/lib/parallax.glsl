@@ -26,7 +26,7 @@ vec2 parallaxShift(vec3 viewTangent, float scale) {
 float parallaxCrossing(float rayBefore, float fieldBefore, float rayAfter, float fieldAfter) {
     float before = max(fieldBefore - rayBefore, 0.0f);
     float after = max(rayAfter - fieldAfter, 0.0f);
-    return before / max(before + after, 1e-6f);
+    return min(before / max(before + after, 1e-6f), 1.0f); // GPUs divide by multiplying with a rounded reciprocal
 }
 
 // One fetch, as if the field were flat at the depth below uv. fp32 only.

@@ -22,7 +22,7 @@ vec3 refractOrReflect(vec3 incident, vec3 n, float eta) {
 // The cosine with the normal behind the surface: 1 - (1 - nov^2) / ior^2 as a sum of positive terms, so that grazing
 // light keeps its angle if ior is close to 1. nov in [0, 1]. Returns [nov, 1].
 float refractedCosine(float nov, float ior) {
-    return sqrt(max((ior - 1.0f) * (ior + 1.0f) + nov * nov, 0.0f)) / ior;
+    return min(sqrt(max((ior - 1.0f) * (ior + 1.0f) + nov * nov, 0.0f)) / ior, 1.0f);
 }
 
 // The view direction behind the surface: unchanged for ior 1.
@@ -64,7 +64,7 @@ vec3 thinReflectance(vec3 f) { return 2.0f * f / (1.0f + f); }
 // A thin layer that tints light by t at each crossing: what its far side adds to the reflectance f of the near one, and
 // what it transmits. All bounces: (1-f)^2 f t^2 and (1-f)^2 t, times the sum of the powers of f^2 t^2.
 // f, tint in [0, 1]. Both return [0, 1 - f], and their sum is at most that.
-const float kMinThinDenominator = 1e-6f;
+const float kMinThinDenominator = 6.103515625e-5f; // 2^-14: devices may take smaller halves for 0
 vec3 thinFarReflectance(vec3 f, vec3 tint) {
     vec3 once = (vec3(1.0f) - f) * tint;
     return f * once * once / max(vec3(1.0f) - f * f * tint * tint, vec3(kMinThinDenominator));
