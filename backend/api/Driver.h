@@ -43,7 +43,8 @@ struct DeviceLimits {
 };
 
 struct DeviceFeatures {
-    bool mergedPasses = false; ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1
+    bool mergedPasses =
+            false; ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1; false if it only costs
     bool timers = false;
     bool blockCompression = false; ///< BC1..BC7
     bool depthClamp = false;

@@ -109,7 +109,6 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     device.halfFloatShaders = half.shaderFloat16;
     device.bresenhamLines = lines.bresenhamLines;
     DeviceInfo& info = device.info;
-    info.features.mergedPasses = true; // subpasses are core
     info.features.depthResolve = device.depthResolve;
     info.features.textureViews = true; // so are image views
     info.features.sharedMemory = true; // and images that alias
@@ -168,6 +167,7 @@ PhysicalDevice survey(Instance const& instance, VkPhysicalDevice handle) {
         const VkMemoryPropertyFlags flags = device.memory.memoryTypes[i].propertyFlags;
         device.lazilyAllocatedMemory |= (flags & VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT) != 0;
     }
+    device.info.features.mergedPasses = gainsByMerging(device);
     if (const auto format = missingFormat(instance, handle)) {
         device.unusable = fmt::format("cannot render to {}", formatInfo(*format).name);
     }
@@ -195,6 +195,10 @@ int rankOf(VkPhysicalDeviceType type) {
 }
 
 } // namespace
+
+bool gainsByMerging(PhysicalDevice const& device) {
+    return device.lazilyAllocatedMemory || device.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
 
 std::vector<PhysicalDevice> surveyDevices(Instance const& instance) {
     std::vector<PhysicalDevice> devices;

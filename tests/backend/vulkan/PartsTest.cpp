@@ -185,6 +185,13 @@ TEST(ChooseDevice, TakesTheDiscreteGpuUnlessANameIsRequired) {
     EXPECT_EQ(chooseDevice(std::span(devices).first(1), "").value(), 0u);
 }
 
+TEST(GainsByMerging, DevicesWhoseAttachmentsNeedNotLeaveTheChip) {
+    EXPECT_TRUE(gainsByMerging({ .type = VK_PHYSICAL_DEVICE_TYPE_CPU }));
+    EXPECT_TRUE(gainsByMerging({ .type = VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU, .lazilyAllocatedMemory = true }));
+    EXPECT_FALSE(gainsByMerging({ .type = VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU }));
+    EXPECT_FALSE(gainsByMerging({ .type = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU }));
+}
+
 TEST(ChooseDevice, SaysWhyAnUnusableDeviceDoesNotDo) {
     const auto choice = chooseDevice(someDevices(), "radeon");
     ASSERT_FALSE(choice);
