@@ -41,9 +41,9 @@ struct PhysicalDevice {
 /// All devices of the instance, usable or not, in the order of the loader.
 std::vector<PhysicalDevice> surveyDevices(Instance const& instance);
 
-/// Whether passes that read their own pixel are worth merging, which every device can: attachments then stay in the tile
-/// memory of a device that has some, and in the caches of a CPU. Others gain nothing and may lose: an NVIDIA H100 takes
-/// 7.2 ms for the colours and the tone mapper of 3840 x 2160 pixels in one pass, and 4.6 ms in two.
+/// Whether passes that read their own pixel are worth merging, which every device can: attachments then stay in the
+/// tile memory of a device that has some, and in the caches of a CPU. Others gain nothing and may lose: an NVIDIA H100
+/// takes 7.2 ms for the colours and the tone mapper of 3840 x 2160 pixels in one pass, and 4.6 ms in two.
 bool gainsByMerging(PhysicalDevice const& device);
 
 /// Index of the device to use: the first one whose name contains `required` (case-insensitive; empty: any), GPUs before
