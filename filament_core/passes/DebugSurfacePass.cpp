@@ -66,7 +66,7 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
     if (!hasDepth)
         targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
     targets.solidDepth = targets.depth;
-    const bool counts = context.view->debugView == DebugView::Overdraw;
+    const bool counts = prepare::countsSurfaces(context.view->debugView);
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
                   .debug = counts ? DebugSlot::Counts : DebugSlot::Values,

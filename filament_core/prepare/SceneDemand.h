@@ -163,9 +163,14 @@ inline bool gathersFrames(Quality const& quality, DebugView debugView) {
 /// Whether passes::DebugEffectPass draws a debug view; the others are the business of passes::DebugViewPass.
 inline bool isOfEffectPass(DebugView debugView) { return debugView > DebugView::Motion; }
 
+/// Whether a debug view counts fragments.
+inline bool countsSurfaces(DebugView debugView) {
+    return debugView == DebugView::Overdraw || debugView == DebugView::TransparentLayers;
+}
+
 /// Whether a debug view shows what the code of materials gives, or how often it runs, so that nothing is lit.
 inline bool showsMaterials(DebugView debugView) {
-    return debugView >= DebugView::BaseColor && debugView <= DebugView::Overdraw;
+    return debugView >= DebugView::BaseColor && debugView <= DebugView::TransparentLayers;
 }
 
 /// Whether a debug view shows the edges of triangles.

@@ -34,6 +34,7 @@ constexpr std::array<std::string_view, kDebugViewCount> kDebugViews{ "none",
                                                                      "emissive",
                                                                      "mipLevel",
                                                                      "overdraw",
+                                                                     "transparentLayers",
                                                                      "wireframe",
                                                                      "wireframeAlone" };
 

@@ -11,6 +11,7 @@ const int kViewMaterialOcclusion = 22;
 const int kViewEmissive = 23;
 const int kViewMipLevel = 24;
 const int kViewOverdraw = 25;
+const int kViewTransparentLayers = 26;
 
 // Alpha of what is shown: a value; nothing, because the material has no such input. Where there is no surface: 0.
 const float kHasValue = 1.0;

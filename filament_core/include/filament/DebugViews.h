@@ -44,8 +44,8 @@ NumericsCounts countNumerics(std::span<const std::byte> rgba);
 /// white; up to -7: black.
 DebugColor luminanceColor(int stops);
 
-/// Of DebugView::Overdraw, Froxels and Lights: a colour for each count up to 8, then two for each doubling up to 255,
-/// one from 256 on.
+/// Of DebugView::Overdraw, TransparentLayers, Froxels and Lights: a colour for each count up to 8, then two for each
+/// doubling up to 255, one from 256 on.
 DebugColor countColor(uint32_t count);
 
 /// Of DebugView::MipLevel: grey below 0, where a texel is larger than a pixel; then from dark purple to yellow at 10,

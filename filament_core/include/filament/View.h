@@ -49,9 +49,10 @@ enum class DebugView : uint8_t {
     Emissive,           ///< pre-exposed
     MipLevel,           ///< at which a texture of 1024 texels a side would be read by the first coordinates
     // What drawing them costs:
-    Overdraw,       ///< how many fragments are shaded in each pixel
-    Wireframe,      ///< the edges of visible triangles, over the picture
-    WireframeAlone, ///< the same without the picture
+    Overdraw,          ///< how many fragments are shaded in each pixel
+    TransparentLayers, ///< how many surfaces that blend are seen in each pixel
+    Wireframe,         ///< the edges of visible triangles, over the picture
+    WireframeAlone,    ///< the same without the picture
 };
 inline constexpr size_t kDebugViewCount = static_cast<size_t>(DebugView::WireframeAlone) + 1;
 /// "none", "cascades", ..., "wireframeAlone": the names of debugViewNames(), as in filament-render --set
@@ -62,7 +63,9 @@ std::optional<DebugView> debugViewFromName(std::string_view name);
 constexpr const char* debugViewNames() {
     return "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog, motion, "
            "circleOfConfusion, historyWeight, histogram, luminance, numerics, baseColor, roughness, metallic, normals, "
-           "tangents, textureCoordinates, materialOcclusion, emissive, mipLevel, overdraw, wireframe or wireframeAlone";
+           "tangents, textureCoordinates, materialOcclusion, emissive, mipLevel, overdraw, transparentLayers, "
+           "wireframe "
+           "or wireframeAlone";
 }
 
 /// What becomes of the pixels that a target has already.

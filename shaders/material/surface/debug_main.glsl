@@ -48,6 +48,17 @@ vec4 debugShading(MaterialInputs inputs, int view) {
     return shown;
 }
 
+// 1 for a layer that transparency.glsl composes. A surface that hides what is behind it only writes its depth.
+vec4 debugLayer(MaterialInputs inputs) {
+#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
+    return vec4(0.0);
+#elif defined(BLEND_MODE_FADE)
+    return vec4(inputs.baseColor.a > 0.0 ? 1.0 : 0.0);
+#else
+    return vec4(1.0);
+#endif
+}
+
 vec4 debugValue(MaterialInputs inputs, float level, int view) {
     vec4 shown = debugShading(inputs, view);
     if (view == kViewBaseColor) shown = vec4(inputs.baseColor.rgb, kHasValue);
@@ -58,6 +69,7 @@ vec4 debugValue(MaterialInputs inputs, float level, int view) {
     if (view == kViewMipLevel) shown = vec4(vec3(level), kHasValue);
 #endif
     if (view == kViewOverdraw) shown = vec4(1.0);
+    if (view == kViewTransparentLayers) shown = debugLayer(inputs);
     return shown;
 }
 

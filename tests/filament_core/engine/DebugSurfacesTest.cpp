@@ -14,10 +14,11 @@
 namespace filament {
 namespace {
 
-constexpr std::array kMaterialViews{ DebugView::BaseColor,         DebugView::Roughness, DebugView::Metallic,
-                                     DebugView::Normals,           DebugView::Tangents,  DebugView::TextureCoordinates,
-                                     DebugView::MaterialOcclusion, DebugView::Emissive,  DebugView::MipLevel,
-                                     DebugView::Overdraw };
+constexpr std::array kMaterialViews{
+    DebugView::BaseColor, DebugView::Roughness,          DebugView::Metallic,          DebugView::Normals,
+    DebugView::Tangents,  DebugView::TextureCoordinates, DebugView::MaterialOcclusion, DebugView::Emissive,
+    DebugView::MipLevel,  DebugView::Overdraw,           DebugView::TransparentLayers
+};
 
 /// Squares before a camera that looks along -z from the origin and sees 2 m at a distance of 1 m.
 class SurfaceStage {
@@ -145,7 +146,7 @@ TEST(DebugMaterials, HaveStripesWhereTheyHaveNoSuchValue) {
     });
     for (size_t i = 0; i < kMaterialViews.size(); ++i) {
         const bool hasValue = kMaterialViews[i] == DebugView::BaseColor || kMaterialViews[i] == DebugView::Emissive ||
-                              kMaterialViews[i] == DebugView::Overdraw;
+                              kMaterialViews[i] >= DebugView::Overdraw; // counts have none, either
         EXPECT_EQ(isStriped(images[i]), !hasValue) << toString(kMaterialViews[i]);
     }
     EXPECT_EQ(debugColorAt(images[7], 16, 16), kBlackPixel) << "no emission is black";
@@ -330,6 +331,37 @@ TEST(DebugOverdraw, ShowsWhatTheOrderAndADepthPrepassSave) {
     EXPECT_EQ(debugColorAt(images[0], 16, 16), countColor(1));
     EXPECT_EQ(debugColorAt(images[1], 16, 16), countColor(kWalls)) << "the farthest is drawn first";
     EXPECT_EQ(debugColorAt(images[2], 16, 16), countColor(1)) << "the prepass leaves the nearest alone";
+}
+
+TEST(DebugTransparentLayers, CountsWhatBlendsAndIsNotHidden) {
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
+        const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
+        stage.add(wall, { 0, 0, -3 }, 3);
+        std::vector<Image> all{ stage.draw(DebugView::TransparentLayers) };
+        const MaterialInstance pane =
+                stage.material(test::text("shadingModel : unlit, blending : transparent", kDarkGlass));
+        for (int i = 0; i < 3; ++i) stage.add(pane, { 0, 0, -1 - 0.1 * i }, 0.5);
+        stage.add(pane, { 0, 0, -4 }, 2); // behind the wall
+        all.push_back(stage.draw(DebugView::TransparentLayers));
+        stage.add(
+                stage.material(test::text("shadingModel : unlit, blending : fade", "material.baseColor = vec4(0.0);")),
+                { 0, 0, -0.9 }, 0.4);
+        all.push_back(stage.draw(DebugView::TransparentLayers));
+        stage.add(stage.material(test::text("shadingModel : unlit, blending : add", "material.baseColor = vec4(0.0);")),
+                  { 0, 0, -0.8 }, 0.4);
+        all.push_back(stage.draw(DebugView::TransparentLayers));
+        stage.add(stage.material(
+                          test::text("shadingModel : unlit, blending : masked", "material.baseColor = vec4(1.0);")),
+                  { 0, 0, -1.05 }, 0.5);
+        all.push_back(stage.draw(DebugView::TransparentLayers));
+        return all;
+    });
+    EXPECT_EQ(debugColorAt(images[0], 16, 16), kBlackPixel) << "a wall is no layer";
+    EXPECT_EQ(debugColorAt(images[1], 16, 16), countColor(3)) << "the fourth is behind the wall";
+    EXPECT_EQ(debugColorAt(images[1], 1, 1), kBlackPixel);
+    EXPECT_EQ(debugColorAt(images[2], 16, 16), countColor(3)) << "what has faded covers nothing";
+    EXPECT_EQ(debugColorAt(images[3], 16, 16), countColor(4)) << "what adds light may shine";
+    EXPECT_EQ(debugColorAt(images[4], 16, 16), countColor(2)) << "masked ones hide two of them";
 }
 
 // ---- triangles
