@@ -44,6 +44,7 @@ TEST(GlesDeviceDeathTest, AMachineWithoutADriverIsToldWhatToInstall) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto tryWithoutDriver = [] {
         setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);
+        unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES"); // would come first
         CollectingSink sink;
         const Result<std::unique_ptr<Driver>> driver = createGlesDriver({}, sink);
         const bool right = !driver && driver.error().code == ErrorCode::DeviceUnavailable && listGlesDevices().empty();

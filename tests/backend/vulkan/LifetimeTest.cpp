@@ -2,6 +2,7 @@
 // Frames, answers, destruction while work is in flight, and everything that may fail.
 #include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
+#include "tests/base/ScopedVariable.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -307,10 +308,9 @@ TEST(VulkanDriver, DrawsOnADeviceWithoutAnyOptionalFeature) {
 
 TEST(VulkanDriver, GoesOnWithoutValidationWhenTheLayerIsNotInstalled) {
     if (listVulkanDevices().empty()) GTEST_SKIP() << "no Vulkan device";
-    setenv("VK_LAYER_PATH", "/nonexistent", 1); // the loader reads it for each instance
+    const test::ScopedVariable layers("VK_LAYER_PATH", "/nonexistent"); // the loader reads it for each instance
     CollectingSink sink;
     const auto driver = createVulkanDriver({ .validation = true }, sink);
-    unsetenv("VK_LAYER_PATH");
     ASSERT_TRUE(driver) << driver.error().message;
     ASSERT_EQ(sink.errors.size(), 1u);
     EXPECT_EQ(sink.errors[0].kind, DriverErrorKind::Validation);

@@ -2,6 +2,7 @@
 // The shortest path through every file of the driver: a clear, a triangle, a read-back.
 #include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
+#include "tests/base/ScopedVariable.h"
 
 #include <cstdlib>
 
@@ -63,11 +64,12 @@ TEST(VulkanDriver, NamesTheDevicesThereAreWhenTheRequiredOneIsMissing) {
 }
 
 TEST(VulkanDriver, SaysWhatToInstallOnAMachineWithoutADriver) {
-    setenv("VK_ICD_FILENAMES", "/nonexistent/driver.json", 1); // the loader reads it for each instance
+    // The loader reads them for each instance.
+    const test::ScopedVariable driverFiles("VK_DRIVER_FILES", "/nonexistent/driver.json");
+    const test::ScopedVariable oldName("VK_ICD_FILENAMES", "/nonexistent/driver.json");
     CollectingSink sink;
     const auto driver = createVulkanDriver({}, sink);
     const std::vector<DeviceInfo> devices = listVulkanDevices();
-    unsetenv("VK_ICD_FILENAMES");
     ASSERT_FALSE(driver);
     EXPECT_EQ(driver.error().code, ErrorCode::DeviceUnavailable);
     EXPECT_NE(driver.error().message.find("install mesa-vulkan-drivers"), std::string::npos) << driver.error().message;

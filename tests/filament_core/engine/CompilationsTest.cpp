@@ -2,6 +2,7 @@
 // What changes from frame to frame has Mesa's Vulkan driver compile nothing: it may compile a stage anew for every
 // value of the uniforms that alone decide a condition, which takes seconds a frame. Counted in files of its shader
 // cache.
+#include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/scenes/Sphere.h"
@@ -20,16 +21,9 @@ class OwnShaderCache {
 public:
     OwnShaderCache() : mFolder(test::folderOfThisTest() / "shaders") {
         fs::remove_all(mFolder);
-        if (const char* before = std::getenv(kVariable)) mBefore = before;
-        ::setenv(kVariable, mFolder.c_str(), 1); // read when a device is created
+        mVariable.set(mFolder.string()); // read when a device is created
     }
-    ~OwnShaderCache() {
-        if (mBefore)
-            ::setenv(kVariable, mBefore->c_str(), 1);
-        else
-            ::unsetenv(kVariable);
-        fs::remove_all(mFolder);
-    }
+    ~OwnShaderCache() { fs::remove_all(mFolder); }
 
     /// Complete once the devices are destroyed.
     size_t files() const {
@@ -41,9 +35,8 @@ public:
     }
 
 private:
-    static constexpr const char* kVariable = "MESA_SHADER_CACHE_DIR";
     fs::path mFolder;
-    std::optional<std::string> mBefore;
+    test::ScopedVariable mVariable{ "MESA_SHADER_CACHE_DIR", {} };
 };
 
 /// Spheres of several materials, with textures and without, in the light of a sky, a sun and a lamp, of which

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/common/Shard.h"
+#include "tests/base/ScopedVariable.h"
 
 #include <gtest/gtest.h>
 
@@ -7,23 +8,6 @@
 
 namespace filament::tools {
 namespace {
-
-/// Variables of the environment, unset again with this.
-class Environment {
-public:
-    explicit Environment(std::vector<std::pair<const char*, const char*>> variables)
-            : mVariables(std::move(variables)) {
-        for (auto const& [name, value] : mVariables) ::setenv(name, value, 1);
-    }
-    ~Environment() {
-        for (auto const& [name, value] : mVariables) ::unsetenv(name);
-    }
-    Environment(Environment const&) = delete;
-    Environment& operator=(Environment const&) = delete;
-
-private:
-    std::vector<std::pair<const char*, const char*>> mVariables;
-};
 
 TEST(Shard, IsAnIndexBelowACount) {
     EXPECT_EQ(parseShard("2/8").value(), (Shard{ 2, 8 }));
@@ -39,11 +23,11 @@ TEST(Shard, IsAnIndexBelowACount) {
 TEST(Shard, ComesFromTheScheduler) {
     EXPECT_FALSE(parseShard("auto").ok()) << "there is none";
     {
-        const Environment slurm(
-                { { "SLURM_ARRAY_TASK_ID", "5" }, { "SLURM_ARRAY_TASK_MIN", "3" }, { "SLURM_ARRAY_TASK_COUNT", "4" } });
+        const test::ScopedVariable task("SLURM_ARRAY_TASK_ID", "5"), first("SLURM_ARRAY_TASK_MIN", "3"),
+                count("SLURM_ARRAY_TASK_COUNT", "4");
         EXPECT_EQ(parseShard("auto").value(), (Shard{ 2, 4 })) << "Slurm counts from the first of the array";
     }
-    const Environment kubernetes({ { "JOB_COMPLETION_INDEX", "1" }, { "JOB_COMPLETIONS", "3" } });
+    const test::ScopedVariable index("JOB_COMPLETION_INDEX", "1"), count("JOB_COMPLETIONS", "3");
     EXPECT_EQ(parseShard("auto").value(), (Shard{ 1, 3 }));
 }
 

@@ -4,6 +4,7 @@
 #include "base/Log.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/image/ImageWriter.h"
+#include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/assets/environment/EnvironmentFuzzBody.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 
@@ -264,17 +265,11 @@ TEST_F(IblEnvironmentTest, ProgressNamesEachStageOnce) {
 }
 
 TEST_F(IblEnvironmentTest, TheCacheIsInTheUsersCacheDirectory) {
-    const char* const variable = std::getenv("XDG_CACHE_HOME");
-    const std::string before = variable ? variable : "";
-    ::setenv("XDG_CACHE_HOME", "/some/cache", 1);
+    const filament::test::ScopedVariable cache("XDG_CACHE_HOME", "/some/cache");
     EXPECT_EQ(environmentCacheDirectory({}), "/some/cache/filament_core");
     EXPECT_EQ(environmentCacheDirectory(mOptions), mFolder / "cache");
-    ::setenv("XDG_CACHE_HOME", "relative", 1); // the specification says: ignore it
+    cache.set("relative"); // the specification says: ignore it
     EXPECT_NE(environmentCacheDirectory({}), "relative/filament_core");
-    if (variable)
-        ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
-    else
-        ::unsetenv("XDG_CACHE_HOME");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG: every kind of pixel against the specification. JPEG: the same bits with and without SIMD. Both: hostile files.
 #include "filament_core/assets/image/ImageDecoder.h"
+#include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/assets/image/ImageFuzzBody.h"
 #include "tests/filament_core/assets/image/PictureFiles.h"
 
@@ -50,9 +51,10 @@ TEST_P(Jpegs, HaveTheSameBitsWithAndWithoutSimd) {
     const std::vector<std::byte> file = makeJpeg(GetParam(), 67, 45);
     const std::vector<std::byte> fast = decoded(file);
     std::vector<std::byte> plain;
-    ::setenv("JSIMD_FORCENONE", "1", 1);
-    std::thread([&] { plain = decoded(file); }).join();
-    ::unsetenv("JSIMD_FORCENONE");
+    {
+        const filament::test::ScopedVariable none("JSIMD_FORCENONE", "1");
+        std::thread([&] { plain = decoded(file); }).join();
+    }
     EXPECT_EQ(fast, plain);
 }
 

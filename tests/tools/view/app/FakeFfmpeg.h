@@ -2,9 +2,10 @@
 /// A program named ffmpeg, first in PATH, that a test writes as a shell script; and PATH as it was, afterwards.
 #pragma once
 
+#include "tests/base/ScopedVariable.h"
+
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +17,6 @@ class FakeFfmpeg {
 public:
     /// Without a script there is none: PATH is the empty folder alone.
     FakeFfmpeg(std::filesystem::path folder, std::string const& script) : mFolder(std::move(folder)) {
-        if (const char* path = std::getenv("PATH")) mPath = path;
         std::filesystem::create_directories(mFolder);
         const std::filesystem::path program = mFolder / "ffmpeg";
         std::filesystem::remove(program);
@@ -24,15 +24,12 @@ public:
             std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
             std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         }
-        setenv("PATH", script.empty() ? mFolder.c_str() : (mFolder.string() + ":" + mPath).c_str(), 1);
+        mPath.set(script.empty() ? mFolder.string() : mFolder.string() + ":" + mPath.before().value_or(""));
     }
-    FakeFfmpeg(FakeFfmpeg const&) = delete;
-    FakeFfmpeg& operator=(FakeFfmpeg const&) = delete;
-    ~FakeFfmpeg() { setenv("PATH", mPath.c_str(), 1); }
 
 private:
     std::filesystem::path mFolder;
-    std::string mPath;
+    test::ScopedVariable mPath{ "PATH", "" };
 };
 
 /// Keeps its words, one a line, in `words`, and writes its last word, the output.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of recent files between runs, whatever its file holds.
 #include "tools/view/app/RecentFiles.h"
+#include "tests/base/ScopedVariable.h"
 #include "tests/fuzz/RecentFilesFuzzBody.h"
 
 #include <fmt/format.h>
@@ -87,18 +88,15 @@ TEST(RecentFiles, StoresThatCannotBeUsedAreNoHarm) {
 
 TEST(RecentFiles, TheStoreLiesWhereTheDesktopKeepsStates) {
     const auto with = [](const char* state, const char* home) {
-        state ? setenv("XDG_STATE_HOME", state, 1) : unsetenv("XDG_STATE_HOME");
-        home ? setenv("HOME", home, 1) : unsetenv("HOME");
+        const auto given = [](const char* value) { return value ? std::optional<std::string>(value) : std::nullopt; };
+        const test::ScopedVariable stateHome("XDG_STATE_HOME", given(state)), userHome("HOME", given(home));
         return recentFilesPath();
     };
-    const char* homeBefore = std::getenv("HOME");
-    const std::string home = homeBefore ? homeBefore : "/";
     EXPECT_EQ(with("/state", "/home/a"), "/state/filament-view/recent.json");
     EXPECT_EQ(with(nullptr, "/home/a"), "/home/a/.local/state/filament-view/recent.json");
     EXPECT_EQ(with("relative", "/home/a"), "/home/a/.local/state/filament-view/recent.json") << "as the standard asks";
     EXPECT_EQ(with("", ""), "");
     EXPECT_EQ(with(nullptr, nullptr), "");
-    with(nullptr, home.c_str());
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Camera paths by the command line: without a window, and the program ends by itself.
 #include "tools/view/app/RunViewer.h"
+#include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/tools/view/app/FakeFfmpeg.h"
 #include "tests/tools/view/app/TestScene.h"
@@ -84,8 +85,8 @@ TEST_F(RunViewer, MakesAVideoAndKeepsTheFramesIfAsked) {
 TEST_F(RunViewer, OpensPanelsAndRemembersItsModel) {
     const auto server = test::VirtualDisplay::start();
     if (!server) return;
-    setenv("DISPLAY", server->name().c_str(), 1);
-    setenv("XDG_STATE_HOME", (folder / "state").c_str(), 1);
+    const test::ScopedVariable display("DISPLAY", server->name());
+    const test::ScopedVariable stateHome("XDG_STATE_HOME", (folder / "state").string());
     const fs::path picture = folder / "window.png";
     const std::vector<std::string> last{ "--frames", "4",      "--panel",      "Path",           "--panel", "Numbers",
                                          "--select", "nobody", "--screenshot", picture.string(), "--size",  "900x500" };
@@ -94,7 +95,6 @@ TEST_F(RunViewer, OpensPanelsAndRemembersItsModel) {
     EXPECT_TRUE(loadImage(picture).ok());
     EXPECT_THAT(RecentFiles(recentFilesPath()).files(), testing::ElementsAre(showcaseFiles().model));
     EXPECT_FALSE(fs::exists(recentFilesPath().replace_filename("last.json"))) << "nothing was edited";
-    unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(RunViewer, FailuresAreOneLineAndAStatus) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer without a window: events in, documents and pictures out, on both APIs.
 #include "tools/view/app/Viewer.h"
+#include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/tools/view/app/HeadlessViewer.h"
 
@@ -84,25 +85,9 @@ TEST_P(ViewerTest, EveryActionLeavesAViewerThatDraws) {
 }
 
 /// For as long as it lives, Vulkan's loader finds no driver.
-class WithoutVulkan {
-public:
-    WithoutVulkan() {
-        for (const char* name : kNames) {
-            const char* value = std::getenv(name);
-            mBefore.push_back(value ? std::optional<std::string>(value) : std::nullopt);
-            setenv(name, "/nowhere/driver.json", 1);
-        }
-    }
-    WithoutVulkan(WithoutVulkan const&) = delete;
-    WithoutVulkan& operator=(WithoutVulkan const&) = delete;
-    ~WithoutVulkan() {
-        for (size_t i = 0; i < mBefore.size(); ++i)
-            mBefore[i] ? setenv(kNames[i], mBefore[i]->c_str(), 1) : unsetenv(kNames[i]);
-    }
-
-private:
-    static constexpr std::array<const char*, 2> kNames{ "VK_ICD_FILENAMES", "VK_DRIVER_FILES" };
-    std::vector<std::optional<std::string>> mBefore;
+struct WithoutVulkan {
+    test::ScopedVariable oldName{ "VK_ICD_FILENAMES", "/nowhere/driver.json" };
+    test::ScopedVariable driverFiles{ "VK_DRIVER_FILES", "/nowhere/driver.json" };
 };
 
 TEST(Viewer, WithoutAnyDeviceItKeepsTheDocumentInAFileAndCloses) {
