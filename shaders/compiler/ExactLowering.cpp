@@ -104,6 +104,7 @@ public:
 
     Id run() const {
         if (mAt.op == spv::OpSMod) return lowerSignedModulo();
+        if (mAt.op == spv::OpSDiv || mAt.op == spv::OpUDiv || mAt.op == spv::OpUMod) return lowerIntegerDivision();
         if (mAt.op == spv::OpConvertFToS) return convertClamped(-2147483648.0f, 2147483520.0f);
         if (mAt.op == spv::OpConvertFToU) return convertClamped(0.0f, 4294967040.0f);
         if (mAt.op == spv::OpBitcast) return castNumber();
@@ -145,10 +146,25 @@ private:
         }
     }
 
+    /// By 0: 0 of signed numbers, all bits of unsigned ones, which some drivers give and GLSL leaves undefined.
+    Id divideIntegers(spv::Op op, Id x, Id y) const {
+        if (mEditor.isNonZeroInteger(y)) return mEditor.emit(op, mAt.type, { x, y });
+        const Id type = mEditor.typeOf(y), one = mEditor.splatBits(1, type);
+        const Id isZero = mEditor.emit(spv::OpIEqual, mEditor.boolTypeLike(type), { y, mEditor.splatBits(0, type) });
+        const Id divisor = mEditor.emit(spv::OpSelect, type, { isZero, one, y });
+        const Id quotient = mEditor.emit(op, mAt.type, { x, divisor });
+        const Id otherwise = mEditor.splatBits(op == spv::OpSDiv ? 0 : ~0u, mAt.type);
+        return mEditor.emit(spv::OpSelect, mAt.type, { isZero, otherwise, quotient });
+    }
+
+    Id lowerIntegerDivision() const {
+        return mEditor.isNonZeroInteger(mAt.operands[1]) ? 0 : divideIntegers(mAt.op, mAt.operands[0], mAt.operands[1]);
+    }
+
     /// GLSL leaves % of negative numbers undefined; here the quotient is truncated towards zero, as in C++.
     Id lowerSignedModulo() const {
         const Id x = mAt.operands[0], y = mAt.operands[1];
-        const Id quotient = mEditor.emit(spv::OpSDiv, mAt.type, { x, y });
+        const Id quotient = divideIntegers(spv::OpSDiv, x, y);
         return mEditor.emit(spv::OpISub, mAt.type, { x, mEditor.emit(spv::OpIMul, mAt.type, { quotient, y }) });
     }
 

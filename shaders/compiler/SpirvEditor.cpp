@@ -97,7 +97,13 @@ void SpirvEditor::scanGlobal(Instruction const& at) {
 
 void SpirvEditor::scanConstant(Instruction const& at) {
     if (isConstant(at.op) || followsFromConstants(at)) mConstantExpressions.insert(at.result);
-    if (!isFloat32(at.type)) return;
+    if (!isFloat32(at.type)) {
+        const bool isWhole = at.op == spv::OpConstant && at.operands[0] != 0;
+        const bool isVectorOfThem = at.op == spv::OpConstantComposite && isVector(at.type) &&
+                                    std::ranges::all_of(at.operands, [&](Id part) { return isNonZeroInteger(part); });
+        if (isWhole || isVectorOfThem) mNonZeroIntegers.insert(at.result);
+        return;
+    }
     if (at.op == spv::OpConstant) mConstants[at.result] = { std::bit_cast<float>(at.operands[0]) };
     if (at.op == spv::OpConstantNull) mConstants[at.result].assign(elementCount(at.type), 0.0f);
     if (at.op != spv::OpConstantComposite && at.op != spv::OpCompositeConstruct) return;
@@ -154,6 +160,8 @@ std::span<const float> SpirvEditor::constantOf(Id value) const {
 
 bool SpirvEditor::isConstantExpression(Id value) const { return mConstantExpressions.contains(value); }
 
+bool SpirvEditor::isNonZeroInteger(Id value) const { return mNonZeroIntegers.contains(value); }
+
 SpirvEditor::Id SpirvEditor::extendedInstructions() const { return mExtended; }
 
 bool SpirvEditor::isExtended(Instruction const& at) const {
@@ -179,6 +187,15 @@ SpirvEditor::Id SpirvEditor::emit(spv::Op op, Id type, std::initializer_list<uin
     return emit(op, type, std::span<const uint32_t>(operands.begin(), operands.size()));
 }
 
+SpirvEditor::Id SpirvEditor::makeConstant(std::vector<uint32_t> const& words, Id type) {
+    Id& made = mMadeConstants[{ type, words }];
+    if (made == 0) {
+        made = newId(type);
+        append(mNewGlobals, isVector(type) ? spv::OpConstantComposite : spv::OpConstant, { type, made }, words);
+    }
+    return made;
+}
+
 SpirvEditor::Id SpirvEditor::constant(std::span<const float> components, Id type) {
     std::vector<uint32_t> words;
     const bool vector = isVector(type);
@@ -186,17 +203,18 @@ SpirvEditor::Id SpirvEditor::constant(std::span<const float> components, Id type
         words.push_back(vector ? constant(std::span(&component, 1), elementType(type))
                                : std::bit_cast<uint32_t>(component));
     }
-    Id& made = mMadeConstants[{ type, words }];
-    if (made == 0) {
-        made = newId(type);
-        append(mNewGlobals, vector ? spv::OpConstantComposite : spv::OpConstant, { type, made }, words);
-        mConstants[made].assign(components.begin(), components.end());
-    }
+    const Id made = makeConstant(words, type);
+    mConstants[made].assign(components.begin(), components.end());
     return made;
 }
 
 SpirvEditor::Id SpirvEditor::splat(float value, Id type) {
     return constant(std::vector<float>(elementCount(type), value), type);
+}
+
+SpirvEditor::Id SpirvEditor::splatBits(uint32_t value, Id type) {
+    if (!isVector(type)) return makeConstant({ value }, type);
+    return makeConstant(std::vector<uint32_t>(elementCount(type), splatBits(value, elementType(type))), type);
 }
 
 SpirvEditor::Id SpirvEditor::findOrMakeType(spv::Op op, Id element, uint32_t count) {
@@ -212,9 +230,9 @@ SpirvEditor::Id SpirvEditor::findOrMakeType(spv::Op op, Id element, uint32_t cou
     return id;
 }
 
-SpirvEditor::Id SpirvEditor::boolTypeLike(Id floatType) {
+SpirvEditor::Id SpirvEditor::boolTypeLike(Id type) {
     const Id scalar = findOrMakeType(spv::OpTypeBool, 0, 0);
-    return isVector(floatType) ? findOrMakeType(spv::OpTypeVector, scalar, elementCount(floatType)) : scalar;
+    return isVector(type) ? findOrMakeType(spv::OpTypeVector, scalar, elementCount(type)) : scalar;
 }
 
 /// The value must keep the id by which the rest of the module refers to it.

@@ -45,6 +45,8 @@ public:
     Id elementType(Id type) const;        ///< of a vector: its scalar; of a matrix: its column; of a scalar: itself
     /// Components of a 32-bit float constant; empty for everything else.
     std::span<const float> constantOf(Id value) const;
+    /// An integer constant, or a vector of such, that is nowhere 0.
+    bool isNonZeroInteger(Id value) const;
     /// Depends only on constants and specialisation constants, so the driver knows it when it compiles.
     bool isConstantExpression(Id value) const;
     Id extendedInstructions() const;              ///< the GLSL.std.450 import; 0: none
@@ -55,7 +57,8 @@ public:
     Id emit(spv::Op op, Id type, std::initializer_list<uint32_t> operands);
     Id constant(std::span<const float> components, Id type); ///< a scalar or vector constant, made once
     Id splat(float value, Id type);
-    Id boolTypeLike(Id floatType); ///< bool, or a vector of as many bools
+    Id splatBits(uint32_t value, Id type); ///< of 32-bit integers
+    Id boolTypeLike(Id type);              ///< bool, or a vector of as many bools
 
 private:
     struct Type {
@@ -74,6 +77,7 @@ private:
     void renameLast(Id last, Id result, Id type);
     void inheritDecorations(Id from);
     Id newId(Id type);
+    Id makeConstant(std::vector<uint32_t> const& words, Id type);
     Id findOrMakeType(spv::Op op, Id element, uint32_t count);
 
     std::span<const uint32_t> mModule;
@@ -82,6 +86,7 @@ private:
     std::vector<Id> mTypeOf;
     std::unordered_map<Id, Type> mTypes;
     std::unordered_map<Id, std::vector<float>> mConstants;
+    std::unordered_set<Id> mNonZeroIntegers;
     std::unordered_set<Id> mConstantExpressions;
     std::unordered_map<Id, std::vector<spv::Decoration>> mPrecision; ///< RelaxedPrecision, NoContraction
     std::map<std::pair<Id, std::vector<uint32_t>>, Id> mMadeConstants;

@@ -97,6 +97,18 @@ TEST(ExactLowering, KeepsClampsWhoseBoundsAreInOrder) {
     EXPECT_EQ(lowerExactly(before), before);
 }
 
+TEST(ExactLowering, ChoosesQuotientsByZeroUnlessTheDivisorIsConstant) {
+    for (const char* by :
+         { "vec4(int(u.a.x) / int(u.b.x))", "vec4(uint(u.a.x) / uint(u.b.x))", "vec4(uvec4(u.a) % uvec4(u.b))",
+           "vec4(ivec4(u.a) % ivec4(u.b))", "vec4(ivec4(u.a) / 0)" }) {
+        const std::vector<uint32_t> before = asWritten(by), after = lowerExactly(before);
+        EXPECT_EQ(test::validationErrors(after), "") << by;
+        EXPECT_NE(test::disassembly(after).find("OpIEqual"), std::string::npos) << by;
+    }
+    for (const char* by : { "vec4(int(u.a.x) / 3)", "vec4(ivec4(u.a) / ivec4(1, 2, 3, -4))", "vec4(uvec4(u.a) % 7u)" })
+        EXPECT_EQ(test::disassembly(lowerExactly(optimized(by))).find("OpIEqual"), std::string::npos) << by;
+}
+
 TEST(ExactLowering, KeepsDivisionByAVariable) {
     const std::string text = test::disassembly(lowerExactly(optimized("u.a / u.b")));
     EXPECT_NE(text.find("OpFDiv"), std::string::npos);
