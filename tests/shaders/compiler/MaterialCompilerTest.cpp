@@ -7,6 +7,7 @@
 #include "shaders/package/GroupLayouts.h"
 #include "tests/shaders/compiler/SpirvTools.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -127,6 +128,24 @@ TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
 }
 
 // ---------------------------------------------------------------------------------------------- errors
+
+/// EngineMaterials.TakeDerivativesBeforeTheyDiscard says why. Those materials have neither of these properties.
+TEST(MaterialCompiler, TakesTheDerivativesOfMaskedMaterialsBeforeTheyDiscard) {
+    for (const char* model : { "lit", "cloth", "subsurface", "specularGlossiness", "unlit, shadowMultiplier : true" }) {
+        const std::string text = withProperties(fmt::format(
+                "name : a, blending : masked, alphaToCoverage : true, specularAntiAliasing : true, shadingModel : {}",
+                model));
+        const Result<MaterialPackage> package = compile(text);
+        ASSERT_TRUE(package) << package.error().message;
+        size_t differentiating = 0;
+        for (Variant const& variant : package->variants) {
+            const test::DerivativeUse use = test::derivativeUse(variant.fragmentSpirv);
+            EXPECT_EQ(use.afterDiscard, 0u) << model << ' ' << int{ variant.key };
+            differentiating += use.hasDiscard && use.beforeDiscard > 0;
+        }
+        EXPECT_GT(differentiating, 0u) << model;
+    }
+}
 
 TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
     EXPECT_EQ(failureOf(withProperties("shadingModle : lit")).message,
