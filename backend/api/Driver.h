@@ -43,8 +43,8 @@ struct DeviceLimits {
 };
 
 struct DeviceFeatures {
-    bool mergedPasses =
-            false; ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1; false if it only costs
+    /// Subpass input or framebuffer fetch: PassLayout::subpassCount > 1. Also false where that costs more than it saves.
+    bool mergedPasses = false;
     bool timers = false;
     bool blockCompression = false; ///< BC1..BC7
     bool depthClamp = false;
