@@ -27,7 +27,7 @@ bool hasIor(Definition const& d) { return isLit(d) || refracts(d); }
 
 constexpr float kAny = std::numeric_limits<float>::quiet_NaN();
 constexpr std::array<float, 4> kZero{}, kOne{ 1, 1, 1, 1 }, kUp{ 0, 0, 1, 0 }, kDark{ 0, 0, 0, kAny };
-constexpr auto kNeutral = Absent::Neutral, kUntouched = Absent::Untouched, kNever = Absent::Never;
+constexpr auto kNeutral = Absent::Neutral, kUntouched = Absent::Untouched;
 
 // clang-format off
 // The guide says 0 for ambientOcclusion; that is a misprint: everything would be black.

@@ -84,7 +84,8 @@ void updateVertices(SteadyStage& stage, int frame) {
 }
 
 void updateIndices(SteadyStage& stage, int) {
-    std::ranges::rotate(stage.mesh.indices, stage.mesh.indices.begin() + 3);
+    std::vector<uint32_t>& indices = stage.mesh.indices;
+    std::rotate(indices.begin(), indices.begin() + 3, indices.end());
     stage.engine.update(stage.indices, std::as_bytes(std::span(stage.mesh.indices)));
 }
 

@@ -9,16 +9,23 @@
 
 #include <atomic>
 #include <cstring>
-#include <source_location>
 #include <type_traits>
 
 namespace filament::jobs::model {
+
+/// As std::source_location, which clang 14 lacks.
+struct Where {
+    const char* function;
+    int line;
+    static constexpr Where current(const char* function = __builtin_FUNCTION(), int line = __builtin_LINE()) {
+        return { function, line };
+    }
+};
 
 template <class T>
 class Atomic {
     static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 8);
     using Order = std::memory_order;
-    using Where = std::source_location;
     static constexpr Order kSeqCst = std::memory_order_seq_cst;
 
 public:
@@ -86,8 +93,8 @@ private:
                  .order = order,
                  .operand = bits(operand),
                  .mask = sizeof(T) == 8 ? ~0ull : (1ull << 8 * sizeof(T) % 64) - 1,
-                 .function = where.function_name(),
-                 .line = static_cast<int>(where.line()) };
+                 .function = where.function,
+                 .line = where.line };
     }
     T make(Kind kind, T operand, Order order, Where where) const {
         return fromBits(perform(this, describe(kind, operand, order, where)).value);
@@ -124,16 +131,15 @@ struct ModelAtomics {
     using Atomic = model::Atomic<T>;
     template <class T>
     using Plain = model::Plain<T>;
-    using Where = std::source_location;
 
     static void wait(Atomic<uint32_t>& word, uint32_t old, Where where = Where::current()) {
-        perform(&word, { .kind = Kind::Wait, .expected = old, .function = where.function_name() });
+        perform(&word, { .kind = Kind::Wait, .expected = old, .function = where.function });
     }
     static void notifyOne(Atomic<uint32_t>& word, Where where = Where::current()) {
-        perform(&word, { .kind = Kind::NotifyOne, .function = where.function_name() });
+        perform(&word, { .kind = Kind::NotifyOne, .function = where.function });
     }
     static void notifyAll(Atomic<uint32_t>& word, Where where = Where::current()) {
-        perform(&word, { .kind = Kind::NotifyAll, .function = where.function_name() });
+        perform(&word, { .kind = Kind::NotifyAll, .function = where.function });
     }
 };
 

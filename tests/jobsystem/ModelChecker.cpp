@@ -431,8 +431,8 @@ std::string Checker::describeRun() const {
         text += "  thread " + std::to_string(step.thread) + ": atomic " + std::to_string(made.location) + ' ' +
                 nameOf(made.kind) + ' ' + nameOf(made.order) + " finds " + std::to_string(step.before);
         if (made.kind != Kind::Load) text += ", operand " + std::to_string(made.operand);
-        text += std::string(step.note) + " in " + std::string(made.functionName()) + "(), line " +
-                std::to_string(made.line) + '\n';
+        text += std::string(step.note) + " in " + std::string(made.function) + "(), line " + std::to_string(made.line) +
+                '\n';
     }
     return text;
 }

@@ -11,17 +11,7 @@ bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::
 } // namespace
 
 // `function` is the whole of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
-std::string_view Operation::functionName() const {
-    std::string_view name = function;
-    size_t arguments = name.find('(');
-    while (arguments != name.npos && name.substr(arguments).starts_with("(anonymous"))
-        arguments = name.find('(', arguments + 1);
-    name = name.substr(0, arguments);
-    const size_t start = name.find_last_of(": ");
-    return start == name.npos ? name : name.substr(start + 1);
-}
-
-bool Operation::isIn(const char* name) const { return functionName() == name; }
+bool Operation::isIn(const char* name) const { return std::string_view(function) == name; }
 
 uint64_t Operation::result(uint64_t before) const {
     switch (kind) {

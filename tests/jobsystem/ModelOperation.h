@@ -40,8 +40,6 @@ struct Operation {
 
     /// The operation is written in a function of this name.
     bool isIn(const char* name) const;
-    /// The name without its class, result and arguments.
-    std::string_view functionName() const;
     /// The effect of a store or modification.
     uint64_t result(uint64_t before) const;
 };

@@ -4,7 +4,6 @@
 #include "filament_core/assets/gltf/GltfParse.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace filament::assets {
 namespace {
@@ -28,8 +27,8 @@ public:
             walk.push_back(node);
             open.insert(open.end(), nodes[node].children.begin(), nodes[node].children.end());
         }
-        for (const uint32_t node : walk | std::views::reverse) {
-            for (const uint32_t child : nodes[node].children) mBelow[node] += 1 + mBelow[child];
+        for (auto node = walk.rbegin(); node != walk.rend(); ++node) {
+            for (const uint32_t child : nodes[*node].children) mBelow[*node] += 1 + mBelow[child];
         }
     }
 

@@ -86,7 +86,7 @@ TEST(BloomLevels, OfAQuarterReachAsFarWithOneLess) {
 TEST(Bloom, SpreadsLightAsFarAsTheSumOfItsLobes) {
     for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
         for (const auto& [radius, levels] : { std::pair(0.004f, 1), std::pair(0.03f, 3), std::pair(0.0625f, 4) }) {
-            const Image spread = pictureOfLamp(64, 1 / 128.0, [&](View& view) {
+            const Image spread = pictureOfLamp(64, 1 / 128.0, [resolution, radius = radius](View& view) {
                 view.effects.bloom = { .enabled = true, .strength = 1, .radius = radius };
                 view.quality.bloomResolution = resolution;
             });

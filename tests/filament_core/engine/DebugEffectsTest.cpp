@@ -239,7 +239,7 @@ int heightOf(Image const& image, int bin, int3 color) {
 TEST(DebugHistogram, HasBarsAsHighAsTheirCounts) {
     for (const auto& [dark, bright] : { std::pair(0.125f, 2.0f), std::pair(0.01f, 0.9f), std::pair(0.3f, 30.0f) }) {
         for (const auto& [low, high] : { std::pair(0.4f, 0.95f), std::pair(0.0f, 1.0f), std::pair(0.1f, 0.2f) }) {
-            const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
+            const auto draw = [dark = dark, bright = bright, low = low, high = high](SquaresStage& stage) {
                 stage.view.size = kHistogramSize;
                 stage.view.effects.autoExposure = {
                     .enabled = true, .lowPercentile = low, .highPercentile = high, .minStops = -16, .maxStops = 16
@@ -248,7 +248,8 @@ TEST(DebugHistogram, HasBarsAsHighAsTheirCounts) {
                 stage.add(bright, { 0, 0, -2 }, 9);
                 stage.add(dark, { -1 - 2.0 / 3, 0, -1 }, 1); // up to a quarter of 8/3 m
                 return std::vector{ stage.draw() };
-            });
+            };
+            const std::vector<Image> images = test::sameOnBothApis<SquaresStage>(draw);
             const double all = 64 * 48, darkCount = all / 4, brightCount = all * 3 / 4;
             const double first = low * all, last = high * all;
             const double darkIn = std::clamp(last, 0.0, darkCount) - std::clamp(first, 0.0, darkCount);

@@ -70,8 +70,8 @@ TEST(Shapes, NormalsAreUnitAndOnTheSideThatTrianglesFace) {
 TEST(Shapes, SurfacesAreClosed) {
     for (auto const& [name, shape] : closedShapes()) {
         // Every directed edge between positions (seams share them bit for bit) has its opposite.
-        const auto key = [&](uint32_t index) {
-            const float3 p = shape.positions[index] + 0.0f; // -0 becomes +0
+        const auto key = [&positions = shape.positions](uint32_t index) {
+            const float3 p = positions[index] + 0.0f; // -0 becomes +0
             return std::tuple(p.x, p.y, p.z);
         };
         using Point = std::tuple<float, float, float>;

@@ -12,7 +12,8 @@ namespace {
 char lowered(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool containsWord(std::string_view text, std::string_view word) {
-    return !std::ranges::search(text, word, {}, lowered, lowered).empty() || word.empty();
+    const auto isSame = [](char a, char b) { return lowered(a) == lowered(b); };
+    return word.empty() || std::search(text.begin(), text.end(), word.begin(), word.end(), isSame) != text.end();
 }
 
 } // namespace
