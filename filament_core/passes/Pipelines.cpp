@@ -203,9 +203,9 @@ void composeInAnyOrder(PipelineDesc& desc, shader::TransparencyTerm term) {
         blend = { .writeMask = 0 };
         desc.depthStencil.depthWrite = true;
         return;
-    case shader::kTransparencyLayer: // under those that are there: Porter and Duff 1984
-        blend.srcColor = blend.srcAlpha = BlendFactor::OneMinusDstAlpha;
-        blend.dstColor = blend.dstAlpha = BlendFactor::One;
+    case shader::kTransparencyLayer: // under those that are there; alpha is the share of light that they let through
+        blend.srcColor = BlendFactor::DstAlpha, blend.dstColor = BlendFactor::One;
+        blend.srcAlpha = BlendFactor::Zero, blend.dstAlpha = BlendFactor::OneMinusSrcAlpha;
         return;
     default:
         return;

@@ -17,6 +17,7 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 
 constexpr std::array<float, 4> kNothing{ 0, 0, 0, 0 };
+constexpr std::array<float, 4> kNoLayer{ 0, 0, 0, 1 }; // alpha: all light passes
 
 constexpr std::string_view kOverInputs[] = { "surfaces", "cover" };
 constexpr FullScreenInterface kOver{ .pass = "transparency", .inputs = kOverInputs };
@@ -104,7 +105,7 @@ PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, Trans
     TransparencyTargets with = targets;
     for (uint32_t i = 0; i < count; ++i) {
         const framegraph::ColorTarget light =
-                i == 0 ? framegraph::ColorTarget{ .clear = kNothing } : framegraph::ColorTarget{};
+                i == 0 ? framegraph::ColorTarget{ .clear = kNoLayer } : framegraph::ColorTarget{};
         with.textures.occlusion = layers.depth;
         layers.depth = createLike(graph, targets.color, Format::D32F, 1, "layer depth");
         addSurfaces(graph, context, "layer depth", with,

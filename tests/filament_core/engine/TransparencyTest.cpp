@@ -30,7 +30,6 @@ struct Pane {
     double z = 0;                ///< of its middle, where it is sorted
     double tiltX = 0, tiltY = 0; ///< radians
     double3 middle() const { return { 0, 0, z }; }
-    double3 normal() const { return double3(turned() * double4(0, 0, 1, 0)); }
     double4x4 turned() const {
         return glm::rotate(glm::rotate(double4x4(1), tiltY, double3(0, 1, 0)), tiltX, double3(1, 0, 0));
     }
@@ -63,11 +62,14 @@ Image pictureOfPanes(std::vector<Pane> const& panes, Quality const& quality) {
     return onBothApis([&](MaterialStage& stage) { showPanes(stage, panes, quality); });
 }
 
-/// Along the ray through the middle of a pixel of the stage's view; infinity: it does not meet the plane.
+/// Along the ray through the middle of a pixel of the stage's view; infinity: it does not meet the pane.
 double distanceToPane(Pane const& pane, uint32_t x, uint32_t y) {
-    const double3 eye(0, 0, 4), ray(test::directionThrough(x, y, kPanesSide)), n = pane.normal();
-    const double t = glm::dot(n, pane.middle() - eye) / glm::dot(n, ray);
-    return t > 0 ? t : HUGE_VAL;
+    const double3 eye(0, 0, 4), ray(test::directionThrough(x, y, kPanesSide));
+    const double3x3 axes(pane.turned());
+    const double t = glm::dot(axes[2], pane.middle() - eye) / glm::dot(axes[2], ray);
+    const double3 off = eye + ray * t - pane.middle();
+    const double farthest = std::max(std::abs(glm::dot(axes[0], off)), std::abs(glm::dot(axes[1], off)));
+    return t > 0 && farthest < pane.square().halfSide ? t : HUGE_VAL;
 }
 
 /// Whether two planes are so near each other there that rounding may decide.
@@ -249,15 +251,33 @@ TEST(Transparency, LightWithoutAlphaIsAddedWithinAnEighthOfAPercentOfWhatIsBehin
     test::expectNear(halfPixel(one, 4, 4), float3(1, 0.5f, 0) + kBehindPanes, 6e-3f);
 }
 
+/// What they let through is kept as it is: one minus their alpha would have steps of 2^-11, here a thousandth of the sun.
+TEST(Transparency, LayersLetThroughWhatTheyShouldOfWhatIsBrightBehindThem) {
+    constexpr float3 kBright{ 6e4f, 3e4f, 100 };
+    std::vector<Pane> panes;
+    for (int i = 0; i < 5; ++i) panes.push_back(paneOf({ 0.1f, 0.2f, 0.3f }, 0.85f, 0.5 * i));
+    for (const TransparencyOrder by : { TransparencyOrder::Sorted, TransparencyOrder::Peeled }) {
+        const Image image = onBothApis([&](MaterialStage& stage) {
+            showPanes(stage, panes, composedBy(by, 8));
+            stage.view.clearColor = float4(kBright, 1);
+        });
+        const float3 found(halfPixel(image, 4, 4)), expected = truthAt(panes, 4, 4, kBright);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 0.005) << toString(by) << ' ' << c;
+    }
+}
+
 // ---- random panes
 
 std::vector<Pane> randomPanes(uint32_t count, double mostAlpha, Random& random) {
     constexpr double kMostTilt = 0.9;
     std::vector<Pane> panes;
     for (uint32_t i = 0; i < count; ++i) {
-        const float3 color(random.within(0, 1), random.within(0, 1), random.within(0, 1));
-        panes.push_back(paneOf(color, static_cast<float>(random.within(0.05, mostAlpha)), random.within(-12, 2),
-                               random.within(-kMostTilt, kMostTilt), random.within(-kMostTilt, kMostTilt)));
+        float3 color;
+        for (int c = 0; c < 3; ++c)
+            color[c] = static_cast<float>(random.within(0, 1)); // in one order with all compilers
+        const auto alpha = static_cast<float>(random.within(0.05, mostAlpha));
+        const double z = random.within(-12, 2), tiltX = random.within(-kMostTilt, kMostTilt);
+        panes.push_back(paneOf(color, alpha, z, tiltX, random.within(-kMostTilt, kMostTilt)));
     }
     return panes;
 }
@@ -297,7 +317,8 @@ TEST(Transparency, PeelingRandomPanesErrsLessWithEveryLayerAndNotAtAllWithAsMany
     EXPECT_GT(errors[0].largest, 0.1) << "sorted: planes that reach into each other";
     EXPECT_LT(errors[1].rms(), 0.12) << "weighted";
     EXPECT_LT(errors[2].squares, errors[0].squares) << "two layers against none";
-    for (size_t i = 3; i < errors.size(); ++i) EXPECT_LE(errors[i].squares, errors[i - 1].squares) << i;
+    for (size_t i = 3; i < errors.size(); ++i)
+        EXPECT_LT(errors[i].rms(), errors[i - 1].rms() + roundingOf(0)) << i << ": or as much, to within rounding";
     for (const size_t i : { size_t{ 5 }, size_t{ 6 } })
         EXPECT_LT(errors[i].largest, roundingOf(kPanes)) << "as many layers as panes";
 }
