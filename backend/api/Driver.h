@@ -43,7 +43,8 @@ struct DeviceLimits {
 };
 
 struct DeviceFeatures {
-    /// Subpass input or framebuffer fetch: PassLayout::subpassCount > 1. Also false where that costs more than it saves.
+    /// Subpass input or framebuffer fetch: PassLayout::subpassCount > 1. Also false where that costs more than it
+    /// saves.
     bool mergedPasses = false;
     bool timers = false;
     bool blockCompression = false; ///< BC1..BC7

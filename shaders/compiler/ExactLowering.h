@@ -5,8 +5,8 @@
 ///   What    dot, matrix products, outer product, determinant, inverse, normalize, length, distance, reflect, refract,
 ///           cross, faceforward, mix, clamp, step, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the
 ///           hyperbolic functions and their inverses, division by a constant (multiplication by its rounded
-///           reciprocal), quotients and remainders of integers, and pow with a small whole exponent, which becomes products.
-///           Conversions to integers are clamped to their range, and bit casts of NaN give one pattern
+///           reciprocal), quotients and remainders of integers, and pow with a small whole exponent, which becomes
+///           products. Conversions to integers are clamped to their range, and bit casts of NaN give one pattern
 ///           (docs/materials-undefined.md). Functions of functions, such as log(exp2(x)), are separated by a sum, so
 ///           that no driver folds them. Minima, maxima, arcs and mod of values that follow from constants choose what
 ///           they give for NaN and 0 themselves, because drivers compute constants by other rules than variables.

@@ -251,7 +251,7 @@ TEST(Transparency, LightWithoutAlphaIsAddedWithinAnEighthOfAPercentOfWhatIsBehin
     test::expectNear(halfPixel(one, 4, 4), float3(1, 0.5f, 0) + kBehindPanes, 6e-3f);
 }
 
-/// What they let through is kept as it is: one minus their alpha would have steps of 2^-11, here a thousandth of the sun.
+/// What they let through is kept as it is: one minus their alpha would have steps of 2^-11, seven times what passes.
 TEST(Transparency, LayersLetThroughWhatTheyShouldOfWhatIsBrightBehindThem) {
     constexpr float3 kBright{ 6e4f, 3e4f, 100 };
     std::vector<Pane> panes;

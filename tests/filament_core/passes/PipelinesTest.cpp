@@ -190,20 +190,24 @@ PipelineDesc composing(shader::TransparencyTerm term, shader::ShadingModel shadi
 
 TEST(PipelineCache, EachPassOfTransparencyBlendsAndLeavesDepthAsItsSumNeeds) {
     using enum BlendFactor;
-    const auto expectBlend = [](shader::TransparencyTerm term, BlendFactor source, BlendFactor target) {
+    const auto expectBlendState = [](shader::TransparencyTerm term, BlendState const& expected) {
         const PipelineDesc desc = composing(term);
-        const BlendState expected{
-            .enabled = true, .srcColor = source, .dstColor = target, .srcAlpha = source, .dstAlpha = target
-        };
         EXPECT_EQ(desc.blend[0], expected) << int{ term };
         EXPECT_FALSE(desc.depthStencil.depthWrite) << int{ term };
         EXPECT_EQ(desc.depthStencil.depthCompare, CompareOp::GreaterEqual) << int{ term };
+    };
+    const auto expectBlend = [&](shader::TransparencyTerm term, BlendFactor source, BlendFactor target) {
+        expectBlendState(
+                term,
+                { .enabled = true, .srcColor = source, .dstColor = target, .srcAlpha = source, .dstAlpha = target });
     };
     expectBlend(shader::kTransparencyInOrder, One, OneMinusSrcAlpha);
     expectBlend(shader::kTransparencyBeyond, One, OneMinusSrcAlpha);
     expectBlend(shader::kTransparencyCover, One, OneMinusSrcAlpha);
     expectBlend(shader::kTransparencyWeightedLight, One, One);
-    expectBlend(shader::kTransparencyLayer, OneMinusDstAlpha, One);
+    expectBlendState(
+            shader::kTransparencyLayer,
+            { .enabled = true, .srcColor = DstAlpha, .dstColor = One, .srcAlpha = Zero, .dstAlpha = OneMinusSrcAlpha });
     for (const auto term : { shader::kTransparencyDepth, shader::kTransparencyNextDepth }) {
         const PipelineDesc desc = composing(term);
         EXPECT_EQ(desc.blend[0].writeMask, 0);
