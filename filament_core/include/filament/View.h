@@ -64,8 +64,7 @@ constexpr const char* debugViewNames() {
     return "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog, motion, "
            "circleOfConfusion, historyWeight, histogram, luminance, numerics, baseColor, roughness, metallic, normals, "
            "tangents, textureCoordinates, materialOcclusion, emissive, mipLevel, overdraw, transparentLayers, "
-           "wireframe "
-           "or wireframeAlone";
+           "wireframe or wireframeAlone";
 }
 
 /// What becomes of the pixels that a target has already.
