@@ -155,8 +155,7 @@ void bindRenderer(py::module_& module) {
                  py::arg("output") = "display", py::arg("frames") = 1,
                  "Draws so many frames of the view and returns the last: an array (height, width, 4), row 0 on top. "
                  "output='display': uint8 codes, tone mapped; 'light': float32, linear Rec. 709 times the exposure. "
-                 "Other "
-                 "threads of Python run meanwhile.")
+                 "Other threads of Python run meanwhile.")
             .def("decisions", &decisionsOf,
                  "What the last frame needed, what it did not, and why: effects first, then passes.")
             .def(
@@ -176,8 +175,7 @@ void bindRenderer(py::module_& module) {
             .def("statistics", &statisticsOf, "Counts of the last frame: renderables, draws, triangles, passes.")
             .def("take_timings", &timingsOf,
                  "Times of the frames since the last call, oldest first. Those of the device need pass_timers; passes "
-                 "of the "
-                 "same name count together.");
+                 "of the same name count together.");
 }
 
 } // namespace filament::python

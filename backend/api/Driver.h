@@ -87,7 +87,8 @@ struct DriverStatistics {
 
 enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, DeviceLost, Other };
 
-/// Receives the driver's results. Called on the driver thread only; implementations return quickly.
+/// Receives the driver's results. Called on the driver thread only; implementations return quickly. A read-back comes
+/// after all timers that ended before it in the stream: whoever has the pixels of a frame can have its times.
 class ResultSink {
 public:
     virtual ~ResultSink() = default;

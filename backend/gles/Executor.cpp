@@ -78,8 +78,9 @@ void Executor::waitIdle() {
 }
 
 void Executor::answer(bool wait) {
-    mReadbacks.poll(wait);
+    const size_t readbacks = mReadbacks.countReady(wait); // first: what they waited for has its time stamps as well
     mTimers.poll(wait);
+    mReadbacks.answer(readbacks);
 }
 
 // ---------------------------------------------------------------------------------------------- frames

@@ -3,6 +3,7 @@
 
 #include "backend/gles/Repack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -107,7 +108,7 @@ void Readbacks::read(CmdReadBuffer const& command, Buffer const& buffer) {
     mPending.push_back(std::move(pending));
 }
 
-void Readbacks::answer(Pending const& pending) {
+void Readbacks::deliver(Pending const& pending) {
     Api const& gl = mDevice.gl;
     const size_t bytes = pending.texels * pending.plan.texelBytes;
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
@@ -132,15 +133,17 @@ void Readbacks::answer(Pending const& pending) {
     gl.DeleteBuffers(1, &pending.buffer);
 }
 
-void Readbacks::poll(bool wait) {
-    while (!mPending.empty()) {
-        if (wait) {
-            mPending.front().fence.wait();
-        } else if (!mPending.front().fence.isReached()) {
-            return;
-        }
-        if (mDevice.lost) return;
-        answer(mPending.front());
+size_t Readbacks::countReady(bool wait) const {
+    const auto isReady = [wait](Pending const& pending) {
+        if (wait) pending.fence.wait();
+        return wait || pending.fence.isReached();
+    };
+    return static_cast<size_t>(std::ranges::find_if_not(mPending, isReady) - mPending.begin());
+}
+
+void Readbacks::answer(size_t count) {
+    for (; count > 0 && !mDevice.lost; --count) {
+        deliver(mPending.front());
         mPending.pop_front();
     }
 }

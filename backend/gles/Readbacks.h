@@ -25,8 +25,10 @@ public:
     void read(CmdReadTexture const& command);
     /// Copies at once: the buffer may change or go afterwards.
     void read(CmdReadBuffer const& command, Buffer const& buffer);
-    /// Delivers the results that are ready; `wait`: all of them.
-    void poll(bool wait);
+    /// How many results are ready, the oldest first; `wait`: all of them.
+    size_t countReady(bool wait) const;
+    /// Delivers the oldest results, which must be ready.
+    void answer(size_t count);
 
 private:
     /// How the device returns texels of a format, and how they must be converted.
@@ -51,7 +53,7 @@ private:
     };
     std::optional<Source> open(CmdReadTexture const& command);
     Plan planFor(Format format) const; ///< asks the bound read framebuffer
-    void answer(Pending const& pending);
+    void deliver(Pending const& pending);
 
     Device& mDevice;
     Textures const& mTextures;

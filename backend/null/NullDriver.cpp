@@ -149,11 +149,11 @@ private:
     };
 
     void answer() {
+        for (const Ticket ticket : mTimers) mSink.onTimer(ticket, 0);
         for (Readback const& readback : mReadbacks) {
             mZeros.resize(std::max<size_t>(mZeros.size(), readback.bytes));
             mSink.onReadback(readback.ticket, std::span(mZeros).first(readback.bytes));
         }
-        for (const Ticket ticket : mTimers) mSink.onTimer(ticket, 0);
         mReadbacks.clear();
         mTimers.clear();
     }

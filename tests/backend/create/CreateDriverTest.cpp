@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/create/CreateDriver.h"
 #include "backend/create/MesaEnvironment.h"
+#include "backend/stream/CommandBuffer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 namespace filament::backend {
 namespace {
@@ -56,6 +61,78 @@ TEST(CreateDriverTest, TheVectorWidthIsFixedBeforeADriverIsLoaded) {
     const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     ASSERT_NE(width, nullptr);
     EXPECT_TRUE(std::string_view(width) == "256" || std::string_view(width) == "128") << width;
+}
+
+/// The tickets that were answered, in this order.
+class AnsweredTickets final : public ResultSink {
+public:
+    void onReadback(Ticket ticket, std::span<const std::byte>) override { tickets.push_back(ticket.value); }
+    void onTimer(Ticket ticket, uint64_t) override { tickets.push_back(ticket.value); }
+    void onError(DriverErrorKind, std::string_view message) override { ADD_FAILURE() << message; }
+
+    std::vector<uint64_t> tickets;
+};
+
+/// Times two clears, the second also on its own (tickets 1 and 2), then reads the texture (ticket 3).
+void recordTimedClears(CommandBuffer& commands, TextureHandle texture) {
+    constexpr uint32_t side = 256;
+    PassDesc pass;
+    pass.layout.colorCount = 1;
+    pass.layout.colorFormats[0] = Format::RGBA8;
+    pass.colors[0].texture = texture;
+    pass.area = { 0, 0, side, side };
+    pass.debugName = "timed clear";
+    commands.record(CmdCreateTexture{ texture,
+                                      { .format = Format::RGBA8,
+                                        .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
+                                        .width = side,
+                                        .height = side,
+                                        .debugName = "timed" } });
+    commands.record(CmdBeginFrame{ 1 });
+    commands.record(CmdBeginTimer{ { 1 } });
+    commands.record(CmdBeginPass{ pass });
+    commands.record(CmdEndPass{});
+    commands.record(CmdBeginTimer{ { 2 } });
+    commands.record(CmdBeginPass{ pass });
+    commands.record(CmdEndPass{});
+    commands.record(CmdEndTimer{ { 2 } });
+    commands.record(CmdEndTimer{ { 1 } });
+    commands.record(CmdReadTexture{ .texture = texture, .rect = { 0, 0, side, side }, .ticket = { 3 } });
+    commands.record(CmdEndFrame{});
+}
+
+/// In the order in which a driver answers them; `polls`: while it replays, instead of when it idles.
+std::vector<uint64_t> answersToTimedClears(Driver& driver, AnsweredTickets& sink, bool polls) {
+    sink.tickets.clear();
+    const auto texture = TextureHandle::make(1, 1);
+    CommandBuffer commands;
+    recordTimedClears(commands, texture);
+    driver.execute(commands.view());
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (polls && sink.tickets.size() < 3 && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        driver.execute(CommandView{});
+    }
+    driver.waitIdle();
+    commands.reset();
+    commands.record(CmdDestroyTexture{ texture });
+    driver.execute(commands.view());
+    return sink.tickets;
+}
+
+TEST(CreateDriverTest, AReadbackIsAnsweredAfterTheTimersThatEndedBeforeIt) {
+    std::vector<DeviceInfo> devices = listDevices();
+    devices.push_back({ .backend = BackendType::Null });
+    for (DeviceInfo const& device : devices) {
+        AnsweredTickets sink;
+        Result<std::unique_ptr<Driver>> driver =
+                createDriver(device.backend, { .requireDevice = device.deviceName }, sink);
+        ASSERT_TRUE(driver) << driver.error().message;
+        for (const bool polls : { true, false }) {
+            EXPECT_THAT(answersToTimedClears(**driver, sink, polls), testing::ElementsAre(2, 1, 3))
+                    << toString(device.backend) << (polls ? ", polled" : ", idle");
+        }
+    }
 }
 
 using Variables = std::map<std::string, std::string>;
