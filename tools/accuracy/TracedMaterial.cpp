@@ -171,7 +171,7 @@ std::shared_ptr<const assets::ModelData> modelOf(tools::MaterialMesh const& mesh
     primitive.indices.assign(indices.begin(), indices.end());
     primitive.vertexCount = static_cast<uint32_t>(mesh.vertices.size());
     primitive.indexCount = static_cast<uint32_t>(mesh.indices.size());
-    primitive.hasTangents = primitive.hasUv0 = true;
+    primitive.hasNormals = primitive.hasTangents = primitive.hasUv0 = true;
     primitive.material = 0;
     primitive.boundsMin = float3(-1), primitive.boundsMax = float3(1);
     auto model = std::make_shared<assets::ModelData>();

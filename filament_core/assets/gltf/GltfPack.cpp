@@ -225,7 +225,9 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
                    geometry, primitive);
     primitive.topology = geometry.topology;
     primitive.vertexCount = geometry.vertexCount();
-    primitive.hasTangents = !geometry.normals.empty();
+    primitive.hasNormals = !geometry.normals.empty();
+    primitive.hasTangents = primitive.hasNormals &&
+                            (geometry.topology == backend::PrimitiveType::Triangles || !geometry.tangents.empty());
     primitive.hasColor = !geometry.colors.empty();
     primitive.hasUv0 = !geometry.uvs[0].empty();
     primitive.hasUv1 = !geometry.uvs[1].empty();
@@ -235,7 +237,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
         return exists ? interleaver.addAttribute(location, format) : uint16_t{ 0 };
     };
     const uint16_t position = add(true, shader::kAttributePosition, geometry.positionFormat);
-    const uint16_t frame = add(primitive.hasTangents, shader::kAttributeTangents, formatOf(storage.tangents));
+    const uint16_t frame = add(primitive.hasNormals, shader::kAttributeTangents, formatOf(storage.tangents));
     const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
     const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
     const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);

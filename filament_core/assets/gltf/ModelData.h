@@ -75,7 +75,8 @@ struct PrimitiveData {
     float3 positionOffset{ 0.0f };               ///< position of the file = offset + scale * stored position
     float positionScale = 1;
     bool hasColor = false, hasUv0 = false, hasUv1 = false;
-    bool hasTangents = false; ///< false: normals could not be computed either (points, lines)
+    bool hasNormals = false;  ///< tangent frames; false: the file has no normals of these points or lines
+    bool hasTangents = false; ///< false: the frames of these points or lines turn about their normals as they like
 
     // Left to the device (GltfDeformation::Kept)
     bool isSkinned = false;               ///< vertices have joints and weights that sum to 1

@@ -34,8 +34,8 @@ bool hasLayers(MaterialData const& m) {
            m.anisotropy.isUsed() || m.iridescence.isUsed() || m.diffuseTransmission.isUsed() || m.transmission.isUsed();
 }
 
-const char* familyOf(MaterialData const& material) {
-    if (material.unlit) return "gltf_unlit";
+const char* familyOf(MaterialData const& material, GltfVertices const& vertices) {
+    if (material.unlit || !vertices.hasNormals) return "gltf_unlit";
     if (material.specularGlossiness) return "gltf_specular_glossiness";
     if (material.transmission.isSolid()) return "gltf_transmissive_solid";
     if (material.transmission.isUsed()) return "gltf_transmissive_thin";
@@ -93,8 +93,8 @@ private:
     GltfParameters& mParameters;
 };
 
-void setCore(Settings& settings, MaterialData const& material, bool hasVertexColor) {
-    settings.constant("hasVertexColor", hasVertexColor);
+void setCore(Settings& settings, MaterialData const& material, GltfVertices const& vertices) {
+    settings.constant("hasVertexColor", vertices.hasColor);
     settings.parameter("baseColorFactor", material.baseColorFactor);
     if (material.alphaMode == AlphaMode::Mask) settings.parameter("_maskThreshold", material.alphaCutoff);
     settings.map("baseColor", "hasBaseColorMap", material.baseColor);
@@ -112,11 +112,15 @@ void setSpecularGlossiness(Settings& settings, assets::SpecularGlossinessData co
     settings.map("specularGlossiness", "hasSpecularGlossinessMap", data.map);
 }
 
-void setCommonMaps(Settings& settings, MaterialData const& material) {
+void setEmission(Settings& settings, MaterialData const& material) {
+    settings.parameter("emissiveFactor", material.emissiveFactor * material.emissiveStrength);
+    settings.map("emissive", "hasEmissiveMap", material.emissive);
+}
+
+void setCommonMaps(Settings& settings, MaterialData const& material, bool hasTangents) {
     settings.parameter("normalScale", material.normalScale);
     settings.parameter("occlusionStrength", material.occlusionStrength);
-    settings.parameter("emissiveFactor", material.emissiveFactor * material.emissiveStrength);
-    settings.map("normal", "hasNormalMap", material.normal);
+    if (hasTangents) settings.map("normal", "hasNormalMap", material.normal);
     if (material.bump.isUsed() && material.bump.map.image != kNone) {
         settings.parameter("bumpFactor", material.bump.factor);
         settings.map("bump", "hasBumpMap", material.bump.map);
@@ -125,17 +129,17 @@ void setCommonMaps(Settings& settings, MaterialData const& material) {
         settings.feature("occlusionInMetallicRoughness");
     else
         settings.map("occlusion", "hasOcclusionMap", material.occlusion);
-    settings.map("emissive", "hasEmissiveMap", material.emissive);
+    setEmission(settings, material);
 }
 
-void setClearCoat(Settings& settings, assets::ClearCoatData const& coat) {
+void setClearCoat(Settings& settings, assets::ClearCoatData const& coat, bool hasTangents) {
     if (!coat.isUsed()) return;
     settings.feature("hasClearCoat");
     settings.parameter("clearCoat", coat.factor);
     settings.parameter("clearCoatRoughness", coat.roughness);
     settings.maps("clearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", coat.maps);
     settings.parameter("clearCoatNormalScale", coat.normalScale);
-    settings.map("clearCoatNormal", "hasClearCoatNormalMap", coat.normal);
+    if (hasTangents) settings.map("clearCoatNormal", "hasClearCoatNormalMap", coat.normal);
 }
 
 void setSheen(Settings& settings, assets::SheenData const& sheen) {
@@ -203,14 +207,18 @@ void setTransmission(Settings& settings, assets::TransmissionData const& data, f
     settings.parameter("absorption", glm::min(absorption, float3(kMaxHalf)));
 }
 
-void setAll(Settings& settings, MaterialData const& material, bool hasVertexColor, float scale) {
-    setCore(settings, material, hasVertexColor);
+void setAll(Settings& settings, MaterialData const& material, GltfVertices const& vertices, float scale) {
+    setCore(settings, material, vertices);
     if (material.unlit) return;
+    if (!vertices.hasNormals) {
+        settings.feature("hasEmission");
+        return setEmission(settings, material);
+    }
     material.specularGlossiness ? setSpecularGlossiness(settings, *material.specularGlossiness)
                                 : setMetallicRoughness(settings, material);
-    setCommonMaps(settings, material);
+    setCommonMaps(settings, material, vertices.hasTangents);
     if (material.specularGlossiness) return;
-    setClearCoat(settings, material.clearCoat);
+    setClearCoat(settings, material.clearCoat, vertices.hasTangents);
     setSheen(settings, material.sheen);
     setSpecular(settings, material);
     setAnisotropy(settings, material.anisotropy);
@@ -221,17 +229,23 @@ void setAll(Settings& settings, MaterialData const& material, bool hasVertexColo
 
 } // namespace
 
-GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale, size_t maxMaps) {
-    GltfMaterialSettings all{ .package = withSuffix(familyOf(material), material.alphaMode) };
+GltfVertices verticesOf(assets::PrimitiveData const& primitive) {
+    return { primitive.hasColor, primitive.hasNormals, primitive.hasTangents };
+}
+
+GltfMaterialSettings settingsOf(MaterialData const& material, GltfVertices const& vertices, float scale,
+                                size_t maxMaps) {
+    GltfMaterialSettings all{ .package = withSuffix(familyOf(material, vertices), material.alphaMode) };
     Settings settings(all, maxMaps);
-    setAll(settings, material, hasVertexColor, scale);
+    setAll(settings, material, vertices, scale);
     return all;
 }
 
-void readParameters(MaterialData const& material, bool hasVertexColor, float scale, GltfParameters& parameters) {
+void readParameters(MaterialData const& material, GltfVertices const& vertices, float scale,
+                    GltfParameters& parameters) {
     parameters.clear();
     Settings settings(parameters);
-    setAll(settings, material, hasVertexColor, scale);
+    setAll(settings, material, vertices, scale);
 }
 
 } // namespace filament

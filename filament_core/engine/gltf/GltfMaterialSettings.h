@@ -8,10 +8,11 @@
 ///   Thread  any.
 #pragma once
 
-#include "filament_core/assets/gltf/MaterialData.h"
+#include "filament_core/assets/gltf/ModelData.h"
 
 #include <filament/Objects.h>
 
+#include <compare>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,12 +34,22 @@ struct GltfMaterialSettings {
     std::vector<std::string> leftOut; ///< stems of maps that did not fit; only their factors count
 };
 
+/// What of a primitive decides how its material is drawn.
+struct GltfVertices {
+    bool hasColor = false;
+    bool hasNormals = true;  ///< without, base colour and emission are shown without light (glTF 2.0, 3.9.7)
+    bool hasTangents = true; ///< without, normal maps are left out (the same)
+    auto operator<=>(GltfVertices const&) const = default;
+};
+GltfVertices verticesOf(assets::PrimitiveData const& primitive);
+
 /// `scale`: metres in the file's scene per metre of the mesh, > 0; the absorption of a volume grows with it.
 /// `maxMaps`: maps that the device can sample beside the engine's textures; the maps of the last layers go first.
-GltfMaterialSettings settingsOf(assets::MaterialData const& material, bool hasVertexColor, float scale = 1,
+GltfMaterialSettings settingsOf(assets::MaterialData const& material, GltfVertices const& vertices, float scale = 1,
                                 size_t maxMaps = SIZE_MAX);
 
 /// The `parameters` of settingsOf() in place of those that are there. Allocates only if they have never been as many.
-void readParameters(assets::MaterialData const& material, bool hasVertexColor, float scale, GltfParameters& parameters);
+void readParameters(assets::MaterialData const& material, GltfVertices const& vertices, float scale,
+                    GltfParameters& parameters);
 
 } // namespace filament

@@ -48,8 +48,9 @@ Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
     return shared;
 }
 
-MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale) {
-    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale, mMaxMaps);
+MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, GltfVertices const& vertices,
+                                            float scale) {
+    const GltfMaterialSettings settings = settingsOf(material, vertices, scale, mMaxMaps);
     for (std::string const& map : settings.leftOut) {
         log(Severity::Warning,
             "material '{}': its {} map is left out, because {} samples no more than {} textures a stage", material.name,

@@ -23,7 +23,7 @@ public:
     static GltfMaterialChoice choiceOf(Engine::Impl const& engine);
 
     /// `scale`: metres in the file's scene per metre of the mesh; it scales the thickness of volumes.
-    MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
+    MaterialInstance instanceFor(assets::MaterialData const& material, GltfVertices const& vertices, float scale);
 
 private:
     Material materialFor(GltfMaterialSettings const& settings);

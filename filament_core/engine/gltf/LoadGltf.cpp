@@ -8,6 +8,7 @@
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/SharedBytes.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
+#include "filament_core/engine/gltf/ModelParts.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
 #include "filament_core/scene/VertexPositions.h"
 
@@ -96,7 +97,7 @@ private:
             bytes += primitive.indices.size() + primitive.vertices.size();
             // In the order of the meshes, which determines the order of draws.
             if (!materialOf(primitive.material).transmission.isSolid())
-                instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
+                instanceFor(primitive.material, verticesOf(primitive), double4x4(1.0));
             parts.push_back(
                     { upload(primitive, positions[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
                       primitive.positionScale != 1 || primitive.positionOffset != float3(0), primitive.isSkinned });
@@ -158,7 +159,6 @@ private:
         if (mModel->properties.empty() && mModel->levels.empty()) return;
         mModel->lightsOfFile = mData.lights;
         mModel->camerasOfFile = mData.cameras;
-        mModel->maxMaps = GltfMaterials::choiceOf(mEngine).maxMaps;
         for (uint32_t i = 0; i < mModel->properties.size(); ++i) {
             assets::AnimatedProperty& property = mModel->properties[i];
             if (property.owner != assets::PropertyOwner::Material || property.object == kNone) continue;
@@ -171,12 +171,20 @@ private:
         for (auto const& [key, instance] : mInstances) keepAnimated(key, instance);
     }
 
-    using InstanceKey = std::tuple<uint32_t, bool, float>; ///< material of the file, vertex colours, scale
+    using InstanceKey = std::tuple<uint32_t, GltfVertices, float>; ///< material of the file, vertices, scale
 
     void keepAnimated(InstanceKey const& key, MaterialInstance instance) {
-        const auto [material, hasColor, scale] = key;
-        if (const auto known = mAnimatedMaterials.find(material); known != mAnimatedMaterials.end())
-            mModel->animatedMaterials[known->second].instances.push_back({ instance, hasColor, scale });
+        const auto& [index, vertices, scale] = key;
+        const auto known = mAnimatedMaterials.find(index);
+        if (known == mAnimatedMaterials.end()) return;
+        Model::Impl::AnimatedMaterial& material = mModel->animatedMaterials[known->second];
+        const GltfMaterialSettings settings =
+                settingsOf(material.data, vertices, scale, GltfMaterials::choiceOf(mEngine).maxMaps);
+        std::vector<uint32_t> targets;
+        for (const uint32_t i : material.properties) {
+            if (hasTarget(settings, mModel->properties[i])) targets.push_back(i);
+        }
+        material.instances.push_back({ instance, vertices, scale, std::move(targets) });
     }
 
     void placeNodes() {
@@ -227,23 +235,22 @@ private:
         placed.node = at;
         placed.ofNode = node;
         placed.targetNames = part.targetNames;
-        placed.desc.material = instanceFor(primitive.material, primitive.hasColor, worldFromNode);
-        for (assets::VariantMaterial const& variant : primitive.variants) {
-            placed.variants.push_back(
-                    { variant.variant, instanceFor(variant.material, primitive.hasColor, worldFromNode) });
-        }
+        const GltfVertices vertices = verticesOf(primitive);
+        placed.desc.material = instanceFor(primitive.material, vertices, worldFromNode);
+        for (assets::VariantMaterial const& variant : primitive.variants)
+            placed.variants.push_back({ variant.variant, instanceFor(variant.material, vertices, worldFromNode) });
     }
 
     assets::MaterialData const& materialOf(uint32_t index) const { return filament::materialOf(mData, index); }
 
-    /// One per material, with and without vertex colours; if the material has a volume, also one per scale.
-    MaterialInstance instanceFor(uint32_t index, bool hasColor, double4x4 const& worldFromNode) {
+    /// One per material and kind of vertices; if the material has a volume, also one per scale.
+    MaterialInstance instanceFor(uint32_t index, GltfVertices const& vertices, double4x4 const& worldFromNode) {
         assets::MaterialData const& material = materialOf(index);
         const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
-        MaterialInstance& instance = mInstances[{ index, hasColor, scale }];
+        MaterialInstance& instance = mInstances[{ index, vertices, scale }];
         if (instance) return instance;
-        instance = mMaterials.instanceFor(material, hasColor, scale);
-        keepAnimated({ index, hasColor, scale }, instance);
+        instance = mMaterials.instanceFor(material, vertices, scale);
+        keepAnimated({ index, vertices, scale }, instance);
         return instance;
     }
 

@@ -6,6 +6,7 @@
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/gltf/GltfMaterialSettings.h"
 
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
@@ -62,8 +63,9 @@ struct Model::Impl {
     };
     struct AnimatedInstance {
         MaterialInstance instance;
-        bool hasVertexColor = false;
+        GltfVertices vertices;
         float scale = 1;
+        std::vector<uint32_t> targets; ///< those of AnimatedMaterial::properties that it has
     };
     struct AnimatedMaterial {
         assets::MaterialData data;        ///< at rest
@@ -93,7 +95,6 @@ struct Model::Impl {
     std::vector<assets::AnimatedProperty> properties; ///< channels refer to them; materials: into `animatedMaterials`
     std::vector<AnimatedMaterial> animatedMaterials;
     std::vector<assets::CameraData> camerasOfFile;
-    size_t maxMaps = SIZE_MAX; ///< see settingsOf()
 
     std::vector<std::string> variants, warnings;
     Box bounds;

@@ -88,12 +88,6 @@ void require(Result<void> const& result) {
 
 MapRow const& rowOf(MapName map) { return *std::ranges::find(kMaps, map, &MapRow::map); }
 
-/// Whether the material has what the property changes: maps can be left out.
-bool hasTarget(GltfMaterialSettings const& settings, AnimatedProperty const& property) {
-    return property.map == MapName::None ||
-           std::ranges::any_of(settings.maps, [&](GltfMap const& map) { return map.stem == rowOf(property.map).stem; });
-}
-
 /// What the property changes of an instance with these parameters; nothing where its material does not have it.
 void setParameter(Engine::Impl& engine, MaterialInstance instance, assets::MaterialData& material,
                   GltfParameters const& parameters, AnimatedProperty const& property) {
@@ -208,6 +202,11 @@ void showParts(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy) 
     }
 }
 
+bool hasTarget(GltfMaterialSettings const& settings, AnimatedProperty const& property) {
+    return property.map == MapName::None ||
+           std::ranges::any_of(settings.maps, [&](GltfMap const& map) { return map.stem == rowOf(property.map).stem; });
+}
+
 void findChangingNodes(Model::Impl& model) {
     std::vector<uint8_t> mayChange(model.nodes.size(), 0);
     for (AnimatedProperty const& property : model.properties) {
@@ -224,14 +223,7 @@ void findChangingNodes(Model::Impl& model) {
 ModelParts::ModelParts(Model::Impl const& model, Scene::Impl& scene, Node root)
         : mModel(model), mScene(scene), mRoot(root) {
     if (model.properties.empty()) return;
-    for (Model::Impl::AnimatedMaterial const& material : model.animatedMaterials) {
-        mMaterials.push_back(material.data);
-        const GltfMaterialSettings settings = settingsOf(material.data, false, 1, model.maxMaps);
-        std::vector<uint32_t>& targets = mTargets.emplace_back();
-        for (const uint32_t i : material.properties) {
-            if (hasTarget(settings, model.properties[i])) targets.push_back(i);
-        }
-    }
+    for (Model::Impl::AnimatedMaterial const& material : model.animatedMaterials) mMaterials.push_back(material.data);
 }
 
 void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> isMoved) {
@@ -278,8 +270,8 @@ void ModelParts::writeMaterial(size_t animated, std::span<const float4> values, 
     if (!isChanged) return;
     for (Model::Impl::AnimatedInstance const& each : shared.instances) {
         const MaterialInstance own = ownInstance(mScene, copy, each.instance);
-        readParameters(mMaterials[animated], each.hasVertexColor, each.scale, mParameters);
-        for (const uint32_t i : mTargets[animated]) {
+        readParameters(mMaterials[animated], each.vertices, each.scale, mParameters);
+        for (const uint32_t i : each.targets) {
             if (isMoved[i]) setParameter(mScene.engine, own, mMaterials[animated], mParameters, mModel.properties[i]);
         }
     }

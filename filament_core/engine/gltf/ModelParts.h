@@ -37,9 +37,11 @@ private:
     Scene::Impl& mScene;
     Node mRoot;
     std::vector<assets::MaterialData> mMaterials; // parallel to the animated materials of the model
-    std::vector<std::vector<uint32_t>> mTargets;  // of the same: properties of the model that their instances have
     GltfParameters mParameters;                   // of the material that is written
 };
+
+/// Whether a material has what the property changes: maps can be left out.
+bool hasTarget(GltfMaterialSettings const& settings, assets::AnimatedProperty const& property);
 
 /// Model::Impl::mayChange, from what else the model has.
 void findChangingNodes(Model::Impl& model);

@@ -33,15 +33,16 @@ public:
     Collector(assets::ModelData const& model, GltfMaterialChoice const& choice) : mModel(model), mChoice(choice) {}
 
     void add(assets::PrimitiveData const& primitive) {
-        add(primitive.material, primitive.hasColor);
-        for (assets::VariantMaterial const& variant : primitive.variants) add(variant.material, primitive.hasColor);
+        const GltfVertices vertices = verticesOf(primitive);
+        add(primitive.material, vertices);
+        for (assets::VariantMaterial const& variant : primitive.variants) add(variant.material, vertices);
     }
     std::map<std::string, OfPackage> take() { return std::move(mPackages); }
 
 private:
-    void add(uint32_t index, bool hasColor) {
-        if (!mSeen.try_emplace({ index, hasColor }).second) return;
-        GltfMaterialSettings settings = settingsOf(materialOf(mModel, index), hasColor, 1, mChoice.maxMaps);
+    void add(uint32_t index, GltfVertices const& vertices) {
+        if (!mSeen.try_emplace({ index, vertices }).second) return;
+        GltfMaterialSettings settings = settingsOf(materialOf(mModel, index), vertices, 1, mChoice.maxMaps);
         std::string key = materialKey(settings);
         if (!mKeys.try_emplace(key).second) return;
         OfPackage& package = mPackages[settings.package];
@@ -52,7 +53,7 @@ private:
 
     assets::ModelData const& mModel;
     GltfMaterialChoice mChoice;
-    std::map<std::pair<uint32_t, bool>, std::monostate> mSeen;
+    std::map<std::pair<uint32_t, GltfVertices>, std::monostate> mSeen;
     std::map<std::string, std::monostate> mKeys;
     std::map<std::string, OfPackage> mPackages;
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps shared by all lit glTF materials: normals, occlusion, emission. glTF 2.0 specification, 3.9.3.
+// Maps shared by all lit glTF materials: normals, occlusion, emission, bumps. glTF 2.0 specification, 3.9.3.
+
+#include "shaders/material/gltf/emission.glsl"
 
 vec3 gltfNormal() {
     vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
@@ -15,14 +17,6 @@ float gltfOcclusion() {
 float occlusionOf(float texel) { return 1.0 + materialParams.occlusionStrength * (texel - 1.0); }
 
 // Weight 0: glTF scenes are authored for a white of 1, not for nits and an exposure.
-vec4 gltfEmissive() {
-    vec4 emissive = vec4(materialParams.emissiveFactor, 0.0);
-    if (materialConstants_hasEmissiveMap) {
-        vec2 uv = mapUv(materialConstants_emissiveUv, materialConstants_emissiveTransform,
-                materialParams.emissiveUvMatrix);
-        emissive.rgb *= texture(materialParams_emissiveMap, uv).rgb;
-    }
-    return emissive;
-}
+vec4 gltfEmissive() { return vec4(gltfEmission(), 0.0); }
 
 #include "shaders/material/gltf/bump.glsl"

@@ -28,14 +28,14 @@ public:
     /// Draws the materials, which differ in nothing but parameters, one after another.
     template <class Visit>
     void draw(std::span<const assets::MaterialData> materials, Visit const& visit) {
-        const GltfMaterialSettings shared = settingsOf(materials[0], false);
+        const GltfMaterialSettings shared = settingsOf(materials[0], {});
         const auto material = mEngine.own(*mEngine.create(
                 MaterialDesc{ .package = shader::engineMaterial(shared.package), .constants = shared.constants }));
         const auto instance = mEngine.own(mEngine.createInstance(material, "white"));
         EXPECT_TRUE(mEngine.setDoubleSided(instance, false));
         const auto node = mScene.add(mSphere.renderable(instance));
         for (assets::MaterialData const& data : materials) {
-            const GltfMaterialSettings settings = settingsOf(data, false);
+            const GltfMaterialSettings settings = settingsOf(data, {});
             EXPECT_EQ(settings.package, shared.package);
             for (auto const& [name, value] : settings.parameters) EXPECT_TRUE(mEngine.set(instance, name, value));
             visit(data, test::renderLinear(mEngine, mScene, mView));

@@ -46,7 +46,7 @@ inline assets::PrimitiveData makePrimitive(std::span<const TestVertex> vertices,
     primitive.vertexCount = static_cast<uint32_t>(vertices.size());
     primitive.indexCount = static_cast<uint32_t>(indices.size());
     primitive.indexFormat = backend::IndexFormat::UInt32;
-    primitive.hasTangents = primitive.hasUv0 = true;
+    primitive.hasNormals = primitive.hasTangents = primitive.hasUv0 = true;
     primitive.material = 0;
     primitive.boundsMin = primitive.boundsMax = vertices[0].position;
     for (TestVertex const& vertex : vertices) {

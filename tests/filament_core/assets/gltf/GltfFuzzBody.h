@@ -91,8 +91,7 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
         std::memcpy(&index, &p.indices[i * indexBytes], indexBytes);
         if (index >= p.vertexCount) return "vertex index";
     }
-    if (p.topology == backend::PrimitiveType::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents))
-        return "triangles";
+    if (p.topology == backend::PrimitiveType::Triangles && (p.indexCount % 3 != 0 || !p.hasNormals)) return "triangles";
     if (p.material != kNone && p.material >= model.materials.size()) return "material index";
     for (VariantMaterial const& variant : p.variants) {
         if (variant.variant >= model.variants.size() || variant.material >= model.materials.size()) return "variant";

@@ -68,12 +68,19 @@ TEST(GltfGeometry, InstancesMayHaveNormalisedIntegersAsRotations) {
     EXPECT_NEAR(model.nodes[2].parentFromNode[1].y, 2, 1e-9);
 }
 
-TEST(GltfGeometry, PointsHaveNoTangentFrameUnlessTheFileGivesNormals) {
+TEST(GltfGeometry, PointsHaveTheNormalsAndTangentsOfTheFileAndNoOthers) {
     TestFile file = fourPoints(0);
+    EXPECT_FALSE(onlyPrimitive(file).hasNormals);
     EXPECT_FALSE(onlyPrimitive(file).hasTangents);
+    const std::vector<float> tangents{ 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1 };
+    file.attribute("TANGENT", tangents, kFloat, "VEC4", 4);
+    EXPECT_FALSE(onlyPrimitive(file).hasTangents) << "tangents without normals";
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 });
+    EXPECT_TRUE(onlyPrimitive(file).hasTangents);
+    file.primitive()["attributes"].erase("TANGENT");
     const PrimitiveData primitive = onlyPrimitive(file);
-    EXPECT_TRUE(primitive.hasTangents);
+    EXPECT_TRUE(primitive.hasNormals);
+    EXPECT_FALSE(primitive.hasTangents);
     EXPECT_EQ(primitive.topology, PrimitiveType::Points);
     EXPECT_EQ(primitive.indexCount, 4u);
 }

@@ -21,7 +21,8 @@ constexpr const char* kPicture =
         "iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAYAAACp8Z5+AAAAP0lEQVR42iWKIRaAMBTD/sF6kn8a5CRyEomcRE72VqE8REWSFjpo"
         "n9kFWlR7gCetO/Kh+KpSvSJ2HpqBvyLzAu/9LYz/yFTBAAAAAElFTkSuQmCC";
 
-/// Three squares: layers on textures, a masked one, a body of glass; two lights and two cameras.
+/// Three squares: layers on textures, also on lines without normals, a masked one, a body of glass; two lights and two
+/// cameras.
 constexpr const char* kFile =
         R"({ "asset": { "version": "2.0" }, "scene": 0, "scenes": [ { "nodes": [ 0, 1, 2, 3, 4, 5 ] } ],
     "extensionsUsed": [ "KHR_animation_pointer", "KHR_lights_punctual", "KHR_node_visibility" ],
@@ -62,7 +63,8 @@ constexpr const char* kFile =
                 "attenuationColor": [ 0.5, 0.75, 1 ] },
             "KHR_materials_dispersion": { "dispersion": 0 } } },
         { "pbrMetallicRoughness": { "baseColorFactor": [ 0, 1, 0, 1 ] }, "extensions": { "KHR_materials_unlit": {} } } ],
-    "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "material": 0 } ] },
+    "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "material": 0 },
+          { "mode": 3, "attributes": { "POSITION": 0, "TEXCOORD_0": 2 }, "material": 0 } ] },
         { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "material": 1 } ] },
         { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "material": 2 } ] },
         { "primitives": [ { "attributes": { "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 }, "material": 3 } ] } ],

@@ -44,13 +44,13 @@ assets::TextureRef texture(uint32_t image) { return { .image = image }; }
 
 TEST(GltfMaterialSettings, AMaterialWithoutExtensionsKeepsThePackageWithoutLayers) {
     MaterialData material;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_lit_opaque");
-    EXPECT_THAT(constantsOf(settingsOf(material, false)), IsEmpty());
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_lit_opaque");
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), IsEmpty());
     material.alphaMode = assets::AlphaMode::Mask;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_lit_masked");
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_lit_masked");
     material.unlit = true;
     material.alphaMode = assets::AlphaMode::Blend;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_unlit_blended");
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_unlit_blended");
 }
 
 TEST(GltfMaterialSettings, ExtensionsWhoseFactorsAreNeutralAreNotUsed) {
@@ -60,15 +60,15 @@ TEST(GltfMaterialSettings, ExtensionsWhoseFactorsAreNeutralAreNotUsed) {
     material.iridescence.ior = 2;
     material.transmission.thicknessMeters = 1;
     material.anisotropy.rotationRadians = 1;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_lit_opaque");
-    EXPECT_THAT(constantsOf(settingsOf(material, false)), IsEmpty());
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_lit_opaque");
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), IsEmpty());
 }
 
 TEST(GltfMaterialSettings, EveryLayerSwitchesOnItselfAndNothingElse) {
     const auto constants = [](auto change) {
         MaterialData material;
         change(material);
-        const GltfMaterialSettings settings = settingsOf(material, false);
+        const GltfMaterialSettings settings = settingsOf(material, {});
         EXPECT_EQ(settings.package, "gltf_layered_opaque");
         return constantsOf(settings);
     };
@@ -89,7 +89,7 @@ TEST(GltfMaterialSettings, APairOfMapsIsOneTextureAndTwoConstants) {
     material.clearCoat.maps.texture.uvSet = 1;
     material.sheen.color = float3(1);
     material.sheen.maps = { texture(4), false, true };
-    const GltfMaterialSettings settings = settingsOf(material, false);
+    const GltfMaterialSettings settings = settingsOf(material, {});
     EXPECT_THAT(mapsOf(settings), UnorderedElementsAre("clearCoat", "sheen"));
     EXPECT_THAT(constantsOf(settings),
                 UnorderedElementsAre("hasClearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", "clearCoatUv",
@@ -99,17 +99,17 @@ TEST(GltfMaterialSettings, APairOfMapsIsOneTextureAndTwoConstants) {
 TEST(GltfMaterialSettings, TransmissionIsThinWithoutAThicknessAndSolidWithOne) {
     MaterialData material;
     material.transmission.factor = 1;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_transmissive_thin_opaque");
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_transmissive_thin_opaque");
     material.transmission.thicknessMeters = 2;
     material.alphaMode = assets::AlphaMode::Mask;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_transmissive_solid_masked");
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_transmissive_solid_masked");
 }
 
 TEST(GltfMaterialSettings, AVolumeIsAsThickAsTheScaleOfItsNodeMakesIt) {
     MaterialData material;
     material.transmission.factor = 1;
     material.transmission.thicknessMeters = 2;
-    EXPECT_EQ(parameter<float>(settingsOf(material, false, 3), "thickness"), 6.0f);
+    EXPECT_EQ(parameter<float>(settingsOf(material, {}, 3), "thickness"), 6.0f);
 }
 
 TEST(GltfMaterialSettings, WhiteLightHasTheAttenuationColourAfterTheAttenuationDistance) {
@@ -117,32 +117,32 @@ TEST(GltfMaterialSettings, WhiteLightHasTheAttenuationColourAfterTheAttenuationD
     material.transmission.factor = 1;
     material.transmission.thicknessMeters = 1;
     material.transmission.attenuationColor = { 0.1f, 0.5f, 0.9f };
-    EXPECT_THAT(constantsOf(settingsOf(material, false)), IsEmpty()) << "an infinite distance absorbs nothing";
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), IsEmpty()) << "an infinite distance absorbs nothing";
     material.transmission.attenuationDistanceMeters = 0.25f;
-    const auto absorption = parameter<float3>(settingsOf(material, false, 3), "absorption");
+    const auto absorption = parameter<float3>(settingsOf(material, {}, 3), "absorption");
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(std::exp(-absorption[c] * 0.25f), material.transmission.attenuationColor[c], 1e-6f);
 }
 
 TEST(GltfMaterialSettings, BumpsNeedAMapAndAFactor) {
     MaterialData material;
-    EXPECT_EQ(settingsOf(material, false).package, "gltf_lit_opaque");
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_lit_opaque");
     material.bump = { .factor = 0.5f, .map = { .image = 0 } };
-    const GltfMaterialSettings settings = settingsOf(material, false);
+    const GltfMaterialSettings settings = settingsOf(material, {});
     EXPECT_EQ(settings.package, "gltf_lit_opaque");
     EXPECT_EQ(parameter<float>(settings, "bumpFactor"), 0.5f);
     ASSERT_EQ(settings.maps.size(), 1u);
     EXPECT_EQ(settings.maps[0].stem, "bump");
     material.bump.factor = 0;
-    EXPECT_TRUE(settingsOf(material, false).maps.empty());
+    EXPECT_TRUE(settingsOf(material, {}).maps.empty());
     material.bump.isAnimated = true;
-    EXPECT_EQ(settingsOf(material, false).maps.size(), 1u);
+    EXPECT_EQ(settingsOf(material, {}).maps.size(), 1u);
 }
 
 TEST(GltfMaterialSettings, TheRotationOfAnisotropyIsADirection) {
     MaterialData material;
     material.anisotropy = { .strength = 1, .rotationRadians = 1.5707964f };
-    const auto direction = parameter<float2>(settingsOf(material, false), "anisotropyRotation");
+    const auto direction = parameter<float2>(settingsOf(material, {}), "anisotropyRotation");
     EXPECT_NEAR(direction.x, 0, 1e-6f);
     EXPECT_NEAR(direction.y, 1, 1e-6f);
 }
@@ -153,7 +153,7 @@ TEST(GltfMaterialSettings, SpecularGlossinessHasNeitherMetalNorLayers) {
                                     .glossinessFactor = 0.4f,
                                     .map = texture(2) };
     material.clearCoat.factor = 1;
-    const GltfMaterialSettings settings = settingsOf(material, false);
+    const GltfMaterialSettings settings = settingsOf(material, {});
     EXPECT_EQ(settings.package, "gltf_specular_glossiness_opaque");
     EXPECT_THAT(constantsOf(settings), UnorderedElementsAre("hasSpecularGlossinessMap"));
     EXPECT_EQ(parameter<float3>(settings, "specularFactor"), float3(0.1f, 0.2f, 0.3f));
@@ -183,23 +183,23 @@ MaterialData everything() {
 TEST(GltfMaterialSettings, AnOcclusionMapInTheTexelsOfAnotherIsNoMapOfItsOwn) {
     MaterialData material;
     material.metallicRoughness = material.occlusion = texture(3);
-    EXPECT_THAT(mapsOf(settingsOf(material, false)), UnorderedElementsAre("metallicRoughness"));
-    EXPECT_THAT(constantsOf(settingsOf(material, false)),
+    EXPECT_THAT(mapsOf(settingsOf(material, {})), UnorderedElementsAre("metallicRoughness"));
+    EXPECT_THAT(constantsOf(settingsOf(material, {})),
                 UnorderedElementsAre("hasMetallicRoughnessMap", "occlusionInMetallicRoughness"));
     material.occlusion.uvSet = 1;
-    EXPECT_THAT(mapsOf(settingsOf(material, false)), UnorderedElementsAre("metallicRoughness", "occlusion"));
+    EXPECT_THAT(mapsOf(settingsOf(material, {})), UnorderedElementsAre("metallicRoughness", "occlusion"));
 }
 
 TEST(GltfMaterialSettings, WhereADeviceSamplesFewTexturesTheLastLayersGoWithoutMaps) {
     MaterialData material = everything();
     material.occlusion = texture(1); // a map of its own
-    const std::vector<std::string> all = mapsOf(settingsOf(material, false));
+    const std::vector<std::string> all = mapsOf(settingsOf(material, {}));
     for (size_t room = 5; room <= all.size(); ++room) {
-        const GltfMaterialSettings settings = settingsOf(material, false, 1, room);
+        const GltfMaterialSettings settings = settingsOf(material, {}, 1, room);
         EXPECT_EQ(mapsOf(settings), std::vector(all.begin(), all.begin() + static_cast<ptrdiff_t>(room)));
         EXPECT_EQ(settings.leftOut, std::vector(all.begin() + static_cast<ptrdiff_t>(room), all.end()));
     }
-    const GltfMaterialSettings five = settingsOf(material, false, 1, 5);
+    const GltfMaterialSettings five = settingsOf(material, {}, 1, 5);
     EXPECT_THAT(mapsOf(five),
                 UnorderedElementsAre("baseColor", "metallicRoughness", "normal", "occlusion", "emissive"));
     EXPECT_THAT(constantsOf(five), testing::Contains("hasClearCoat"));
@@ -221,7 +221,7 @@ TEST(GltfMaterialSettings, EverySettingIsNamedByItsPackage) {
     materials[4].specularGlossiness = { .map = texture(0) };
     materials[5].unlit = true;
     for (MaterialData const& material : materials) {
-        const GltfMaterialSettings settings = settingsOf(material, true);
+        const GltfMaterialSettings settings = settingsOf(material, { .hasColor = true });
         SCOPED_TRACE(settings.package);
         const Result<shader::MaterialPackage> package = shader::readPackage(shader::engineMaterial(settings.package));
         ASSERT_TRUE(package);
