@@ -146,6 +146,8 @@ std::string hintFor(std::string_view line, MaterialDefinition const& definition)
     if (!complaint.isOverload && !complaint.isField && !complaint.isIdentifier) return {};
     const std::string_view name = complaint.name;
     if (complaint.isField) {
+        if (line.find("in structure 'objectUniforms'") != std::string_view::npos)
+            return "; what is in there is the engine's: use functions, such as getWorldFromModelNormalMatrix()";
         const bool isAttribute = name == "uv0" || name == "uv1" || name == "color"; // of MaterialVertexInputs
         if (isAttribute) return fmt::format("; add requires : [ {} ]", name);
         if (std::string hint = aboutMember(name, definition); !hint.empty()) return hint;

@@ -16,7 +16,7 @@ Error unknownProperty(std::string const& name, JsonValue const& value) {
     std::vector<std::string_view> known;
     for (StateProperty const& property : stateProperties()) known.push_back(property.name);
     for (ListProperty const& property : listProperties()) known.push_back(property.name);
-    return errorAt(value.at, fmt::format("there is no property '{}'{}", name, suggestion(name, known)));
+    return errorAt(value.at, fmt::format("there is no property '{}'{}", name, cureForUnknown(name, known)));
 }
 
 Result<void> readProperty(std::string const& name, JsonValue const& value, MaterialDefinition& out) {

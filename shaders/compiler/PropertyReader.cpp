@@ -66,10 +66,19 @@ JsonValue const* findMember(JsonValue const& object, std::string_view key) {
     return nullptr;
 }
 
+std::string cureForUnknown(std::string_view name, std::span<const std::string_view> known) {
+    // Of later versions of the language; nothing is lost without them.
+    static constexpr std::string_view kLater[] = {
+        "apiLevel", "mutable", "stages", "shader", "stereoscopicType", "filterable", "useDefaultDepthVariant"
+    };
+    if (std::ranges::count(kLater, name) > 0) return ", which later versions of the language have; leave it out";
+    return suggestion(name, known);
+}
+
 Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what) {
     for (auto const& [name, value] : object.members) {
         if (std::ranges::count(known, name) > 0) continue;
-        return errorAt(value.at, fmt::format("{} has no field '{}'{}", what, name, suggestion(name, known)));
+        return errorAt(value.at, fmt::format("{} has no field '{}'{}", what, name, cureForUnknown(name, known)));
     }
     return {};
 }

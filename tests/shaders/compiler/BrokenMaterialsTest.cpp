@@ -197,6 +197,13 @@ constexpr Broken kForeign[] = {
       "a.mat:2: 'type' cannot be 'vec3'; did you mean 'float3'?" },
     { "material {\n parameters : [ { name : half, type : float } ] }" GOOD_FRAGMENT,
       "a.mat:2: parameter \"half\" is a word that GLSL reserves; choose another name" },
+    { "material {\n apiLevel : 2,\n constants : [ { name : wet, type : bool, mutable : true } ] }" GOOD_FRAGMENT,
+      "a.mat:2: there is no property 'apiLevel', which later versions of the language have; leave it out\n"
+      "a.mat:3: constant has no field 'mutable', which later versions of the language have; leave it out" },
+    { "material {}\nvertex {\nvoid materialVertex(inout MaterialVertexInputs m) {\n"
+      "m.worldNormal = objectUniforms.worldFromModelNormalMatrix * m.worldNormal; } }\n" GOOD_FRAGMENT,
+      "a.mat:4: 'worldFromModelNormalMatrix' : no such field in structure 'objectUniforms'; what is in there is the "
+      "engine's: use functions, such as getWorldFromModelNormalMatrix()" },
     { "material {\n variables : [ output ] }" GOOD_FRAGMENT,
       "a.mat:2: variable \"output\" is a word that GLSL reserves; choose another name" },
     { "material {\n variables : [ worldNormal ] }" GOOD_FRAGMENT,
