@@ -298,10 +298,15 @@ Result<std::vector<MaterialInstance>> ModelCopy::ownMaterials(std::string_view m
 Result<void> ModelCopy::setEach(std::string_view material, auto&& set) {
     const Result<std::vector<MaterialInstance>> instances = ownMaterials(material);
     if (!instances) return instances.error();
+    std::optional<Error> missing;
+    bool isSet = false;
     for (const MaterialInstance instance : *instances) {
-        if (Result<void> done = set(instance); !done) return done;
+        const Result<void> done = set(instance);
+        isSet |= done.ok();
+        if (!done && done.error().code != ErrorCode::NotFound) return done.error();
+        if (!done) missing = done.error();
     }
-    return {};
+    return isSet || !missing ? Result<void>{} : Result<void>(*missing);
 }
 
 Result<void> ModelCopy::set(std::string_view material, std::string_view parameter, ParameterValue const& value) {

@@ -96,11 +96,12 @@ public:
 
     std::vector<CopyMaterial> materials() const;
     /// Of all variants, with instances that this copy shares with no other one, made at the first call; each primitive
-    /// of the copy that shows the shared one shows its own from now on. A material that is used with and without vertex
-    /// colours, or by volumes of several scales, has several instances. They live as long as the copy: do not destroy
-    /// them, and give them to nothing else that lives longer.
+    /// of the copy that shows the shared one shows its own from now on. A material has several instances if it is used
+    /// with and without vertex colours, by points or lines with and without normals, or by volumes of several scales.
+    /// They live as long as the copy: do not destroy them, and give them to nothing else that lives longer.
     Result<std::vector<MaterialInstance>> ownMaterials(std::string_view material);
-    /// Engine::set() for ownMaterials(). NotFound, InvalidArgument as there, from the first instance that refuses.
+    /// Engine::set() for those of ownMaterials() that have the parameter. InvalidArgument as there, from the first
+    /// instance that refuses; NotFound if none has it.
     Result<void> set(std::string_view material, std::string_view parameter, ParameterValue const& value);
     Result<void> set(std::string_view material, std::string_view parameter, Texture texture, Sampler sampler = {});
 

@@ -102,8 +102,8 @@ TEST(PointsAndLines, WithoutNormalsHaveTheirMaps) {
 }
 
 TEST(PointsAndLines, WithNormalsAreLitByThem) {
-    constexpr const char* kMatte = R"({ "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1 } })";
-    TestFile front = lineFile(kMatte), slanted = lineFile(kMatte), away = lineFile(kMatte);
+    constexpr const char* kMatteLine = R"({ "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 1 } })";
+    TestFile front = lineFile(kMatteLine), slanted = lineFile(kMatteLine), away = lineFile(kMatteLine);
     useNormals(front);
     useNormals(slanted, { 0.6f, 0, 0.8f });
     useNormals(away, { -1, 0, 0 });
