@@ -62,9 +62,5 @@ Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes);
 
 bool isExr(std::span<const std::byte> bytes);
 Result<HdrImage> decodeExr(std::span<const std::byte> bytes);
-/// A block of rows compressed with PIZ. `wordsPerSample`: 1 or 2 for each channel; `out`: whole rows of all channels.
-/// Returns whether `packed` held that many; memory is only that of `out` and some tables of 2^16 words.
-bool expandPiz(std::span<const std::byte> packed, std::span<const size_t> wordsPerSample, size_t width,
-               std::span<std::byte> out);
 
 } // namespace filament::assets

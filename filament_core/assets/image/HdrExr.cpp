@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenEXR, single-part scan lines. "Technical Introduction to OpenEXR" and "OpenEXR File Layout" (openexr.com).
+// OpenEXR, single-part scan lines and tiles. "Technical Introduction to OpenEXR" and "OpenEXR File Layout" (openexr.com).
 // Nothing is left to libtinyexr, which leaks memory and asserts on damaged files.
 #include "base/math/Half.h"
+#include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrDecoders.h"
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -13,30 +12,14 @@
 namespace filament::assets {
 namespace {
 
-enum class Compression : uint8_t { None, Rle, Zips, Zip, Piz, Count };
-enum class PixelType : uint32_t { Uint, Half, Float };
-
-struct Channel {
-    std::string name;
-    PixelType type = PixelType::Half;
-    size_t bytes() const { return type == PixelType::Half ? 2 : 4; }
-};
-
 struct ExrHeader {
-    std::vector<Channel> channels; // in file order: alphabetical
-    Compression compression = Compression::Count;
+    std::vector<ExrChannel> channels; // in file order: alphabetical
+    ExrCompression compression = ExrCompression::Count;
     int32_t minX = 0, minY = 0;
     uint32_t width = 0, height = 0;
-    std::array<size_t, 3> source{}; // channels that provide red, green and blue
-
-    uint32_t rowsPerChunk() const {
-        return compression == Compression::Zip ? 16 : compression == Compression::Piz ? 32 : 1;
-    }
-    size_t rowBytes() const {
-        size_t sum = 0;
-        for (Channel const& channel : channels) sum += channel.bytes() * width;
-        return sum;
-    }
+    bool isTiled = false;
+    uint32_t blockWidth = 0, blockRows = 0; // of a block that is not at an edge
+    std::array<size_t, 3> source{};         // channels that provide red, green and blue
 };
 
 Error corruptExr(const char* reason) { return fail(ErrorCode::Corrupt, "{}", reason); }
@@ -45,7 +28,7 @@ Error unsupported(const char* reason) { return fail(ErrorCode::Unsupported, "{}"
 Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) {
     constexpr size_t kMaxChannels = 64;
     struct Layout {
-        PixelType type;
+        ExrType type;
         uint8_t linear, reserved[3];
         int32_t xSampling, ySampling;
     };
@@ -56,10 +39,10 @@ Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) 
         if (name->empty()) return {};
         const auto layout = cursor.read<Layout>();
         if (!layout) return corruptExr("its channel list is cut short");
-        if (layout->type > PixelType::Float) return corruptExr("a channel has an unknown type");
+        if (layout->type > ExrType::Float) return corruptExr("a channel has an unknown type");
         if (layout->xSampling != 1 || layout->ySampling != 1) return unsupported("a channel is subsampled");
         if (header.channels.size() == kMaxChannels) return unsupported("it has more than 64 channels");
-        header.channels.push_back({ std::string(*name), layout->type });
+        header.channels.push_back({ std::string(*name), layout->type, layout->linear != 0 });
     }
 }
 
@@ -76,15 +59,29 @@ Result<void> parseDataWindow(std::span<const std::byte> bytes, ExrHeader& header
     return {};
 }
 
+Result<void> parseTiles(std::span<const std::byte> bytes, ExrHeader& header) {
+    ByteCursor cursor(bytes); // the mode, which follows, says which smaller levels there are
+    const auto width = cursor.read<uint32_t>(), height = cursor.read<uint32_t>();
+    if (!height || *width == 0 || *height == 0) return corruptExr("its tiles have no size");
+    header.blockWidth = *width;
+    header.blockRows = *height;
+    return {};
+}
+
 Result<void> parseAttribute(std::string_view name, std::span<const std::byte> value, ExrHeader& header) {
     if (name == "channels") return parseChannels(value, header);
     if (name == "dataWindow") return parseDataWindow(value, header);
     if (name == "compression") {
-        const auto code = value.empty() ? Compression::Count : static_cast<Compression>(value[0]);
-        if (code >= Compression::Count) return unsupported("its compression is none of NONE, RLE, ZIPS, ZIP, PIZ");
+        const auto code = value.empty() ? ExrCompression::Count : static_cast<ExrCompression>(value[0]);
+        if (code >= ExrCompression::Count) return unsupported("its compression is unknown");
         header.compression = code;
     }
-    return {};
+    return name == "tiles" && header.isTiled ? parseTiles(value, header) : Result<void>{};
+}
+
+uint32_t rowsPerBlock(ExrCompression compression) {
+    constexpr std::array<uint8_t, static_cast<size_t>(ExrCompression::Dwab)> kRows{ 1, 1, 1, 16, 32, 16, 32, 32, 32 };
+    return compression == ExrCompression::Dwab ? 256 : kRows[static_cast<size_t>(compression)];
 }
 
 // R, G and B, in any position; a lone luminance channel Y serves all three.
@@ -92,12 +89,12 @@ Result<void> chooseChannels(ExrHeader& header) {
     constexpr std::array<std::string_view, 3> kNames{ "R", "G", "B" };
     for (size_t i = 0; i < 3; ++i) {
         const auto named = [&](std::string_view name) {
-            return std::ranges::find(header.channels, name, &Channel::name);
+            return std::ranges::find(header.channels, name, &ExrChannel::name);
         };
         auto found = named(kNames[i]);
         if (found == header.channels.end()) found = named("Y");
         if (found == header.channels.end()) return unsupported("it has neither channels R, G, B nor Y");
-        if (found->type == PixelType::Uint) return unsupported("its colour channels are integers");
+        if (found->type == ExrType::Uint) return unsupported("its colour channels are integers");
         header.source[i] = static_cast<size_t>(found - header.channels.begin());
     }
     return {};
@@ -107,9 +104,10 @@ Result<ExrHeader> parseHeader(ByteCursor& cursor) {
     cursor.take(4); // magic
     const auto version = cursor.read<uint32_t>();
     if (!version || (*version & 0xFF) != 2) return unsupported("it is not version 2 of OpenEXR");
-    constexpr uint32_t kLongNames = 0x400;
-    if ((*version & ~0xFFu & ~kLongNames) != 0) return unsupported("it is tiled, deep or multi-part");
+    constexpr uint32_t kTiled = 0x200, kLongNames = 0x400;
+    if ((*version & ~0xFFu & ~(kTiled | kLongNames)) != 0) return unsupported("it is deep or has several parts");
     ExrHeader header;
+    header.isTiled = (*version & kTiled) != 0;
     for (;;) {
         const auto name = cursor.readUntil('\0', 255);
         if (!name) return corruptExr("its header has no end");
@@ -121,72 +119,18 @@ Result<ExrHeader> parseHeader(ByteCursor& cursor) {
         if (auto parsed = parseAttribute(*name, *value, header); !parsed) return parsed.error();
     }
     if (header.width == 0) return corruptExr("it has no data window");
-    if (header.compression == Compression::Count) return corruptExr("it does not say how it is compressed");
+    if (header.compression == ExrCompression::Count) return corruptExr("it does not say how it is compressed");
+    if (header.isTiled && header.blockRows == 0) return corruptExr("it does not say how large its tiles are");
+    if (!header.isTiled) {
+        header.blockWidth = header.width;
+        header.blockRows = rowsPerBlock(header.compression);
+    }
     if (auto chosen = chooseChannels(header); !chosen) return chosen.error();
     return header;
 }
 
-// Signed run lengths: n < 0 copies -n bytes, n >= 0 repeats the next byte n + 1 times.
-bool expandRuns(std::span<const std::byte> packed, std::span<std::byte> out) {
-    ByteCursor cursor(packed);
-    while (!out.empty()) {
-        const auto code = cursor.read<int8_t>();
-        if (!code) return false;
-        const size_t count = *code < 0 ? static_cast<size_t>(-*code) : static_cast<size_t>(*code) + 1;
-        if (count > out.size()) return false;
-        if (*code < 0) {
-            const auto values = cursor.take(count);
-            if (!values) return false;
-            std::ranges::copy(*values, out.begin());
-        } else {
-            const auto value = cursor.read<std::byte>();
-            if (!value) return false;
-            std::ranges::fill(out.first(count), *value);
-        }
-        out = out.subspan(count);
-    }
-    return true;
-}
-
-bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out) {
-    uLongf size = out.size();
-    return uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                      packed.size()) == Z_OK &&
-           size == out.size();
-}
-
-// RLE and ZIP store differences between neighbours, even bytes before odd ones.
-void undoPredictor(std::span<std::byte> bytes, std::vector<std::byte>& scratch) {
-    for (size_t i = 1; i < bytes.size(); ++i) {
-        bytes[i] = static_cast<std::byte>(static_cast<int>(bytes[i - 1]) + static_cast<int>(bytes[i]) - 128);
-    }
-    scratch.assign(bytes.begin(), bytes.end());
-    const size_t half = (bytes.size() + 1) / 2;
-    for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = scratch[(i & 1) ? half + i / 2 : i / 2];
-}
-
-bool unpackPiz(ExrHeader const& header, std::span<const std::byte> packed, std::span<std::byte> out) {
-    std::vector<size_t> wordsPerSample;
-    for (Channel const& channel : header.channels) wordsPerSample.push_back(channel.bytes() / 2);
-    return expandPiz(packed, wordsPerSample, header.width, out);
-}
-
-// A chunk that compression would not make smaller is stored uncompressed.
-bool unpackChunk(ExrHeader const& header, std::span<const std::byte> packed, std::span<std::byte> out,
-                 std::vector<std::byte>& scratch) {
-    if (packed.size() == out.size()) {
-        std::ranges::copy(packed, out.begin());
-        return true;
-    }
-    if (header.compression == Compression::None || packed.size() > out.size()) return false;
-    if (header.compression == Compression::Piz) return unpackPiz(header, packed, out);
-    const bool expanded = header.compression == Compression::Rle ? expandRuns(packed, out) : inflateZlib(packed, out);
-    if (expanded) undoPredictor(out, scratch);
-    return expanded;
-}
-
-float readSample(const std::byte* at, PixelType type) {
-    if (type == PixelType::Half) {
+float readSample(const std::byte* at, ExrType type) {
+    if (type == ExrType::Half) {
         uint16_t bits = 0;
         std::memcpy(&bits, at, sizeof(bits));
         return floatFromHalf(bits);
@@ -200,55 +144,69 @@ float readSample(const std::byte* at, PixelType type) {
 void readRow(ExrHeader const& header, const std::byte* row, std::span<float3> pixels) {
     for (size_t component = 0; component < 3; ++component) {
         size_t offset = 0;
-        for (size_t i = 0; i < header.source[component]; ++i) offset += header.channels[i].bytes() * header.width;
-        Channel const& channel = header.channels[header.source[component]];
-        for (uint32_t x = 0; x < header.width; ++x) {
+        for (size_t i = 0; i < header.source[component]; ++i) offset += header.channels[i].bytes() * pixels.size();
+        ExrChannel const& channel = header.channels[header.source[component]];
+        for (size_t x = 0; x < pixels.size(); ++x) {
             pixels[x][static_cast<int>(component)] = readSample(row + offset + x * channel.bytes(), channel.type);
         }
     }
 }
 
-struct Chunk {
-    uint32_t firstRow = 0;
+struct Block {
+    uint32_t x = 0, y = 0; // of its upper left pixel
     std::span<const std::byte> packed;
 };
 
-// The offset table gives the position of each chunk; each chunk states its first row and its size.
-Result<std::vector<Chunk>> findChunks(std::span<const std::byte> file, ByteCursor cursor, ExrHeader const& header) {
-    const uint32_t rows = header.rowsPerChunk();
-    const uint32_t count = (header.height + rows - 1) / rows;
-    if (cursor.remaining() / sizeof(uint64_t) < count) return corruptExr("its offset table is cut short");
-    std::vector<Chunk> chunks(count);
-    for (Chunk& chunk : chunks) {
-        const uint64_t offset = *cursor.read<uint64_t>();
-        if (offset >= file.size()) return corruptExr("a block of rows lies outside of the file");
-        ByteCursor at(file.subspan(offset));
+/// Blocks say themselves where they belong: scan lines by their first row, tiles by column, row, and level.
+Result<Block> readBlock(ByteCursor at, ExrHeader const& header) {
+    int64_t x = 0, y = 0;
+    if (header.isTiled) {
+        const auto tile = at.read<std::array<int32_t, 4>>();
+        if (!tile) return corruptExr("a tile is cut short");
+        if ((*tile)[2] != 0 || (*tile)[3] != 0) return corruptExr("tiles of the picture are not its first");
+        x = int64_t{ (*tile)[0] } * header.blockWidth;
+        y = int64_t{ (*tile)[1] } * header.blockRows;
+    } else {
         const auto row = at.read<int32_t>();
-        const auto size = at.read<uint32_t>();
-        const auto packed = size ? at.take(*size) : std::nullopt;
-        if (!row || !packed) return corruptExr("a block of rows is cut short");
-        const int64_t first = int64_t(*row) - header.minY;
-        if (first < 0 || first >= header.height || first % rows != 0)
-            return corruptExr("a block has rows outside of the image");
-        chunk = { static_cast<uint32_t>(first), *packed };
+        if (!row) return corruptExr("a block of rows is cut short");
+        y = int64_t{ *row } - header.minY;
     }
-    return chunks;
+    const auto size = at.read<uint32_t>();
+    const auto packed = size ? at.take(*size) : std::nullopt;
+    if (!packed) return corruptExr("a block of pixels is cut short");
+    if (x < 0 || y < 0 || x >= header.width || y >= header.height || y % header.blockRows != 0)
+        return corruptExr("a block has pixels outside of the image");
+    return Block{ static_cast<uint32_t>(x), static_cast<uint32_t>(y), *packed };
 }
 
-Result<HdrImage> decodeChunks(ExrHeader const& header, std::span<const Chunk> chunks) {
+// The offset table gives the position of each block; those of smaller levels come last and are left alone.
+Result<std::vector<Block>> findBlocks(std::span<const std::byte> file, ByteCursor cursor, ExrHeader const& header) {
+    const auto parts = [](uint32_t whole, uint32_t part) { return (whole - 1) / part + 1; };
+    const size_t count = size_t{ parts(header.width, header.blockWidth) } * parts(header.height, header.blockRows);
+    if (cursor.remaining() / sizeof(uint64_t) < count) return corruptExr("its offset table is cut short");
+    std::vector<Block> blocks(count);
+    for (Block& block : blocks) {
+        const uint64_t offset = *cursor.read<uint64_t>();
+        if (offset >= file.size()) return corruptExr("a block of pixels lies outside of the file");
+        Result<Block> read = readBlock(ByteCursor(file.subspan(offset)), header);
+        if (!read) return read.error();
+        block = *read;
+    }
+    return blocks;
+}
+
+Result<HdrImage> decodeBlocks(ExrHeader const& header, std::span<const Block> blocks) {
     HdrImage image{ .width = header.width, .height = header.height, .pixels = {}, .repairs = {} };
     image.pixels.resize(size_t(image.width) * image.height);
-    const size_t rowBytes = header.rowBytes();
-    std::vector<std::byte> unpacked(rowBytes * header.rowsPerChunk()), scratch;
-    for (Chunk const& chunk : chunks) {
-        const uint32_t rows = std::min(header.rowsPerChunk(), header.height - chunk.firstRow);
-        const auto out = std::span(unpacked).first(rowBytes * rows);
-        if (!unpackChunk(header, chunk.packed, out, scratch)) {
-            return fail(ErrorCode::Corrupt, "the block of row {} cannot be unpacked", chunk.firstRow);
-        }
-        for (uint32_t y = 0; y < rows; ++y) {
-            readRow(header, out.data() + y * rowBytes, { &image.at(0, chunk.firstRow + y), image.width });
-        }
+    std::vector<std::byte> unpacked;
+    for (Block const& block : blocks) {
+        const ExrBlock shape{ header.channels, std::min(header.blockWidth, header.width - block.x),
+                              std::min(header.blockRows, header.height - block.y) };
+        unpacked.resize(shape.bytes());
+        if (!unpackExrBlock(header.compression, shape, block.packed, unpacked))
+            return fail(ErrorCode::Corrupt, "the block at {}, {} cannot be unpacked", block.x, block.y);
+        for (uint32_t y = 0; y < shape.rows; ++y)
+            readRow(header, unpacked.data() + y * shape.rowBytes(), { &image.at(block.x, block.y + y), shape.width });
     }
     return image;
 }
@@ -265,9 +223,9 @@ Result<HdrImage> decodeExr(std::span<const std::byte> bytes) {
     ByteCursor cursor(bytes);
     const Result<ExrHeader> header = parseHeader(cursor);
     if (!header) return header.error();
-    const Result<std::vector<Chunk>> chunks = findChunks(bytes, cursor, *header);
-    if (!chunks) return chunks.error();
-    return decodeChunks(*header, *chunks);
+    const Result<std::vector<Block>> blocks = findBlocks(bytes, cursor, *header);
+    if (!blocks) return blocks.error();
+    return decodeBlocks(*header, *blocks);
 }
 
 } // namespace filament::assets

@@ -21,7 +21,7 @@ Result<HdrImage> decodeByContent(std::span<const std::byte> bytes) {
 const char* cureOf(ErrorCode code) {
     switch (code) {
     case ErrorCode::Unsupported:
-        return "save it as RGBE .hdr or as a scan-line ZIP .exr";
+        return "save it as RGBE .hdr or as an .exr of one part";
     case ErrorCode::OutOfMemory:
         return "make it smaller";
     default:

@@ -3,8 +3,8 @@
 ///   In      a file, or its bytes and a name for error messages. The content decides the format, not the extension.
 ///   Out     HdrImage, sanitised: NaN, infinite and negative components are replaced and counted in `repairs`.
 ///   .hdr    flat, old and new run lengths; rows top-down or bottom-up; EXPOSURE lines are divided out; not XYZE.
-///   .exr    single-part scan lines, half or float; uncompressed, RLE, ZIPS, ZIP or PIZ; channels R, G, B or Y.
-///           Not tiled, multi-part, deep or subsampled.
+///   .exr    one part of scan lines or tiles, of which the largest level is read; half or float; every compression of
+///           OpenEXR 3.1, lossy ones with the same bits on every CPU; channels R, G, B or Y. Not deep or subsampled.
 ///   Thread  any; no shared state.
 ///   Limits  kMaxHdrSide per side, kMaxHdrPixels in all; checked before memory is allocated.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never

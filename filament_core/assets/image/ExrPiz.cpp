@@ -2,6 +2,7 @@
 // OpenEXR's PIZ: the 16-bit words of each channel are renumbered without gaps, transformed by a Haar wavelet, and
 // Huffman-coded with run lengths. "Technical Introduction to OpenEXR", section "Data Compression", and the
 // implementation notes in OpenEXR's ImfPizCompressor.cpp, ImfHuf.cpp and ImfWav.cpp (openexr.com).
+#include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrDecoders.h"
 
 #include <algorithm>
@@ -118,20 +119,6 @@ bool decodeWords(HuffmanCode const& code, BitCursor bits, uint32_t run, std::spa
     return true;
 }
 
-bool expandHuffman(std::span<const std::byte> packed, std::span<uint16_t> words) {
-    ByteCursor cursor(packed);
-    const auto first = cursor.read<uint32_t>(), last = cursor.read<uint32_t>();
-    cursor.read<uint32_t>(); // the size of the table, which says itself where it ends
-    const auto dataBits = cursor.read<uint32_t>(), reserved = cursor.read<uint32_t>();
-    if (!reserved || *first > *last || *last > kWords) return false;
-    BitCursor table(cursor.rest(), cursor.remaining() * 8);
-    const auto lengths = readLengths(table, *first, *last);
-    if (!lengths) return false;
-    const auto data = cursor.rest().subspan(table.nextByte());
-    if (*dataBits > data.size() * 8) return false;
-    return decodeWords(HuffmanCode(*lengths), BitCursor(data, *dataBits), *last, words);
-}
-
 struct Pair {
     uint16_t low, high;
 };
@@ -206,8 +193,21 @@ std::optional<std::vector<uint16_t>> readOccurring(ByteCursor& cursor) {
 
 } // namespace
 
-bool expandPiz(std::span<const std::byte> packed, std::span<const size_t> wordsPerSample, size_t width,
-               std::span<std::byte> out) {
+bool expandHuffman(std::span<const std::byte> packed, std::span<uint16_t> words) {
+    ByteCursor cursor(packed);
+    const auto first = cursor.read<uint32_t>(), last = cursor.read<uint32_t>();
+    cursor.read<uint32_t>(); // the size of the table, which says itself where it ends
+    const auto dataBits = cursor.read<uint32_t>(), reserved = cursor.read<uint32_t>();
+    if (!reserved || *first > *last || *last > kWords) return false;
+    BitCursor table(cursor.rest(), cursor.remaining() * 8);
+    const auto lengths = readLengths(table, *first, *last);
+    if (!lengths) return false;
+    const auto data = cursor.rest().subspan(table.nextByte());
+    if (*dataBits > data.size() * 8) return false;
+    return decodeWords(HuffmanCode(*lengths), BitCursor(data, *dataBits), *last, words);
+}
+
+bool expandPiz(ExrBlock const& block, std::span<const std::byte> packed, std::span<std::byte> out) {
     ByteCursor cursor(packed);
     const auto occurring = readOccurring(cursor);
     const auto size = occurring ? cursor.read<uint32_t>() : std::nullopt;
@@ -215,18 +215,17 @@ bool expandPiz(std::span<const std::byte> packed, std::span<const size_t> wordsP
     std::vector<uint16_t> words(out.size() / 2);
     if (!coded || !expandHuffman(*coded, words)) return false;
 
-    size_t rowWords = 0;
-    for (const size_t count : wordsPerSample) rowWords += count * width;
-    const size_t rows = words.size() / rowWords;
+    const size_t rowWords = block.rowBytes() / 2;
     size_t start = 0, column = 0; // of a channel: all its rows are together here, and its part of each row in `out`
-    for (const size_t count : wordsPerSample) {
-        const size_t pitch = count * width;
-        const auto plane = std::span(words).subspan(start, pitch * rows);
+    for (ExrChannel const& channel : block.channels) {
+        const size_t count = channel.bytes() / 2, pitch = count * block.width;
+        const auto plane = std::span(words).subspan(start, pitch * block.rows);
         for (size_t i = 0; i < count; ++i)
-            undoWavelet({ plane.subspan(i), width, rows, count, pitch }, occurring->size() - 1);
+            undoWavelet({ plane.subspan(i), block.width, block.rows, count, pitch }, occurring->size() - 1);
         for (uint16_t& word : plane) word = word < occurring->size() ? (*occurring)[word] : uint16_t{ 0 };
-        for (size_t y = 0; y < rows; ++y) std::memcpy(&out[(y * rowWords + column) * 2], &plane[y * pitch], pitch * 2);
-        start += pitch * rows;
+        for (size_t y = 0; y < block.rows; ++y)
+            std::memcpy(&out[(y * rowWords + column) * 2], &plane[y * pitch], pitch * 2);
+        start += pitch * block.rows;
         column += pitch;
     }
     return true;
