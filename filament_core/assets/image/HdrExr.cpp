@@ -100,6 +100,9 @@ Result<void> chooseChannels(ExrHeader& header) {
     return {};
 }
 
+/// More than any picture needs that can be read; a file of a few bytes could ask for gigabytes.
+constexpr size_t kMaxBlockBytes = size_t{ 1 } << 29;
+
 Result<ExrHeader> parseHeader(ByteCursor& cursor) {
     cursor.take(4); // magic
     const auto version = cursor.read<uint32_t>();
@@ -125,6 +128,9 @@ Result<ExrHeader> parseHeader(ByteCursor& cursor) {
         header.blockWidth = header.width;
         header.blockRows = rowsPerBlock(header.compression);
     }
+    const ExrBlock largest{ header.channels, std::min(header.blockWidth, header.width),
+                            std::min(header.blockRows, header.height) };
+    if (largest.bytes() > kMaxBlockBytes) return unsupported("its tiles have more than 512 MiB");
     if (auto chosen = chooseChannels(header); !chosen) return chosen.error();
     return header;
 }

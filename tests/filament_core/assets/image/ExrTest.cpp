@@ -172,6 +172,14 @@ TEST(Exr, TilesOfNoSizeAndOtherKindsOfFilesAreRefused) {
         return picture ? "none" : picture.error().message;
     };
     EXPECT_THAT(refusal(), HasSubstr("its tiles have no size"));
+    const auto setWords = [&](std::string_view after, std::initializer_list<uint32_t> words) {
+        const size_t found = std::string_view(begin, file.size()).find(after);
+        ASSERT_NE(found, std::string_view::npos);
+        std::memcpy(&file[found + after.size()], words.begin(), words.size() * 4);
+    };
+    setWords(kTiles, { 16384, 4096 });
+    setWords(std::string_view("dataWindow\0box2i\0\x10\0\0\0", 21), { 0, 0, 16383, 4095 });
+    EXPECT_THAT(refusal(), HasSubstr("its tiles have more than 512 MiB"));
     file = exrBytes("plain");
     file[5] = std::byte{ 0x08 }; // deep
     EXPECT_THAT(refusal(), HasSubstr("it is deep or has several parts"));
