@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/ColorGrading.h>
 
+#include "base/NumberText.h"
 #include "base/Result.h"
 #include "base/Suggest.h"
-#include "filament_core/values/NumberText.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Quality.h>
 
+#include "base/NumberText.h"
 #include "base/Result.h"
 #include "base/Suggest.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <vector>
 
 namespace filament {
@@ -94,11 +94,9 @@ constexpr Field numberField(std::string_view name, Words words, std::string_view
     using N = std::remove_cvref_t<decltype(std::declval<Quality>().*Member)>;
     return { { name, words },
              [](Quality& quality, Words, std::string_view value) {
-                 unsigned number = 0;
-                 const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-                 const bool isWhole = error == std::errc{} && end == value.data() + value.size();
-                 if (!isWhole || number < Least || number > Most) return false;
-                 quality.*Member = static_cast<N>(number);
+                 const std::optional<unsigned> number = numberOf<unsigned>(value);
+                 if (!number || *number < Least || *number > Most) return false;
+                 quality.*Member = static_cast<N>(*number);
                  return true;
              },
              [](Quality const& quality, Words) { return std::to_string(quality.*Member); },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/TracedMaterial.h"
 
+#include "base/NumberText.h"
 #include "base/Suggest.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/lib/LibCppDouble.h"
@@ -64,9 +65,9 @@ bool read(std::string const& words, std::span<double> numbers) {
     std::string word;
     for (double& number : numbers) {
         if (!std::getline(stream, word, ',')) return false;
-        char* end = nullptr;
-        number = std::strtod(word.c_str(), &end);
-        if (end == word.c_str() || *end != 0) return false;
+        const std::optional<double> read = numberOf<double>(word);
+        if (!read) return false;
+        number = *read;
     }
     return stream.eof() || stream.peek() == std::char_traits<char>::eof();
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/common/CommandLine.h"
 
+#include "base/NumberText.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -29,17 +30,13 @@ Error invalidOption(const char* option, std::string const& value, const char* cu
 }
 
 std::optional<double> finiteNumber(std::string const& word) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return {};
-    return value;
+    const std::optional<double> value = numberOf<double>(word);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<uint32_t> wholeNumber(std::string const& word, uint32_t low, uint32_t high) {
-    uint32_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || value < low || value > high) return {};
-    return value;
+    const std::optional<uint32_t> value = numberOf<uint32_t>(word);
+    return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 
 std::string joined(std::vector<std::string> const& words) {

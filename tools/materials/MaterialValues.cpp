@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialValues.h"
 
+#include "base/NumberText.h"
 #include "base/Result.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <type_traits>
 #include <variant>
@@ -17,14 +18,12 @@ std::optional<std::vector<double>> numbersOf(std::string const& words) {
     std::vector<double> numbers;
     for (size_t begin = 0; begin <= words.size();) {
         const size_t end = std::min(words.find(',', begin), words.size());
-        const std::string word = words.substr(begin, end - begin);
-        char* last = nullptr;
-        double number = std::strtod(word.c_str(), &last);
-        if (word == "true" || word == "false")
-            number = word == "true";
-        else if (word.empty() || *last != '\0' || !std::isfinite(number))
-            return std::nullopt;
-        numbers.push_back(number);
+        std::string_view word = std::string_view(words).substr(begin, end - begin);
+        word.remove_prefix(std::min(word.find_first_not_of(' '), word.size()));
+        const bool isTruth = word == "true" || word == "false";
+        const std::optional<double> number = isTruth ? (word == "true" ? 1.0 : 0.0) : numberOf<double>(word);
+        if (!number || !std::isfinite(*number)) return std::nullopt;
+        numbers.push_back(*number);
         begin = end + 1;
     }
     return numbers;

@@ -2,10 +2,10 @@
 #include "filament_core/assets/files/FileBytes.h"
 
 #include "base/Leftovers.h"
+#include "base/NumberText.h"
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -97,14 +97,8 @@ Result<void> writeBeside(fs::path const& path, std::span<const std::byte> bytes,
 pid_t writerOf(std::string_view name) {
     const size_t dot = name.rfind('.'), dash = name.rfind('-');
     if (dot == std::string_view::npos || dash == std::string_view::npos || dash < dot) return 0;
-    pid_t id = 0;
-    uint32_t serial = 0;
-    const auto isNumber = [&](std::string_view text, auto& number) {
-        const char* const end = text.data() + text.size();
-        const auto [read, error] = std::from_chars(text.data(), end, number);
-        return error == std::errc() && read == end;
-    };
-    return isNumber(name.substr(dot + 1, dash - dot - 1), id) && isNumber(name.substr(dash + 1), serial) ? id : 0;
+    const bool hasSerial = numberOf<uint32_t>(name.substr(dash + 1)).has_value();
+    return hasSerial ? numberOf<pid_t>(name.substr(dot + 1, dash - dot - 1)).value_or(0) : 0;
 }
 
 } // namespace

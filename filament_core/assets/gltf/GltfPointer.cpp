@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfPointer.h"
 
+#include "base/NumberText.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 namespace filament::assets {
 namespace {
@@ -32,10 +33,8 @@ std::vector<std::string> tokensOf(std::string_view pointer) {
 
 /// RFC 6901, section 4: digits without leading zeros. kNone: no index below `count`.
 uint32_t indexFrom(std::string const& token, size_t count) {
-    uint32_t index = kNone;
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), index);
-    const bool isWhole = error == std::errc() && end == token.data() + token.size();
-    if (!isWhole || (token.size() > 1 && token.front() == '0')) return kNone;
+    if (token.size() > 1 && token.front() == '0') return kNone;
+    const uint32_t index = numberOf<uint32_t>(token).value_or(kNone);
     return index < count ? index : kNone;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // .cube files: Adobe 2013, "Cube LUT Specification" 1.0, and the input ranges of the files that Resolve writes.
+#include "base/NumberText.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/tables/DisplayColor.h"
 #include "shaders/lib/LibCpp.h"
@@ -7,7 +8,6 @@
 #include <filament/Look.h>
 
 #include <array>
-#include <charconv>
 #include <optional>
 
 namespace filament {
@@ -26,11 +26,7 @@ std::string printable(std::string_view text) {
 
 std::optional<float> finiteNumber(std::string_view word) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    float value = 0;
-    const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-    const bool isWhole = status == std::errc() && end == word.data() + word.size();
-    if (!isWhole || !(value >= -kMaxValue && value <= kMaxValue)) return std::nullopt;
-    return value;
+    return numberOf(word, -kMaxValue, kMaxValue);
 }
 
 /// The words of a line. Returns how many there are; only the first are kept.
@@ -107,11 +103,7 @@ private:
         if (mLook.size != 0)
             return refuse(ErrorCode::Unsupported, "a second table; a file with a curve before its cube is not read");
         const uint32_t most = isCube ? kMaxCube : kMaxCurve;
-        uint32_t size = 0;
-        if (count == 2) {
-            const auto [end, status] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), size);
-            if (status != std::errc() || end != words[1].data() + words[1].size()) size = 0;
-        }
+        const uint32_t size = count == 2 ? numberOf<uint32_t>(words[1]).value_or(0) : 0;
         if (size < 2 || size > most)
             return refuse(ErrorCode::Unsupported, "{} is '{}', expected a whole number from 2 to {}", words[0],
                           printable(count > 1 ? words[1] : ""), most);

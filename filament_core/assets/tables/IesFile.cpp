@@ -2,8 +2,9 @@
 // The format is that of LM-63; Ashdown 1999, "Parsing the IESNA LM-63 Photometric Data File", for its older editions.
 #include "filament_core/assets/tables/IesFile.h"
 
+#include "base/NumberText.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -49,13 +50,12 @@ public:
             return low;
         }
         const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
-        double value = 0;
-        const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (status != std::errc() || end != digits.data() + digits.size() || !(value >= low && value <= high)) {
+        const std::optional<double> value = numberOf<double>(digits);
+        if (!value || !(*value >= low && *value <= high)) {
             refuse(ErrorCode::Corrupt, "{} is '{}', expected a number from {} to {}", what, printable(word), low, high);
             return low;
         }
-        return value;
+        return *value;
     }
 
     size_t count(const char* what, size_t low, size_t high) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// toJson(): every field of a document, so that a later default changes nothing of what was saved.
+#include "base/NumberText.h"
 #include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/Fields.h"
 #include "tools/view/document/TextForms.h"
@@ -8,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdlib>
 
 namespace filament::view {
 namespace {
@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 /// The shortest decimal that is this float again.
 double shortest(float value) {
-    const double decimal = std::isfinite(value) ? std::strtod(fmt::format("{}", value).c_str(), nullptr) : 0;
+    const double decimal = std::isfinite(value) ? *numberOf<double>(fmt::format("{}", value)) : 0;
     return static_cast<float>(decimal) == value ? decimal : static_cast<double>(value);
 }
 

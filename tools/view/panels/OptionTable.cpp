@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/OptionTable.h"
 
+#include "base/NumberText.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -59,12 +60,6 @@ PictureOption const* findPictureOption(std::string_view name) {
     return found == kPictureOptions.end() ? nullptr : &*found;
 }
 
-std::optional<double> numberOfWord(std::string_view word) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc{} && end == word.data() + word.size() ? std::optional(number) : std::nullopt;
-}
-
 /// "a, b or c" as its words; empty if one of them has a space.
 std::vector<std::string> wordsOf(std::string_view range) {
     std::vector<std::string> words;
@@ -87,8 +82,8 @@ std::optional<std::pair<double, double>> limitsOf(std::string_view range) {
     const size_t to = range.find(kTo);
     if (to == std::string_view::npos) return std::nullopt;
     const std::string_view rest = range.substr(to + kTo.size());
-    const auto least = numberOfWord(range.substr(0, to));
-    const auto most = numberOfWord(rest.substr(0, rest.find_first_of(" ,")));
+    const auto least = numberOf<double>(range.substr(0, to));
+    const auto most = numberOf<double>(rest.substr(0, rest.find_first_of(" ,")));
     if (!least || !most || !(*least <= *most)) return std::nullopt;
     return std::pair(*least, *most);
 }
@@ -186,7 +181,7 @@ std::vector<float> optionNumbers(Option const& option, std::string_view value) {
     std::vector<float> numbers;
     while (!value.empty()) {
         const size_t end = std::min(value.find(','), value.size());
-        const auto number = numberOfWord(value.substr(0, end));
+        const auto number = numberOf<double>(value.substr(0, end));
         if (!number) return {};
         numbers.push_back(static_cast<float>(*number));
         value.remove_prefix(std::min(end + 1, value.size()));
