@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// numberOf: a whole text as a number; nothing for any other text. The locale of the program does not matter, as it does
-/// for strtod() and streams.
+/// numberOf: a whole text as a number; nothing for any other text. The locale of the program does not matter, as it
+/// does for strtod() and streams.
 #pragma once
 
 #include <charconv>

@@ -23,7 +23,7 @@ Result<void> readNumber(JsonValue const& value, std::string_view what, float low
 /// A GLSL identifier that does not collide with the engine's prefixes.
 Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::string& out);
 Result<void> readPrecision(JsonValue const& value, Precision& out);
-/// What follows the name of a property or field that does not exist: what was probably meant, or that it can be left out.
+/// What follows the name of an unknown property or field: what was probably meant, or that it can be left out.
 std::string cureForUnknown(std::string_view name, std::span<const std::string_view> known);
 /// The member of an object, or null.
 JsonValue const* findMember(JsonValue const& object, std::string_view key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simpler compressions of OpenEXR: "Technical Introduction to OpenEXR", section "Data Compression", and the notes in
-// OpenEXR's ImfPxr24Compressor.cpp and ImfB44Compressor.cpp (openexr.com).
+// The simpler compressions of OpenEXR: "Technical Introduction to OpenEXR", section "Data Compression", and the notes
+// in OpenEXR's ImfPxr24Compressor.cpp and ImfB44Compressor.cpp (openexr.com).
 #include "filament_core/assets/image/ExrBlock.h"
 
 #include "base/math/Half.h"

@@ -134,8 +134,8 @@ public:
     Result<Image> renderToImage(Scene const& scene, View const& view);
 
     FrameStatistics statistics() const;
-    /// Of the frames that finished since the last call, oldest first. Among them are those whose pixels arrived, and all
-    /// after Engine::waitIdle().
+    /// Of the frames that finished since the last call, oldest first. Among them are those whose pixels arrived, and
+    /// all after Engine::waitIdle().
     std::vector<FrameTimings> takeTimings();
     /// What the last frame needed, what it did not, and why: effects first, then passes in the order of their
     /// declaration. docs/demand.md says what an effect that is not needed leaves out.

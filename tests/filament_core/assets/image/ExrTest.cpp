@@ -42,8 +42,8 @@ TEST(Exr, WhatIsIntegersHasThePixelsThatOpenExrReads) {
         EXPECT_EQ(exrPicture(name).pixels, exrPicture(name + ".decoded").pixels) << name;
 }
 
-// OpenEXR computes cosines in the order that the CPU has instructions for, so that a value may be rounded to the next half
-// before the curve, which makes at most 0.3 % of it.
+// OpenEXR computes cosines in the order that the CPU has instructions for, so that a value may be rounded to the next
+// half before the curve, which makes at most 0.3 % of it.
 TEST(Exr, CosinesHaveThePixelsThatOpenExrReadsButForRounding) {
     for (const std::string name : { "dwaa", "dwaa_float", "dwaa_one_block", "dwab", "tiled_dwaa_rips" }) {
         const HdrImage picture = exrPicture(name), expected = exrPicture(name + ".decoded");
@@ -72,7 +72,7 @@ TEST(Exr, CosinesHaveTheSameBitsOnEveryCpu) {
     EXPECT_EQ(hashOf(exrPicture("dwab")), 13051039052014748983u);
 }
 
-// ---------------------------------------------------------------------------------------------- blocks of other versions
+// ---------------------------------------------------------------------------------------------- other blocks
 
 /// A DWA file with one block, taken apart.
 struct OneBlock {

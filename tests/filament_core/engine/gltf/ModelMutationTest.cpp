@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged glTF files that can be loaded can be shown: the loader promises what the rest of the engine asserts. The seeds
-// are fixed; the number of rounds depends on the time, which is limited: 5 s, and minutes with FILAMENT_STRESS.
+// Damaged glTF files that can be loaded can be shown: the loader promises what the rest of the engine asserts. The
+// seeds are fixed; the number of rounds depends on the time, which is limited: 5 s, and minutes with FILAMENT_STRESS.
 #include "tests/filament_core/assets/gltf/GltfSpecimens.h"
 #include "tests/filament_core/engine/gltf/ModelFuzzBody.h"
 
