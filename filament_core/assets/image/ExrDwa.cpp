@@ -301,13 +301,14 @@ bool expandRunChannels(ExrBlock const& block, Plan const& plan, Sizes const& siz
     if (sizes.runsRaw != bytes || sizes.runs > kWorst * bytes) return false;
     std::vector<std::byte> runs(sizes.runs), planes(bytes);
     if (!inflateZlib(packed, runs) || !expandRuns(runs, planes)) return false;
+    const size_t pitch = block.rowBytes();
     size_t plane = 0;
     for (size_t i = 0; i < block.channels.size(); ++i) {
         if (plan.schemes[i] != Scheme::Runs) continue;
         const size_t size = block.channels[i].bytes(), column = columnOf(block, i);
         for (size_t byte = 0; byte < size; ++byte, plane += samples)
             for (size_t s = 0; s < samples; ++s)
-                out[s / block.width * block.rowBytes() + column + s % block.width * size + byte] = planes[plane + s];
+                out[s / block.width * pitch + column + s % block.width * size + byte] = planes[plane + s];
     }
     return true;
 }
@@ -321,9 +322,9 @@ bool expandPlainChannels(ExrBlock const& block, Plan const& plan, Sizes const& s
     size_t at = 0;
     for (size_t i = 0; i < block.channels.size(); ++i) {
         if (plan.schemes[i] != Scheme::Plain) continue;
-        const size_t pitch = block.channels[i].bytes() * block.width;
-        for (size_t y = 0; y < block.rows; ++y, at += pitch)
-            std::memcpy(&out[y * block.rowBytes() + columnOf(block, i)], &rows[at], pitch);
+        const size_t width = block.channels[i].bytes() * block.width, column = columnOf(block, i);
+        for (size_t y = 0; y < block.rows; ++y, at += width)
+            std::memcpy(&out[y * block.rowBytes() + column], &rows[at], width);
     }
     return true;
 }

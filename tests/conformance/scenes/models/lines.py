@@ -2,28 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes lines.gltf beside this file: sixty lines around a point, a strip along a wave, and a loop in the shape of a star,
 with colours per vertex."""
-import base64
 import json
 import math
 import pathlib
-import struct
+
+from gltf_buffer import accessors, add, buffers, views
 
 LINES, STRIP, LOOP = 1, 3, 2  # modes of primitives
-buffer, views, accessors = bytearray(), [], []
-
-
-def add(rows):
-    """An accessor of 32-bit floats."""
-    data = b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
-    views.append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(data)})
-    buffer.extend(data)
-    accessor = {"bufferView": len(views) - 1, "componentType": 5126, "count": len(rows), "type": f"VEC{len(rows[0])}"}
-    if len(rows[0]) == 3:
-        stored = [struct.unpack("<3f", struct.pack("<3f", *row)) for row in rows]
-        accessor["min"] = [min(column) for column in zip(*stored)]
-        accessor["max"] = [max(column) for column in zip(*stored)]
-    accessors.append(accessor)
-    return len(accessors) - 1
 
 
 def primitive(mode, positions):
@@ -41,7 +26,6 @@ for i in range(60):
 strip = [(0.0225 * i - 0.9, 0.35 * math.sin(0.37 * i) * math.cos(0.05 * i) - 0.5, 0.2 * math.sin(i)) for i in range(81)]
 loop = [ring(i * 5 * math.pi / 6, 0.4, 0.5, 0.5, 0.1) for i in range(12)]
 primitives = [primitive(LINES, lines), primitive(STRIP, strip), primitive(LOOP, loop)]
-uri = "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
 document = {
     "asset": {"version": "2.0"},
     "extensionsUsed": ["KHR_materials_unlit"],
@@ -52,6 +36,6 @@ document = {
     "materials": [{"extensions": {"KHR_materials_unlit": {}}}],
     "accessors": accessors,
     "bufferViews": views,
-    "buffers": [{"byteLength": len(buffer), "uri": uri}],
+    "buffers": buffers(),
 }
 pathlib.Path(__file__).with_suffix(".gltf").write_text(json.dumps(document) + "\n")

@@ -3,34 +3,16 @@
 """Writes points.gltf beside this file: balls of points and rings of lines. On the left they have no normals: base colour
 and emission without light. In the middle they have normals, and a normal map that nothing can turn. On the right they
 have tangents, too."""
-import base64
 import json
 import math
 import pathlib
 import struct
 
+from gltf_buffer import accessors, add, add_view, buffers, views
+
 POINTS, LINES = 0, 1  # modes of primitives
 MAP = ("iVBORw0KGgoAAAANSUhEUgAAAAQAAAAECAYAAACp8Z5+AAAAP0lEQVR42iWKIRaAMBTD/sF6kn8a5CRyEomcRE72VqE8REWSFjpon9kFWlR7gCet"
        "O/Kh+KpSvSJ2HpqBvyLzAu/9LYz/yFTBAAAAAElFTkSuQmCC")
-buffer, views, accessors = bytearray(), [], []
-
-
-def view(data):
-    views.append({"buffer": 0, "byteOffset": len(buffer), "byteLength": len(data)})
-    buffer.extend(data)
-    return len(views) - 1
-
-
-def add(rows):
-    """An accessor of 32-bit floats."""
-    accessor = {"bufferView": view(b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)),
-                "componentType": 5126, "count": len(rows), "type": f"VEC{len(rows[0])}"}
-    if len(rows[0]) == 3:
-        stored = [struct.unpack("<3f", struct.pack("<3f", *row)) for row in rows]
-        accessor["min"] = [min(column) for column in zip(*stored)]
-        accessor["max"] = [max(column) for column in zip(*stored)]
-    accessors.append(accessor)
-    return len(accessors) - 1
 
 
 def sphere(count):
@@ -57,7 +39,7 @@ def rings():
 def ring_lines():
     """Indices of neighbours on the same ring."""
     pairs = [(ring * CORNERS + i, ring * CORNERS + (i + 1) % CORNERS) for ring in range(RINGS) for i in range(CORNERS)]
-    accessors.append({"bufferView": view(b"".join(struct.pack("<2H", *pair) for pair in pairs)), "componentType": 5123,
+    accessors.append({"bufferView": add_view(b"".join(struct.pack("<2H", *pair) for pair in pairs)), "componentType": 5123,
                       "count": 2 * len(pairs), "type": "SCALAR"})
     return len(accessors) - 1
 
@@ -77,7 +59,6 @@ for row, (mode, directions) in enumerate([(POINTS, list(sphere(900))), (LINES, l
             attributes = {**attributes, name: add(directions if name == "NORMAL" else [tangent(n) for n in directions])}
         meshes.append({"primitives": [{"mode": mode, "material": row, "attributes": attributes, **indices}]})
         nodes.append({"mesh": len(meshes) - 1, "translation": [column - 1, 0.5 - row, 0]})
-uri = "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
 document = {
     "asset": {"version": "2.0"},
     "scene": 0,
@@ -94,6 +75,6 @@ document = {
     "images": [{"uri": "data:image/png;base64," + MAP}],
     "accessors": accessors,
     "bufferViews": views,
-    "buffers": [{"byteLength": len(buffer), "uri": uri}],
+    "buffers": buffers(),
 }
 pathlib.Path(__file__).with_suffix(".gltf").write_text(json.dumps(document) + "\n")

@@ -37,7 +37,7 @@ TEST(Exr, WhatLosesNothingHasThePixelsThatWereWritten) {
         EXPECT_EQ(exrPicture(name).pixels, plain.pixels) << name;
 }
 
-TEST(Exr, WhatIsIntegersHasThePixelsThatOpenExrReads) {
+TEST(Exr, CodingsOfIntegersHaveThePixelsThatOpenExrReads) {
     for (const std::string name : { "pxr24_float", "b44", "b44a", "b44_perceptual" })
         EXPECT_EQ(exrPicture(name).pixels, exrPicture(name + ".decoded").pixels) << name;
 }
