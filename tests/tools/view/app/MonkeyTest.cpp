@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands that know nothing: keys, clicks, drags, text, files, sizes and pauses at random, for 5 s, and for minutes with
-// FILAMENT_STRESS. Nothing ends the process, validation has nothing to say, and afterwards the viewer still draws.
+// FILAMENT_STRESS. Nothing ends the process, Vulkan's validation has nothing to say, and afterwards it still draws.
 #include "tests/base/ScopedVariable.h"
 #include "tests/tools/view/app/HeadlessViewer.h"
 
