@@ -413,13 +413,16 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
     if (shading != 0) { // 0: the program's own defaults
         for (ConstantValue const& constant : shadingConstants(shading)) constants.push_back(constant);
     }
+    if (material.package.domain == shader::MaterialDomain::Surface) {
+        for (ConstantValue const& constant : shader::variantConstants(code.key)) constants.push_back(constant);
+    }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
     ProgramDesc desc{ .constants = constants,
                       .layout = shader::programLayout(material.package, code.key),
                       .debugName = material.name };
-    desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
-    desc.fragment =
-            spirv ? std::as_bytes(std::span(fragment.fragmentSpirv)) : std::as_bytes(std::span(fragment.fragmentEssl));
+    desc.vertex = spirv ? std::as_bytes(std::span(code.vertex->spirv)) : std::as_bytes(std::span(code.vertex->essl));
+    desc.fragment = spirv ? std::as_bytes(std::span(fragment.fragment->spirv))
+                          : std::as_bytes(std::span(fragment.fragment->essl));
     NewHandle program(mStream, mStream.allocateProgram());
     setup.record(CmdCreateProgram{ program, desc });
     return program.keep();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/Cost.h"
 
+#include "shaders/compiler/GlslToSpirv.h"
+
 #include <fmt/core.h>
 #include <spirv_cross/GLSL.std.450.h>
 #include <spirv_cross/spirv.hpp>
@@ -42,9 +44,9 @@ void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& count
 
 std::string nameOf(uint16_t key) {
     static constexpr std::pair<uint16_t, const char*> kBits[] = {
-        { kVariantSun, "sun" },       { kVariantPunctual, "punctual" }, { kVariantSkinning, "skinning" },
-        { kVariantHalf, "half" },     { kVariantMerged, "merged" },     { kVariantDepth, "depth" },
-        { kVariantMotion, "motion" }, { kVariantDebug, "debug" }
+        { kVariantSun, "sun" },           { kVariantPunctual, "punctual" }, { kVariantShadowReceiver, "shadows" },
+        { kVariantSkinning, "skinning" }, { kVariantHalf, "half" },         { kVariantMerged, "merged" },
+        { kVariantDepth, "depth" },       { kVariantMotion, "motion" },     { kVariantDebug, "debug" }
     };
     std::string name;
     for (auto const& [bit, word] : kBits) {
@@ -53,13 +55,18 @@ std::string nameOf(uint16_t key) {
     return name.empty() ? "none" : name;
 }
 
+/// What remains of the fragment stage, which variants share, for this one.
+InstructionCounts countsOf(Variant const& variant) {
+    const Result<std::vector<uint32_t>> alone = optimizeWith(variant.fragment->spirv, variantConstants(variant.key));
+    return countInstructions(alone ? *alone : variant.fragment->spirv);
+}
+
 std::string row(Variant const& variant, MaterialPackage const& cheapest) {
-    const InstructionCounts counts = countInstructions(variant.fragmentSpirv);
+    const InstructionCounts counts = countsOf(variant);
     std::string line = fmt::format("{:<20}{:>11}{:>15}{:>9}{:>8}{:>9}{:>7}", nameOf(variant.key), counts.arithmetic,
                                    counts.transcendental, counts.control, counts.memory, counts.fetches, counts.sum());
     if (Variant const* beside = cheapest.findVariant(variant.key)) {
-        const double ratio =
-                static_cast<double>(counts.sum()) / static_cast<double>(countInstructions(beside->fragmentSpirv).sum());
+        const double ratio = static_cast<double>(counts.sum()) / static_cast<double>(countsOf(*beside).sum());
         line += fmt::format("{:>13.2f}", ratio);
     }
     return line + "\n";

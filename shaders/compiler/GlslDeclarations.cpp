@@ -106,6 +106,11 @@ void declareConstant(StageText& out, QualityConstant const& constant) {
 
 } // namespace
 
+void declareVariants(StageText& out) {
+    for (VariantConstant const& constant : kVariantConstants)
+        out.line(fmt::format("layout(constant_id = {}) const int variant_{} = 0;", constant.id, constant.name));
+}
+
 void declareQuality(StageText& out) {
     for (QualityConstant const& constant : kQualityConstants) {
         if (constant.id != kQualityMipBias) declareConstant(out, constant); // which texture_bias.glsl declares

@@ -11,7 +11,9 @@ namespace filament::shader {
 
 /// The specialisation constants of <filament/Quality.h>: kQualityConstants of ShaderInterface.h.
 void declareQuality(StageText& out);
-/// Those of them that unlit materials have.
+/// Those of kVariantConstants of Package.h, for stages that several variants share.
+void declareVariants(StageText& out);
+/// Those of the first that unlit materials have.
 void declareUnlitQuality(StageText& out);
 /// Uniform block `materialParams`, textures `materialParams_name`, constants `materialConstants_name` (and, as in the
 /// guide's text, `materialConstant_name`). With kVariantMerged the currentPixel textures are subpass inputs.

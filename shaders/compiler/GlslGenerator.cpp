@@ -5,6 +5,7 @@
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/StageText.h"
+#include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 
@@ -124,10 +125,15 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
 
 bool reflectsPicture(MaterialPackage const& package) { return package.reflections == Reflections::ScreenSpace; }
 
+/// Whether some variant of the material has what the bit stands for.
+bool mayHave(MaterialDefinition const& definition, VariantBit bit) {
+    return (selectableBits(definition) & ~definition.package.filteredVariants & bit) != 0;
+}
+
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
-    defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
-    defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
-    defineIf(out, (variantKey & kVariantShadowReceiver) != 0, "VARIANT_SHADOW_RECEIVER");
+    defineIf(out, mayHave(definition, kVariantSun), "HAS_SUN");
+    defineIf(out, mayHave(definition, kVariantPunctual), "HAS_LIGHT_LIST");
+    defineIf(out, mayHave(definition, kVariantShadowReceiver), "RECEIVES_SHADOWS");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
     defineIf(out, definition.package.quality == MaterialQuality::Low, "QUALITY_LOW");
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
@@ -290,10 +296,11 @@ Result<void> areaLights(StageText& out, MaterialDefinition const& definition) {
 Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
                          uint16_t variantKey) {
     declareQuality(out);
+    declareVariants(out);
+    const bool hasLightList = mayHave(definition, kVariantPunctual);
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
-    if (done && (variantKey & kVariantPunctual) != 0)
-        done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
+    if (done && hasLightList) done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done)
         done = includeAll(out,
@@ -305,7 +312,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done) done = out.include("shaders/material/surface/output.glsl");
     if (done) done = includeTransparency(out, definition.package);
     if (done) done = includeFog(out, definition.package);
-    if (done && (variantKey & kVariantShadowReceiver) != 0) done = includeShadows(out, definition.package);
+    if (done && mayHave(definition, kVariantShadowReceiver)) done = includeShadows(out, definition.package);
     if (done)
         done = includeAll(out, { "shaders/lib/noise.glsl", "shaders/material/surface/facet.glsl",
                                  "shaders/material/surface/contact_shadows.glsl" });
@@ -322,8 +329,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
         done = includeAll(out, { "shaders/lib/reflection.glsl", "shaders/material/surface/reflections.glsl" });
     if (done) done = out.include(shadingText(definition.package.shading));
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_light.glsl");
-    if (done && (variantKey & kVariantPunctual) != 0) done = areaLights(out, definition);
-    if (done && (variantKey & kVariantPunctual) != 0) done = out.include("shaders/material/surface/profiles.glsl");
+    if (done && hasLightList) done = areaLights(out, definition);
+    if (done && hasLightList) done = out.include("shaders/material/surface/profiles.glsl");
     if (done) done = includeAll(out, { "shaders/material/surface/lights.glsl", "shaders/material/surface/main.glsl" });
     return done;
 }
@@ -409,11 +416,13 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
-    const bool isShadowed = (variantKey & kVariantShadowReceiver) != 0 && !isLit;
-    if (isShadowed)
+    const bool isShadowed = mayHave(definition, kVariantShadowReceiver) && !isLit;
+    if (isShadowed) {
         declareQuality(out);
-    else if (!isLit)
+        declareVariants(out);
+    } else if (!isLit) {
         declareUnlitQuality(out);
+    }
     if (done && isShadowed) done = includeShadows(out, definition.package);
     if (done && !isLit) done = includeFog(out, definition.package);
     if (done && !isLit) done = out.include("shaders/material/surface/output.glsl");
@@ -458,7 +467,7 @@ bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs)
 }
 
 uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage) {
-    if (stage == backend::ShaderStage::Fragment) return kAllVariantBits & ~kVariantSkinning;
+    if (stage == backend::ShaderStage::Fragment) return kAllVariantBits & ~(kVariantSkinning | kVariantConstantBits);
     const bool hasOwnDepth = definition.package.domain == MaterialDomain::Surface && !shapesDepth(definition, needs);
     return static_cast<uint16_t>(kVariantSkinning | kVariantMotion | (hasOwnDepth ? kVariantDepth : 0));
 }
@@ -484,8 +493,7 @@ Result<std::string> generateProbe(MaterialDefinition const& definition, Material
 Result<std::string> generateObserver(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      IncludeResolver const& includes) {
     if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, needs, 0, includes);
-    if (definition.customSurfaceShading)
-        return surfaceFragment(definition, needs, kVariantSun | kVariantPunctual, includes);
+    if (definition.customSurfaceShading) return surfaceFragment(definition, needs, 0, includes);
     StageText out = stageOf(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
     if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();

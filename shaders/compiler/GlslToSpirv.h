@@ -27,8 +27,9 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
 Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,
                                             Optimization goal = Optimization::Performance);
 
-/// The same as if the bool specialisation constants with these ids were false.
-Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv, std::span<const uint32_t> constants);
+/// The same as if specialisation constants, bools or ints, had these values.
+Result<std::vector<uint32_t>> optimizeWith(std::span<const uint32_t> spirv,
+                                           std::span<const backend::ConstantValue> constants);
 
 /// Converts everything marked RelaxedPrecision to 16-bit floats, with conversions at the boundaries. Vulkan drivers may
 /// do so themselves; Mesa's does not, so the compiler does.

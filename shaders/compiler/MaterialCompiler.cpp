@@ -111,6 +111,7 @@ struct Stage {
     backend::ShaderStage stage = backend::ShaderStage::Vertex;
     uint16_t key = 0; ///< the bits that its text depends on
     std::optional<Result<StageShader>> compiled{};
+    SharedStage code{}; ///< once nothing failed
 };
 
 std::vector<Stage> distinctStages(Prepared const& prepared, std::span<const uint16_t> keys) {
@@ -192,11 +193,15 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
         if (!*stage.compiled) errors.push_back(withSuggestion(stage.compiled->error(), prepared->definition));
     }
     if (!errors.empty()) return joined(errors);
+    for (Stage& stage : stages) {
+        StageShader& shader = **stage.compiled;
+        stage.code = sharedStage({ std::move(shader.spirv), std::move(shader.essl) });
+    }
     for (const uint16_t key : prepared->keys) {
-        StageShader const& vertex = **stageOf(stages, *prepared, backend::ShaderStage::Vertex, key).compiled;
-        StageShader const& fragment = **stageOf(stages, *prepared, backend::ShaderStage::Fragment, key).compiled;
-        if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex.vertexInputs;
-        package.variants.push_back({ key, vertex.spirv, fragment.spirv, vertex.essl, fragment.essl });
+        Stage const& vertex = stageOf(stages, *prepared, backend::ShaderStage::Vertex, key);
+        Stage const& fragment = stageOf(stages, *prepared, backend::ShaderStage::Fragment, key);
+        if ((key & kVariantSkinning) == 0) package.requiredAttributes |= (*vertex.compiled)->vertexInputs;
+        package.variants.push_back({ key, vertex.code, fragment.code });
     }
     if (options.warnings)
         *options.warnings = materialWarnings(prepared->definition, prepared->needs, prepared->includes);

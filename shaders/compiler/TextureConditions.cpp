@@ -65,7 +65,9 @@ Result<void> checkTextureConditions(MaterialDefinition const& definition, Materi
     if (!code) return code.error();
     for (size_t i = 0; i < parameters.size(); ++i) {
         if (!isConditional(parameters[i])) continue;
-        const Result<Words> without = optimizeWithFalse(*code, parameters[i].usedIf);
+        std::vector<backend::ConstantValue> allFalse;
+        for (const uint32_t id : parameters[i].usedIf) allFalse.push_back({ .id = id });
+        const Result<Words> without = optimizeWith(*code, allFalse);
         if (!without) return without.error();
         if (!loads(*without, parameters[i].binding)) continue;
         return errorAt(definition.parameterSources[i].at,

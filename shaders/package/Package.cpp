@@ -2,6 +2,7 @@
 #include "shaders/package/Package.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace filament::shader {
 namespace {
@@ -13,6 +14,21 @@ T const* find(std::vector<T> const& things, Key const& key, auto member) {
 }
 
 } // namespace
+
+SharedStage sharedStage(StageCode code) {
+    static const SharedStage none = std::make_shared<const StageCode>();
+    return code == StageCode{} ? none : std::make_shared<const StageCode>(std::move(code));
+}
+
+std::array<backend::ConstantValue, kVariantConstants.size()> variantConstants(uint16_t key) {
+    std::array<backend::ConstantValue, kVariantConstants.size()> values;
+    std::ranges::transform(kVariantConstants, values.begin(), [&](VariantConstant const& constant) {
+        return backend::ConstantValue{ .id = constant.id,
+                                       .bits = (key & constant.bit) != 0 ? 1u : 0u,
+                                       .type = backend::ConstantValue::Type::Int };
+    });
+    return values;
+}
 
 Variant const* MaterialPackage::findVariant(uint32_t key) const { return find(variants, key, &Variant::key); }
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -85,6 +86,20 @@ enum VariantBit : uint16_t {
 };
 inline constexpr uint16_t kAllVariantBits = 8191;
 
+/// Bits that choose what one fragment stage computes, instead of a stage of their own: the specialisation constant
+/// `variant_<name>` of surfaces is 1 if the key has the bit, and 0 otherwise.
+struct VariantConstant {
+    const char* name;
+    uint16_t bit;
+    uint32_t id; ///< behind those of QualityConstantId
+};
+inline constexpr std::array kVariantConstants{ VariantConstant{ "sun", kVariantSun, 1100 },
+                                               VariantConstant{ "lightList", kVariantPunctual, 1101 },
+                                               VariantConstant{ "shadows", kVariantShadowReceiver, 1102 } };
+inline constexpr uint16_t kVariantConstantBits = kVariantSun | kVariantPunctual | kVariantShadowReceiver;
+/// The values for a variant, in the order of kVariantConstants.
+std::array<backend::ConstantValue, kVariantConstants.size()> variantConstants(uint16_t key);
+
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {
     backend::BlendFactor sourceColor = backend::BlendFactor::One, sourceAlpha = backend::BlendFactor::One;
@@ -92,11 +107,25 @@ struct BlendFunction {
     friend bool operator==(BlendFunction const&, BlendFunction const&) = default;
 };
 
+/// The code of a stage in both languages; a language that was not compiled is empty.
+struct StageCode {
+    std::vector<uint32_t> spirv;
+    std::string essl;
+    friend bool operator==(StageCode const&, StageCode const&) = default;
+};
+
+/// Variants, and copies of packages, share code, which nobody changes: a lit material has one fragment stage for all
+/// sets of lights. Never null.
+using SharedStage = std::shared_ptr<const StageCode>;
+SharedStage sharedStage(StageCode code);
+
 struct Variant {
     uint16_t key = 0;
-    std::vector<uint32_t> vertexSpirv, fragmentSpirv;
-    std::string vertexEssl, fragmentEssl;
-    friend bool operator==(Variant const&, Variant const&) = default;
+    SharedStage vertex = sharedStage({}), fragment = sharedStage({});
+    /// Compares the code, not where it is.
+    friend bool operator==(Variant const& a, Variant const& b) {
+        return a.key == b.key && *a.vertex == *b.vertex && *a.fragment == *b.fragment;
+    }
 };
 
 struct MaterialPackage {

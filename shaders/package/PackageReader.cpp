@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace filament::shader {
 namespace {
@@ -191,43 +192,53 @@ bool readCode(ByteReader in, Code& out) {
     return in.atEnd() && !in.failed();
 }
 
-/// Returns pieces of code, provided that they exist and together have no more than `bytesLeft`.
-struct CodeReader {
-    Code const& code;
-    size_t bytesLeft;
+/// Returns stages, each of which is made once, provided that their code exists and together has no more than
+/// `bytesLeft`.
+class StageReader {
+public:
+    StageReader(Code const& code, size_t bytesLeft) : mCode(code), mBytesLeft(bytesLeft) {}
 
-    std::span<const std::byte> piece(ByteReader& in, bool& good) {
-        const uint32_t index = in.u32();
-        good = good && index < code.size() && code[index].size() <= bytesLeft;
-        if (!good) return {};
-        bytesLeft -= code[index].size();
-        return code[index];
+    SharedStage stage(ByteReader& in, bool& good) {
+        const uint32_t spirv = in.u32(), essl = in.u32();
+        const auto known = mStages.find({ spirv, essl });
+        if (known != mStages.end()) return known->second;
+        StageCode code;
+        code.spirv = words(piece(spirv, good), good);
+        const auto text = piece(essl, good);
+        code.essl.assign(reinterpret_cast<const char*>(text.data()), text.size());
+        if (!good) return sharedStage({});
+        return mStages[{ spirv, essl }] = sharedStage(std::move(code));
     }
-    std::vector<uint32_t> words(ByteReader& in, bool& good) {
-        const auto bytes = piece(in, good);
+
+private:
+    std::span<const std::byte> piece(uint32_t index, bool& good) {
+        good = good && index < mCode.size() && mCode[index].size() <= mBytesLeft;
+        if (!good) return {};
+        mBytesLeft -= mCode[index].size();
+        return mCode[index];
+    }
+    static std::vector<uint32_t> words(std::span<const std::byte> bytes, bool& good) {
         good = good && bytes.size() % 4 == 0;
         ByteReader from(bytes);
         std::vector<uint32_t> values(good ? bytes.size() / 4 : 0);
         for (uint32_t& value : values) value = from.u32();
         return values;
     }
-    std::string text(ByteReader& in, bool& good) {
-        const auto bytes = piece(in, good);
-        return { reinterpret_cast<const char*>(bytes.data()), bytes.size() };
-    }
+
+    Code const& mCode;
+    size_t mBytesLeft;
+    std::map<std::pair<uint32_t, uint32_t>, SharedStage> mStages;
 };
 
-bool readVariants(ByteReader in, CodeReader code, std::vector<Variant>& out) {
+bool readVariants(ByteReader in, StageReader stages, std::vector<Variant>& out) {
     const uint32_t count = in.u32();
     if (count > kMaxVariants) return false;
     bool good = true;
     for (uint32_t i = 0; i < count && good && !in.failed(); ++i) {
         Variant variant;
         variant.key = in.u16();
-        variant.vertexSpirv = code.words(in, good);
-        variant.fragmentSpirv = code.words(in, good);
-        variant.vertexEssl = code.text(in, good);
-        variant.fragmentEssl = code.text(in, good);
+        variant.vertex = stages.stage(in, good);
+        variant.fragment = stages.stage(in, good);
         if ((variant.key & ~kAllVariantBits) != 0) return false;
         if (!out.empty() && variant.key <= out.back().key) return false;
         out.push_back(std::move(variant));
@@ -304,8 +315,7 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     if (!unpacked) return unpacked.error();
     Code code;
     if (!readCode(ByteReader(*unpacked), code)) return corruptPackage("the code of the variants is malformed");
-    const CodeReader pieces{ code, kMaxCodeBytes };
-    if (!readVariants(section(kSectionVariants), pieces, package.variants))
+    if (!readVariants(section(kSectionVariants), StageReader(code, kMaxCodeBytes), package.variants))
         return corruptPackage("the variants are malformed");
     if (Result<void> consistent = checkConsistency(package); !consistent) return consistent.error();
     markMultisampled(package);

@@ -167,10 +167,10 @@ ByteWriter variantSection(std::span<const Variant> variants, CodePool& code) {
     out.u32(static_cast<uint32_t>(variants.size()));
     for (Variant const& variant : variants) {
         out.u16(variant.key);
-        out.u32(code.add(variant.vertexSpirv));
-        out.u32(code.add(variant.fragmentSpirv));
-        out.u32(code.add(variant.vertexEssl));
-        out.u32(code.add(variant.fragmentEssl));
+        for (SharedStage const& stage : { variant.vertex, variant.fragment }) {
+            out.u32(code.add(stage->spirv));
+            out.u32(code.add(stage->essl));
+        }
     }
     return out;
 }

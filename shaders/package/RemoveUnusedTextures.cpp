@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <utility>
 
 namespace filament::shader {
 namespace {
@@ -145,11 +146,22 @@ void removeUnusedTextures(MaterialPackage& package, std::span<const ConstantValu
     if (moves.empty()) return;
     MaterialPackage after{ .parameters = package.parameters, .layout = package.layout }; // the input of programLayout()
     after.layout[kGroupMaterial] = without(package.layout[kGroupMaterial], moves);
+    // Variants that share a stage number what it reads alike.
+    std::map<SharedStage, SharedStage> moved;
+    const auto move = [&](SharedStage& stage, bool isFragment, std::array<uint8_t, 256> const& units) {
+        SharedStage& known = moved[stage];
+        if (!known) {
+            StageCode code = *stage;
+            if (isFragment) moveInSpirv(code.spirv, moves);
+            code.essl = moveInEssl(code.essl, units); // a vertex stage may have textures of the Deformation group
+            known = sharedStage(std::move(code));
+        }
+        stage = known;
+    };
     for (Variant& variant : package.variants) {
-        moveInSpirv(variant.fragmentSpirv, moves);
         const auto units = unitMoves(programLayout(package, variant.key), programLayout(after, variant.key), moves);
-        variant.vertexEssl = moveInEssl(variant.vertexEssl, units); // it may have textures of the Deformation group
-        variant.fragmentEssl = moveInEssl(variant.fragmentEssl, units);
+        move(variant.vertex, false, units);
+        move(variant.fragment, true, units);
     }
     package.layout = after.layout;
 }

@@ -6,6 +6,7 @@
 #include "base/Assert.h"
 #include "filament_core/engine/materials/CheckSpirv.h"
 #include "shaders/package/EngineMaterials.h"
+#include "tests/shaders/EditStage.h"
 
 #include <algorithm>
 #include <cstring>
@@ -20,7 +21,7 @@ inline bool fuzzSpirv(std::span<const uint8_t> input) {
     if (input.empty()) return false;
     shader::MaterialPackage package = original;
     shader::Variant& variant = package.variants[input[0] / 2 % package.variants.size()];
-    std::vector<uint32_t>& words = input[0] % 2 == 0 ? variant.vertexSpirv : variant.fragmentSpirv;
+    std::vector<uint32_t>& words = shader::test::editable(input[0] % 2 == 0 ? variant.vertex : variant.fragment).spirv;
     for (input = input.subspan(1); input.size() >= 8; input = input.subspan(8)) {
         uint32_t edit[2];
         std::memcpy(edit, input.data(), sizeof edit);

@@ -108,8 +108,8 @@ void describeVariants(std::string& out, MaterialPackage const& package) {
                        "vert. ESSL", "frag. ESSL", "vert. op", "frag. op", "for");
     for (Variant const& each : package.variants) {
         out += fmt::format("  {:>5} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}  {}\n", each.key,
-                           each.vertexSpirv.size() * 4, each.fragmentSpirv.size() * 4, each.vertexEssl.size(),
-                           each.fragmentEssl.size(), operations(each.vertexSpirv), operations(each.fragmentSpirv),
+                           each.vertex->spirv.size() * 4, each.fragment->spirv.size() * 4, each.vertex->essl.size(),
+                           each.fragment->essl.size(), operations(each.vertex->spirv), operations(each.fragment->spirv),
                            variantName(each.key));
     }
 }
@@ -136,8 +136,8 @@ Result<std::string> codeOf(MaterialPackage const& package, uint32_t key, Stage s
     Variant const* variant = package.findVariant(key);
     if (!variant)
         return fail(ErrorCode::NotFound, "the package has no variant {}; without --variant, matinfo lists them", key);
-    std::vector<uint32_t> const& spirv = stage == Stage::Vertex ? variant->vertexSpirv : variant->fragmentSpirv;
-    std::string const& essl = stage == Stage::Vertex ? variant->vertexEssl : variant->fragmentEssl;
+    std::vector<uint32_t> const& spirv = stage == Stage::Vertex ? variant->vertex->spirv : variant->fragment->spirv;
+    std::string const& essl = stage == Stage::Vertex ? variant->vertex->essl : variant->fragment->essl;
     const bool isMissing = language == Language::Spirv ? spirv.empty() : essl.empty();
     if (isMissing)
         return fail(ErrorCode::NotFound, "the package was compiled without this language; compile it with matc -a all");

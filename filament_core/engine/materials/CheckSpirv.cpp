@@ -117,7 +117,7 @@ Result<void> checkSpirv(shader::MaterialPackage const& package) {
     for (shader::Variant const& variant : package.variants) {
         const backend::ProgramLayout layout = shader::programLayout(package, variant.key);
         for (const bool isVertex : { true, false }) {
-            Words const& words = isVertex ? variant.vertexSpirv : variant.fragmentSpirv;
+            Words const& words = isVertex ? variant.vertex->spirv : variant.fragment->spirv;
             if (words.empty() || isChecked(words, layout)) continue; // empty: a package for OpenGL ES only
             checked.emplace_back(&words, layout);
             const auto stage = isVertex ? spv::ExecutionModelVertex : spv::ExecutionModelFragment;

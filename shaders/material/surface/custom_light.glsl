@@ -4,10 +4,8 @@
 
 // LightData::visibility is one number: what a coloured shadow is beyond it goes into the light's colour.
 highp vec3 tintedByShadow(highp vec3 color, highp vec3 visibility) {
-#if defined(VARIANT_SHADOW_RECEIVER)
     highp float most = max3(visibility);
-    if (quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;
-#endif
+    if (variant_shadows != 0 && quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;
     return color;
 }
 

@@ -8,7 +8,7 @@
 #define SKIP_IN_SHADOW(visibility) if (max3(visibility) <= 0.0) continue;
 #endif
 
-#if defined(VARIANT_PUNCTUAL)
+#if defined(HAS_LIGHT_LIST)
 
 #include "shaders/material/surface/light_list.glsl"
 
@@ -62,9 +62,11 @@ highp vec3 punctualLights(Surface surface) {
             }
         }
         highp vec3 visibility = vec3(1.0);
-#if defined(VARIANT_SHADOW_RECEIVER)
-        visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
-        SKIP_IN_SHADOW(visibility)
+#if defined(RECEIVES_SHADOWS)
+        if (variant_shadows != 0) {
+            visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
+            SKIP_IN_SHADOW(visibility)
+        }
 #endif
         if (quality_contactShadows != 0) {
             bool isAsked = (int(lightBuffer.lights[index].offset.z) & kContactShadowBit) != 0;
@@ -95,11 +97,12 @@ highp vec3 punctualLights(Surface surface) {
 
 #endif
 
-void addLights(Surface surface, inout highp vec3 sum) {
-#if defined(VARIANT_SUN)
+#if defined(HAS_SUN)
+
+highp vec3 sunLight(Surface surface) {
     highp vec3 visibility = vec3(1.0);
-#if defined(VARIANT_SHADOW_RECEIVER)
-    visibility = sunVisibility();
+#if defined(RECEIVES_SHADOWS)
+    if (variant_shadows != 0) visibility = sunVisibility();
 #endif
     if (quality_contactShadows != 0) {
         bool isAsked = frameUniforms.contactShadows.w > 0.0 && max3(visibility) > 0.0;
@@ -114,9 +117,16 @@ void addLights(Surface surface, inout highp vec3 sum) {
     sun.visibility = max3(visibility);
     sun.position = vertex_worldPosition + sun.direction;
 #endif
-    sum += shadeLight(surface, sun);
+    return shadeLight(surface, sun);
+}
+
 #endif
-#if defined(VARIANT_PUNCTUAL)
-    sum += punctualLights(surface);
+
+void addLights(Surface surface, inout highp vec3 sum) {
+#if defined(HAS_SUN)
+    if (variant_sun != 0) sum += sunLight(surface);
+#endif
+#if defined(HAS_LIGHT_LIST)
+    if (variant_lightList != 0) sum += punctualLights(surface);
 #endif
 }

@@ -8,11 +8,7 @@ void takeDerivatives() {
     shading_normalRight = dFdx(shading_geometricNormal);
     shading_normalDown = dFdy(shading_geometricNormal);
 #endif
-#if defined(VARIANT_SHADOW_RECEIVER)
-    computeFacet();
-#else
-    if (quality_contactShadows != 0) computeFacet();
-#endif
+    if (variant_shadows != 0 || quality_contactShadows != 0) computeFacet();
 }
 
 void main() {

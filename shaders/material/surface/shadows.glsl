@@ -11,7 +11,7 @@
 // the caster fills as many texels as it stops of that colour (McGuire and Enderton 2011, "Colored Stochastic Shadow
 // Maps").
 
-#if defined(VARIANT_SHADOW_RECEIVER)
+#if defined(RECEIVES_SHADOWS)
 
 #include "shaders/material/surface/facet.glsl"
 

@@ -5,8 +5,8 @@ void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
-#if defined(SHADOW_MULTIPLIER) && defined(VARIANT_SHADOW_RECEIVER)
-    computeFacet(); // before a discard: takeDerivatives() of lit materials
+#if defined(SHADOW_MULTIPLIER) && defined(RECEIVES_SHADOWS)
+    if (variant_shadows != 0) computeFacet(); // before a discard: takeDerivatives() of lit materials
 #endif
     material(inputs);
     applyMask(inputs.baseColor);
@@ -17,11 +17,12 @@ void main() {
     addEmissive(inputs, color);
 #if defined(SHADOW_MULTIPLIER)
     // The material's colour is that of a full shadow of the sun (materials guide, 4.2.29).
-#if defined(VARIANT_SHADOW_RECEIVER)
-    color *= vec4(1.0) - sunVisibility().rgbg; // coverage, as there is only one, is that of green
-#else
-    color = vec4(0.0);
+    highp vec4 darkened = vec4(0.0);
+#if defined(RECEIVES_SHADOWS)
+    if (variant_shadows != 0)
+        darkened = color * (vec4(1.0) - sunVisibility().rgbg); // coverage, as there is only one, is that of green
 #endif
+    color = darkened;
 #endif
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)

@@ -86,7 +86,9 @@ private:
         material.id = id;
         material.name = "material " + std::to_string(id);
         if (id % 3 == 2) material.package.shading = shader::ShadingModel::Unlit;
-        material.package.variants.push_back({ .key = 0, .vertexSpirv = { 1 }, .fragmentSpirv = { 2 } });
+        material.package.variants.push_back({ .key = 0,
+                                              .vertex = shader::sharedStage({ { 1 }, "" }),
+                                              .fragment = shader::sharedStage({ { 2 }, "" }) });
     }
 
     /// Some share their buffers, two vertex layouts, both index types.

@@ -95,8 +95,9 @@ TEST(ChoosePipelines, UnlitMaterialsShareOnePipelineBetweenVariants) {
 
 TEST(ChoosePipelines, HalfPrecisionTakesAProgramOfItsOwnWhereTheMaterialHasOneAndElseTheFullOne) {
     DrawFixture fixture(2, 2, 1);
-    fixture.materials[0].package.variants.push_back(
-            { .key = shader::kVariantHalf, .vertexSpirv = { 1 }, .fragmentSpirv = { 3 } });
+    fixture.materials[0].package.variants.push_back({ .key = shader::kVariantHalf,
+                                                      .vertex = shader::sharedStage({ { 1 }, "" }),
+                                                      .fragment = shader::sharedStage({ { 3 }, "" }) });
     const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0), fixture.draw(1, 0, 1) };
     CommandBuffer setup;
     const auto full = fixture.choose(draws, setup);

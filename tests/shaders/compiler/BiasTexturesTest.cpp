@@ -22,7 +22,7 @@ void PrintTo(LookUps const& l, std::ostream* out) {
 
 bool readsMipBias(Variant const& variant) {
     const std::string constant = "SPIRV_CROSS_CONSTANT_ID_" + std::to_string(kQualityMipBias);
-    return variant.fragmentEssl.find(constant) != std::string::npos;
+    return variant.fragment->essl.find(constant) != std::string::npos;
 }
 
 LookUps lookUpsOf(std::span<const uint32_t> module) {
@@ -69,8 +69,8 @@ TEST(BiasTextures, MakesEveryLookUpByDerivativesASecondTimeWithABias) {
     };
     for (auto const& [code, expected] : cases) {
         const Variant variant = compiled(inMaterial(code));
-        EXPECT_EQ(lookUpsOf(variant.fragmentSpirv), expected) << code;
-        EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << code;
+        EXPECT_EQ(lookUpsOf(variant.fragment->spirv), expected) << code;
+        EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "") << code;
         EXPECT_EQ(readsMipBias(variant), expected.biased + expected.byGradients > 0) << code;
     }
 }
@@ -81,8 +81,8 @@ TEST(BiasTextures, FindsLookUpsInFunctionsMacrosAndLoops) {
                                      "void material(inout MaterialInputs m) { prepareMaterial(m);\n"
                                      "for (int i = 0; i < int(getUV0().x * 9.0); ++i)\n"
                                      "    m.baseColor += seen(materialParams_a, getUV0() * float(i)); }");
-    EXPECT_EQ(lookUpsOf(variant.fragmentSpirv), (LookUps{ 1, 1, 0, 0 }));
-    EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "");
+    EXPECT_EQ(lookUpsOf(variant.fragment->spirv), (LookUps{ 1, 1, 0, 0 }));
+    EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "");
 }
 
 TEST(BiasTextures, LeavesWhatHasNoTexturesAndWhatDrawsPicturesAlone) {
@@ -94,7 +94,7 @@ TEST(BiasTextures, LeavesWhatHasNoTexturesAndWhatDrawsPicturesAlone) {
             "p.color = texture(materialParams_a, getNormalizedUV()); } }",
             "p.mat");
     ASSERT_TRUE(picture) << picture.error().message;
-    EXPECT_EQ(lookUpsOf(picture->findVariant(0)->fragmentSpirv), (LookUps{ 1, 0, 0, 0 }));
+    EXPECT_EQ(lookUpsOf(picture->findVariant(0)->fragment->spirv), (LookUps{ 1, 0, 0, 0 }));
 }
 
 } // namespace

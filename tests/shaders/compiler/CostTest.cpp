@@ -40,7 +40,7 @@ TEST(Cost, GrowsWithEveryFetchOfAMaterial) {
                                         code + " } }",
                                 "a.mat");
         EXPECT_TRUE(package) << (package ? "" : package.error().message);
-        return countInstructions(package->variants[0].fragmentSpirv).fetches;
+        return countInstructions(package->variants[0].fragment->spirv).fetches;
     };
     const uint32_t none = fetches("prepareMaterial(m);");
     EXPECT_EQ(fetches("prepareMaterial(m); m.baseColor = texture(materialParams_t, getUV0());"), none + 2)

@@ -148,8 +148,8 @@ TEST(ForeignMaterials, AllCompile) {
         if (!package) continue;
         ++compiled;
         for (Variant const& variant : package->variants) {
-            EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << text;
-            EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << text;
+            EXPECT_EQ(test::validationErrors(variant.vertex->spirv), "") << text;
+            EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "") << text;
         }
     }
     std::printf("%zu of %zu materials in the style of other engines compile\n", compiled, std::size(kMaterials));

@@ -114,7 +114,7 @@ TEST(MaterialCompiler, KeepsConstantsWithTheirDefaults) {
     EXPECT_EQ(package->findConstant("on")->defaultBits, 1u);
     EXPECT_EQ(static_cast<int32_t>(package->findConstant("count")->defaultBits), -7);
     EXPECT_EQ(std::bit_cast<float>(package->findConstant("scale")->defaultBits), 0.25f);
-    EXPECT_THAT(package->variants[0].fragmentEssl, HasSubstr("#define SPIRV_CROSS_CONSTANT_ID_1 -7"));
+    EXPECT_THAT(package->variants[0].fragment->essl, HasSubstr("#define SPIRV_CROSS_CONSTANT_ID_1 -7"));
 }
 
 TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
@@ -139,7 +139,7 @@ TEST(MaterialCompiler, TakesTheDerivativesOfMaskedMaterialsBeforeTheyDiscard) {
         ASSERT_TRUE(package) << package.error().message;
         size_t differentiating = 0;
         for (Variant const& variant : package->variants) {
-            const test::DerivativeUse use = test::derivativeUse(variant.fragmentSpirv);
+            const test::DerivativeUse use = test::derivativeUse(variant.fragment->spirv);
             EXPECT_EQ(use.afterDiscard, 0u) << model << ' ' << int{ variant.key };
             differentiating += use.hasDiscard && use.beforeDiscard > 0;
         }
@@ -239,8 +239,8 @@ TEST(MaterialCompiler, CompilesOneVariantAloneWithTheBytesThatItHasAmongAll) {
     ASSERT_TRUE(all && one);
     ASSERT_EQ(one->variants.size(), 1u);
     const auto same = std::ranges::find(all->variants, kVariantSun, &Variant::key);
-    EXPECT_EQ(one->variants[0].fragmentSpirv, same->fragmentSpirv);
-    EXPECT_EQ(one->variants[0].vertexEssl, same->vertexEssl);
+    EXPECT_EQ(one->variants[0].fragment->spirv, same->fragment->spirv);
+    EXPECT_EQ(one->variants[0].vertex->essl, same->vertex->essl);
     const Result<MaterialPackage> none =
             compile(withProperties("shadingModel : unlit"), { .onlyVariant = kVariantSun });
     ASSERT_FALSE(none);
@@ -309,8 +309,8 @@ TEST(MaterialCompiler, KeepsEveryOtherVariantAsItIsWithoutDebugViews) {
         EXPECT_EQ(with->requiredAttributes, without->requiredAttributes) << properties;
         for (Variant const& variant : with->variants) {
             if ((variant.key & kVariantDebug) == 0) continue;
-            EXPECT_EQ(variant.vertexSpirv, with->findVariant(variant.key & kVariantSkinning)->vertexSpirv);
-            EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "");
+            EXPECT_EQ(variant.vertex->spirv, with->findVariant(variant.key & kVariantSkinning)->vertex->spirv);
+            EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "");
         }
     }
 }
@@ -327,10 +327,10 @@ TEST(MaterialCompiler, DeformsInTheVertexStageAlone) {
         EXPECT_EQ(variant, *all->findVariant(variant.key)) << "what is not deformed keeps its code";
         Variant const* deformed = all->findVariant(variant.key | kVariantSkinning);
         ASSERT_TRUE(deformed);
-        EXPECT_EQ(deformed->fragmentSpirv, variant.fragmentSpirv);
-        EXPECT_EQ(deformed->fragmentEssl, variant.fragmentEssl);
-        EXPECT_NE(deformed->vertexSpirv, variant.vertexSpirv);
-        EXPECT_EQ(test::validationErrors(deformed->vertexSpirv), "");
+        EXPECT_EQ(deformed->fragment->spirv, variant.fragment->spirv);
+        EXPECT_EQ(deformed->fragment->essl, variant.fragment->essl);
+        EXPECT_NE(deformed->vertex->spirv, variant.vertex->spirv);
+        EXPECT_EQ(test::validationErrors(deformed->vertex->spirv), "");
     }
 }
 
@@ -338,7 +338,7 @@ TEST(MaterialCompiler, GivesUpJointsFiveToEightForCustomAttributesInTheirPlaces)
     const auto vertexOf = [](std::string_view properties) {
         const Result<MaterialPackage> package = compile(withProperties(properties));
         EXPECT_TRUE(package) << (package ? "" : package.error().message);
-        return package ? package->findVariant(kVariantSkinning)->vertexEssl : std::string();
+        return package ? package->findVariant(kVariantSkinning)->vertex->essl : std::string();
     };
     EXPECT_THAT(vertexOf("shadingModel : unlit"), HasSubstr("mesh_weights1"));
     EXPECT_THAT(vertexOf("shadingModel : unlit, requires : [ custom6 ]"), Not(HasSubstr("mesh_weights1")));
@@ -355,13 +355,13 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
         Variant const &full = both->variants[i], &half = both->variants[i + 7];
         EXPECT_EQ(full, plain->variants[i]);
         EXPECT_EQ(half.key, full.key | kVariantHalf);
-        EXPECT_EQ(half.vertexSpirv, full.vertexSpirv) << "positions keep their precision";
-        EXPECT_EQ(test::validationErrors(half.fragmentSpirv), "");
-        EXPECT_THAT(test::disassembly(half.fragmentSpirv), HasSubstr("OpCapability Float16"));
-        EXPECT_THAT(test::disassembly(half.fragmentSpirv), HasSubstr("OpFMul %v3half"));
-        EXPECT_THAT(test::disassembly(full.fragmentSpirv), Not(HasSubstr("Float16")));
-        EXPECT_THAT(half.fragmentEssl, HasSubstr("mediump vec3"));
-        EXPECT_THAT(full.fragmentEssl, Not(HasSubstr("mediump vec3")));
+        EXPECT_EQ(half.vertex->spirv, full.vertex->spirv) << "positions keep their precision";
+        EXPECT_EQ(test::validationErrors(half.fragment->spirv), "");
+        EXPECT_THAT(test::disassembly(half.fragment->spirv), HasSubstr("OpCapability Float16"));
+        EXPECT_THAT(test::disassembly(half.fragment->spirv), HasSubstr("OpFMul %v3half"));
+        EXPECT_THAT(test::disassembly(full.fragment->spirv), Not(HasSubstr("Float16")));
+        EXPECT_THAT(half.fragment->essl, HasSubstr("mediump vec3"));
+        EXPECT_THAT(full.fragment->essl, Not(HasSubstr("mediump vec3")));
     }
     EXPECT_THAT(
             failureOf("material { shadingModel : unlit, halfPrecision : true }" + std::string(kEmptyFragment)).message,
@@ -378,7 +378,7 @@ TEST(MaterialCompiler, KeepsAllBitsOfWhatAsksForMediumPrecisionUnlessItIsInexact
     for (const bool exact : { true, false }) {
         const Result<MaterialPackage> package = compileMaterial(text, "a.mat", { .exact = exact });
         ASSERT_TRUE(package) << package.error().message;
-        const std::string& essl = package->variants[0].fragmentEssl;
+        const std::string& essl = package->variants[0].fragment->essl;
         EXPECT_EQ(essl.find("uniform mediump") == std::string::npos, exact) << essl;
         EXPECT_EQ(essl.find("mediump vec4") == std::string::npos, exact) << essl;
     }
@@ -408,7 +408,7 @@ TEST(MaterialCompiler, MakesTexturesAndSubpassInputsOfWhatReadsItsOwnPixel) {
     ASSERT_EQ(package->variants.size(), 2u);
     const auto sampled = programLayout(*package, 0)[kGroupMaterial].bindings;
     for (int i = 0; i < 3; ++i) EXPECT_EQ(sampled[i].type, SampledTexture);
-    std::string const& alone = package->findVariant(0)->fragmentEssl;
+    std::string const& alone = package->findVariant(0)->fragment->essl;
     EXPECT_THAT(alone, HasSubstr("layout(location = 0) out"));
     EXPECT_THAT(alone, HasSubstr("texelFetch(materialParams_a"));
 
@@ -416,7 +416,7 @@ TEST(MaterialCompiler, MakesTexturesAndSubpassInputsOfWhatReadsItsOwnPixel) {
     const backend::BindingType types[] = { InputAttachment, SampledTexture, InputAttachment };
     for (int i = 0; i < 3; ++i) EXPECT_EQ(merged[i].type, types[i]);
     EXPECT_EQ(merged[2].inputAttachment, 1);
-    std::string const& behind = package->findVariant(kVariantMerged)->fragmentEssl;
+    std::string const& behind = package->findVariant(kVariantMerged)->fragment->essl;
     EXPECT_THAT(behind, HasSubstr("layout(location = 0) inout"));
     EXPECT_THAT(behind, HasSubstr("layout(location = 1) inout"));
     EXPECT_THAT(behind, HasSubstr("layout(location = 2) out"));
@@ -466,7 +466,7 @@ TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
     EXPECT_EQ(package->layout[kGroupView], viewGroupLayout());
     EXPECT_EQ(package->layout[kGroupPass], passGroupLayout(PassKind::Picture));
     EXPECT_EQ(package->layout[kGroupMaterial].bindings[1].inputAttachment, 1);
-    std::string const& essl = package->variants[0].fragmentEssl;
+    std::string const& essl = package->variants[0].fragment->essl;
     EXPECT_THAT(essl, HasSubstr("layout(location = 0) inout"));
     EXPECT_THAT(essl, HasSubstr("layout(location = 1) inout"));
     EXPECT_THAT(essl, HasSubstr("layout(location = 2) out"));
@@ -485,12 +485,12 @@ TEST(MaterialCompiler, GivesTheSameBytesForAnyNumberOfWorkers) {
 TEST(MaterialCompiler, LeavesOutTheLanguageThatNobodyAskedFor) {
     const Result<MaterialPackage> vulkan = compile(withProperties("shadingModel : unlit"), { .essl = false });
     ASSERT_TRUE(vulkan);
-    EXPECT_TRUE(vulkan->variants[0].vertexEssl.empty() && vulkan->variants[0].fragmentEssl.empty());
-    EXPECT_FALSE(vulkan->variants[0].fragmentSpirv.empty());
+    EXPECT_TRUE(vulkan->variants[0].vertex->essl.empty() && vulkan->variants[0].fragment->essl.empty());
+    EXPECT_FALSE(vulkan->variants[0].fragment->spirv.empty());
     const Result<MaterialPackage> gles = compile(withProperties("shadingModel : unlit"), { .spirv = false });
     ASSERT_TRUE(gles);
-    EXPECT_TRUE(gles->variants[0].vertexSpirv.empty() && gles->variants[0].fragmentSpirv.empty());
-    EXPECT_FALSE(gles->variants[0].fragmentEssl.empty());
+    EXPECT_TRUE(gles->variants[0].vertex->spirv.empty() && gles->variants[0].fragment->spirv.empty());
+    EXPECT_FALSE(gles->variants[0].fragment->essl.empty());
 }
 
 // ---------------------------------------------------------------------------------------------- what costs nothing
@@ -557,8 +557,8 @@ TEST(MaterialCompiler, OffersTheFunctionsOfTheGuide) {
     ASSERT_TRUE(package) << package.error().message;
     EXPECT_EQ(package->requiredAttributes, 1u << 0 | 1u << 1 | 1u << 2 | 1u << 3 | 1u << 4 | 1u << 7 | 1u << 14);
     for (Variant const& variant : package->variants) {
-        EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << int{ variant.key };
-        EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << int{ variant.key };
+        EXPECT_EQ(test::validationErrors(variant.vertex->spirv), "") << int{ variant.key };
+        EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "") << int{ variant.key };
     }
 }
 
@@ -573,8 +573,8 @@ TEST(MaterialCompiler, CompilesEveryVertexDomainAndBlending) {
                             "= 0.5; } }");
             ASSERT_TRUE(package) << domain << " " << blending << ": " << package.error().message;
             for (Variant const& variant : package->variants) {
-                EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << domain;
-                EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << blending;
+                EXPECT_EQ(test::validationErrors(variant.vertex->spirv), "") << domain;
+                EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "") << blending;
             }
         }
     }

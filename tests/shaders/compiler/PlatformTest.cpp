@@ -54,7 +54,7 @@ TEST(MaterialQuality, LowComputesLessAndTheOthersTheSame) {
         constexpr uint16_t kLights = kVariantSun | kVariantPunctual;
         const Result<MaterialPackage> package = compileMaterial(lit(properties), "lit.mat", { .onlyVariant = kLights });
         EXPECT_TRUE(package);
-        return package ? countInstructions(package->findVariant(kLights)->fragmentSpirv).sum() : 0;
+        return package ? countInstructions(package->findVariant(kLights)->fragment->spirv).sum() : 0;
     };
     EXPECT_LT(work("quality : low"), work("quality : default"));
     EXPECT_EQ(work("quality : normal"), work("quality : default"));
@@ -74,7 +74,7 @@ TEST(FeatureLevel, FunctionsOfEssl310CompileFromLevelTwoOn) {
 
 TEST(PrimitiveId, AsksForTheExtensionOfEssl310WhereItIsRead) {
     const auto essl = [](std::string const& line) {
-        return compiled(lit("shadingModel : lit", line)).variants[0].fragmentEssl;
+        return compiled(lit("shadingModel : lit", line)).variants[0].fragment->essl;
     };
     const std::string extension = "#extension GL_EXT_geometry_shader : require";
     EXPECT_NE(essl("m.baseColor.r = float(gl_PrimitiveID & 1);").find(extension), std::string::npos);

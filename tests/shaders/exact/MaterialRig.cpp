@@ -96,6 +96,7 @@ std::vector<ConstantValue> constantsOf(MaterialPackage const& package, MaterialS
         Constant const* constant = package.findConstant(name);
         constants.push_back({ constant->id, bits, constant->type });
     }
+    for (ConstantValue const& constant : variantConstants(scene.variant)) constants.push_back(constant);
     return constants;
 }
 
@@ -274,10 +275,10 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
     const std::vector<ConstantValue> constants = constantsOf(package, scene);
     const ProgramHandle program = mStream->allocateProgram();
     commands.record(CmdCreateProgram{ program,
-                                      { .vertex = spirv ? std::as_bytes(std::span(variant->vertexSpirv))
-                                                        : std::as_bytes(std::span(variant->vertexEssl)),
-                                        .fragment = spirv ? std::as_bytes(std::span(variant->fragmentSpirv))
-                                                          : std::as_bytes(std::span(variant->fragmentEssl)),
+                                      { .vertex = spirv ? std::as_bytes(std::span(variant->vertex->spirv))
+                                                        : std::as_bytes(std::span(variant->vertex->essl)),
+                                        .fragment = spirv ? std::as_bytes(std::span(variant->fragment->spirv))
+                                                          : std::as_bytes(std::span(variant->fragment->essl)),
                                         .constants = constants,
                                         .layout = package.layout,
                                         .debugName = package.name } });

@@ -45,10 +45,10 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         const size_t debug = isSurface && isOfGeometry ? 1 : 0;
         EXPECT_EQ(package.variants.size(), (color + depth + motion + debug) * (isDeformable ? 2 : 1)) << name;
         for (Variant const& variant : package.variants) {
-            EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << name << " " << int{ variant.key };
-            EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << name << " " << int{ variant.key };
-            EXPECT_TRUE(variant.vertexEssl.starts_with("#version 310 es")) << name;
-            EXPECT_TRUE(variant.fragmentEssl.starts_with("#version 310 es")) << name;
+            EXPECT_EQ(test::validationErrors(variant.vertex->spirv), "") << name << " " << int{ variant.key };
+            EXPECT_EQ(test::validationErrors(variant.fragment->spirv), "") << name << " " << int{ variant.key };
+            EXPECT_TRUE(variant.vertex->essl.starts_with("#version 310 es")) << name;
+            EXPECT_TRUE(variant.fragment->essl.starts_with("#version 310 es")) << name;
         }
         EXPECT_EQ(package.layout[kGroupView], viewGroupLayout()) << name;
         EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package))) << name;
@@ -77,7 +77,7 @@ TEST(EngineMaterials, TakeDerivativesBeforeTheyDiscard) {
     size_t discarding = 0, differentiating = 0;
     for (const std::string_view name : engineMaterialNames()) {
         for (Variant const& variant : read(name).variants) {
-            const test::DerivativeUse use = test::derivativeUse(variant.fragmentSpirv);
+            const test::DerivativeUse use = test::derivativeUse(variant.fragment->spirv);
             EXPECT_EQ(use.afterDiscard, 0u) << name << " " << int{ variant.key };
             discarding += use.hasDiscard;
             differentiating += use.hasDiscard && use.beforeDiscard > 0;

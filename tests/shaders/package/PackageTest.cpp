@@ -3,7 +3,9 @@
 
 #include "base/Hash.h"
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/PackageFormat.h"
 #include "shaders/package/ParameterLayout.h"
+#include "tests/shaders/EditStage.h"
 #include "tests/shaders/package/PackageFuzzBody.h"
 #include "tools/paths/Paths.h"
 
@@ -64,8 +66,8 @@ MaterialPackage fullPackage() {
     package.layout[1].bindings[0] = { .binding = 0, .type = backend::BindingType::UniformBuffer };
     package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };
     package.variants = {
-        { .key = 0, .vertexSpirv = { 1, 2 }, .fragmentSpirv = { 3 }, .vertexEssl = "v", .fragmentEssl = "f" },
-        { .key = kVariantSun | kVariantHalf, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" }
+        { .key = 0, .vertex = sharedStage({ { 1, 2 }, "v" }), .fragment = sharedStage({ { 3 }, "f" }) },
+        { .key = kVariantSun | kVariantHalf, .fragment = sharedStage({ { 4, 5, 6 }, "sun" }) }
     };
     return package;
 }
@@ -96,6 +98,15 @@ TEST(Package, ReadsBackThePackageWithNothingInIt) {
 }
 
 TEST(Package, IsEqualBytesForEqualMaterials) { EXPECT_EQ(writePackage(fullPackage()), writePackage(fullPackage())); }
+
+TEST(Package, SaysByConstantsWhatAVariantHas) {
+    const auto values = variantConstants(kVariantSun | kVariantShadowReceiver | kVariantHalf);
+    ASSERT_EQ(values.size(), kVariantConstants.size());
+    for (size_t i = 0; i < values.size(); ++i) {
+        EXPECT_EQ(values[i].id, kVariantConstants[i].id);
+        EXPECT_EQ(values[i].bits, kVariantConstants[i].bit == kVariantPunctual ? 0u : 1u) << kVariantConstants[i].name;
+    }
+}
 
 TEST(Package, FindsItsPartsByNameAndKey) {
     const MaterialPackage package = fullPackage();
@@ -189,7 +200,7 @@ TEST(Package, SaysWhichVersionItWouldNeed) {
 
 TEST(Package, NeedsAFractionOfTheBytesForCodeThatRepeatsItself) {
     MaterialPackage package = fullPackage();
-    std::string& text = package.variants[0].fragmentEssl;
+    std::string& text = test::editable(package.variants[0].fragment).essl;
     for (int i = 0; i < 2000; ++i) text += "precise highp float _" + std::to_string(i) + " = a * b;\n";
     EXPECT_LT(writePackage(package).size() * 4, text.size());
     EXPECT_EQ(readPackage(writePackage(package)).value(), package);
@@ -203,20 +214,29 @@ TEST(Package, StoresCodeThatVariantsShareOnce) {
         for (char& letter : text) letter = static_cast<char>(random());
         return text;
     };
-    package.variants[0].vertexEssl = package.variants[1].vertexEssl = noise();
+    package.variants[0].vertex = package.variants[1].vertex = sharedStage({ {}, noise() });
     const size_t shared = writePackage(package).size();
-    package.variants[1].vertexEssl = noise();
+    package.variants[1].vertex = sharedStage({ {}, noise() });
     const size_t apart = writePackage(package).size();
     EXPECT_GT(apart, shared + 3900);
     EXPECT_LT(apart, shared + 4100);
     EXPECT_EQ(readPackage(writePackage(package)).value(), package);
 }
 
+TEST(Package, GivesVariantsThatShareAStageOneCopyOfIt) {
+    MaterialPackage package = fullPackage();
+    package.variants[1].vertex = package.variants[0].vertex;
+    const Result<MaterialPackage> read = readPackage(writePackage(package));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->variants[0].vertex, read->variants[1].vertex);
+    EXPECT_NE(read->variants[0].fragment, read->variants[1].fragment);
+}
+
 TEST(Package, RefusesToMultiplyAPieceOfCodeBeyondReason) {
     MaterialPackage package = fullPackage();
     package.variants.clear();
-    for (uint16_t key = 0; key <= kAllVariantBits; ++key)
-        package.variants.push_back({ .key = key, .vertexEssl = std::string(150'000, 'v') });
+    for (uint16_t key = 0; key < format::kMaxVariants; ++key) // stages of their own, because their SPIR-V differs
+        package.variants.push_back({ .key = key, .vertex = sharedStage({ { key }, std::string(150'000, 'v') }) });
     const Result<MaterialPackage> read = readPackage(writePackage(package));
     ASSERT_FALSE(read) << "77 megabytes from some 10 kilobytes";
     EXPECT_EQ(read.error().code, ErrorCode::Corrupt);

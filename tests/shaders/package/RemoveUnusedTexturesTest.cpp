@@ -3,6 +3,7 @@
 
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
+#include "tests/shaders/EditStage.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -76,9 +77,8 @@ MaterialPackage fourTextures() {
     for (int n = 0; n < 4; ++n) essl += samplerAt(firstUnit() + n, names[n]);
     essl += cubeAt(firstUnit() + 4);
     package.variants.push_back({ .key = kVariantSkinning,
-                                 .fragmentSpirv = module(5),
-                                 .vertexEssl = samplerAt(firstUnit() + 5, "morphDeltas"),
-                                 .fragmentEssl = essl });
+                                 .vertex = sharedStage({ {}, samplerAt(firstUnit() + 5, "morphDeltas") }),
+                                 .fragment = sharedStage({ module(5), essl }) });
     return package;
 }
 
@@ -110,7 +110,7 @@ TEST(RemoveUnusedTextures, GivesWhatIsTakenOutTheBindingOfATextureOfItsType) {
     const bool isBound[] = { true, false, true, false, true };
     for (size_t i = 0; i < 5; ++i) EXPECT_EQ(package.parameters[i].isBound, isBound[i]) << i;
 
-    std::vector<uint32_t> const& words = package.variants[0].fragmentSpirv;
+    std::vector<uint32_t> const& words = package.variants[0].fragment->spirv;
     const uint32_t bindings[] = { 1, 1, 3, 1, 5 };
     for (uint32_t n = 1; n <= 5; ++n) EXPECT_EQ(bindingOf(words, 10 + n), bindings[n - 1]) << n;
     EXPECT_EQ(bindingOf(words, 50), 2u) << "of another group";
@@ -125,8 +125,8 @@ TEST(RemoveUnusedTextures, MovesTheUnitsOfOpenGlUpInEveryGroupBehind) {
                                  samplerAt(2, "passDfg") + samplerAt(firstUnit(), "always") +
                                  samplerAt(firstUnit(), "a") + samplerAt(firstUnit() + 1, "b") +
                                  samplerAt(firstUnit(), "c") + cubeAt(firstUnit() + 2);
-    EXPECT_EQ(variant.fragmentEssl, expected);
-    EXPECT_EQ(variant.vertexEssl, samplerAt(firstUnit() + 3, "morphDeltas"));
+    EXPECT_EQ(variant.fragment->essl, expected);
+    EXPECT_EQ(variant.vertex->essl, samplerAt(firstUnit() + 3, "morphDeltas"));
     const backend::ProgramLayout layout = programLayout(package, kVariantSkinning);
     EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), firstUnit() + 2);
     EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), firstUnit() + 3);
@@ -145,16 +145,17 @@ TEST(RemoveUnusedTextures, SurvivesCodeThatIsNone) {
         MaterialPackage package = fourTextures();
         Variant& variant = package.variants[0];
         for (uint32_t edits = 1 + random() % 4; edits > 0; --edits) {
-            std::vector<uint32_t>& words = variant.fragmentSpirv;
+            StageCode& code = test::editable(variant.fragment);
+            std::vector<uint32_t>& words = code.spirv;
             words[random() % words.size()] = random() % 3 == 0 ? 0 : static_cast<uint32_t>(random());
-            std::string& text = variant.fragmentEssl;
+            std::string& text = code.essl;
             text[random() % text.size()] = static_cast<char>('0' + random() % 10);
             if (random() % 8 == 0) text.resize(1 + random() % text.size());
             if (random() % 8 == 0) words.resize(1 + random() % words.size());
         }
-        const size_t words = variant.fragmentSpirv.size();
+        const size_t words = variant.fragment->spirv.size();
         removeUnusedTextures(package, {});
-        ASSERT_EQ(variant.fragmentSpirv.size(), words);
+        ASSERT_EQ(variant.fragment->spirv.size(), words);
     }
 }
 

@@ -141,9 +141,9 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -a vulkan -o " + path("vulkan") + " " + input).status, 0);
     EXPECT_EQ(package("all").variants.size(), 18u);
     EXPECT_EQ(package("one").variants.size(), 6u) << "skinned or not; colour, depth or values";
-    EXPECT_THAT(package("all").variants[0].fragmentEssl, HasSubstr("#version 310 es"));
-    EXPECT_EQ(package("vulkan").variants[0].fragmentEssl, "");
-    EXPECT_EQ(package("vulkan").variants[0].fragmentSpirv, package("all").variants[0].fragmentSpirv);
+    EXPECT_THAT(package("all").variants[0].fragment->essl, HasSubstr("#version 310 es"));
+    EXPECT_EQ(package("vulkan").variants[0].fragment->essl, "");
+    EXPECT_EQ(package("vulkan").variants[0].fragment->spirv, package("all").variants[0].fragment->spirv);
     const Outcome misspelt = matc("-v dynamicLightning -o " + path("none") + " " + input);
     EXPECT_EQ(misspelt.status, 1);
     EXPECT_THAT(misspelt.output, HasSubstr("did you mean 'dynamicLighting'?"));
@@ -166,10 +166,10 @@ fragment {
     ASSERT_EQ(matc("-o " + path("fast") + " " + input).status, 0);
     const Outcome outcome = matc("-S -o " + path("small") + " " + input);
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const auto words = [&](std::string const& name) { return package(name).variants[0].fragmentSpirv.size(); };
+    const auto words = [&](std::string const& name) { return package(name).variants[0].fragment->spirv.size(); };
     std::printf("for speed %zu, for size %zu words\n", words("fast"), words("small"));
     EXPECT_LE(words("small"), words("fast"));
-    EXPECT_LE(package("small").variants[0].fragmentEssl.size(), package("fast").variants[0].fragmentEssl.size());
+    EXPECT_LE(package("small").variants[0].fragment->essl.size(), package("fast").variants[0].fragment->essl.size());
 
     const std::string standard = file("standard.mat", kStandard);
     EXPECT_EQ(matc("-S -o " + path("standard") + " " + standard).status, 0) << "all that a lit material includes";
@@ -407,7 +407,7 @@ TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {
            "18 variants", "directionalLighting dynamicLighting shadowReceiver skinning", "no lights" }) {
         EXPECT_THAT(shown.output, HasSubstr(text));
     }
-    const std::string size = std::to_string(package("standard.fmat").variants[0].fragmentSpirv.size() * 4);
+    const std::string size = std::to_string(package("standard.fmat").variants[0].fragment->spirv.size() * 4);
     EXPECT_THAT(shown.output, HasSubstr(size));
 }
 
@@ -415,7 +415,8 @@ TEST_F(Matc, MatinfoPrintsTheCodeOfEitherApi) {
     const std::string input = file("standard.mat", kStandard);
     ASSERT_EQ(matc("-v shadowReceiver,skinning,debugViews -o " + path("standard.fmat") + " " + input).status, 0);
     const std::string of = path("standard.fmat");
-    EXPECT_EQ(matinfo("--code opengl --variant 3 " + of).output, package("standard.fmat").findVariant(3)->fragmentEssl);
+    EXPECT_EQ(matinfo("--code opengl --variant 3 " + of).output,
+              package("standard.fmat").findVariant(3)->fragment->essl);
     EXPECT_THAT(matinfo("--code vulkan --stage vertex " + of).output, HasSubstr("OpEntryPoint Vertex"));
     const Outcome none = matinfo("--code opengl --variant 77 " + of);
     EXPECT_EQ(none.status, 1);

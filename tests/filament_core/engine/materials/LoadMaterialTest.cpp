@@ -3,6 +3,7 @@
 
 #include "filament_core/engine/materials/CheckSpirv.h"
 #include "shaders/package/EngineMaterials.h"
+#include "tests/shaders/EditStage.h"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ TEST(LoadMaterial, TrustsOnlyThePackagesOfThisProgram) {
 /// The package with one word of one variant's SPIR-V changed and a right checksum.
 std::vector<std::byte> changedSpirv(shader::MaterialPackage package, std::mt19937& random) {
     shader::Variant& variant = package.variants[random() % package.variants.size()];
-    std::vector<uint32_t>& words = random() % 2 == 0 ? variant.vertexSpirv : variant.fragmentSpirv;
+    std::vector<uint32_t>& words = shader::test::editable(random() % 2 == 0 ? variant.vertex : variant.fragment).spirv;
     words[random() % words.size()] ^= 1u << random() % 32;
     return shader::writePackage(package);
 }
@@ -88,7 +89,7 @@ TEST(LoadMaterial, RefusesChangedSpirvThatIsNotValid) {
 TEST(LoadMaterial, RefusesSpirvThatReachesBeyondItsPackage) {
     auto package = shader::readPackage(shader::engineMaterial("gltf_unlit_opaque"));
     ASSERT_TRUE(package);
-    std::vector<uint32_t>& words = package->variants[0].fragmentSpirv;
+    std::vector<uint32_t>& words = shader::test::editable(package->variants[0].fragment).spirv;
     bool changed = false;
     for (size_t at = 5; at < words.size() && !changed; at += words[at] >> 16) {
         if ((words[at] & 0xFFFF) != 71 || words[at + 2] != 33) continue; // OpDecorate Binding
@@ -101,7 +102,7 @@ TEST(LoadMaterial, RefusesSpirvThatReachesBeyondItsPackage) {
     ASSERT_FALSE(material);
     EXPECT_NE(material.error().message.find("which the package does not have"), std::string::npos)
             << material.error().message;
-    std::swap(package->variants[0].vertexSpirv, package->variants[0].fragmentSpirv);
+    std::swap(package->variants[0].vertex, package->variants[0].fragment);
     EXPECT_FALSE(loadMaterial({ .package = shader::writePackage(*package) }));
 }
 
