@@ -19,7 +19,7 @@ std::string_view asText(std::span<const std::byte> bytes) {
 std::string literal(ConstantValue const& constant) {
     switch (constant.type) {
     case ConstantValue::Type::Bool:
-        return constant.bits ? "true" : "false";
+        return constant.bits ? "(1 == 1)" : "(1 == 0)"; // the preprocessor knows neither true nor false
     case ConstantValue::Type::Int: {
         const auto value = static_cast<int32_t>(constant.bits);
         // The lowest integer has no literal: the minus sign is an operator.

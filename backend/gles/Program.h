@@ -3,7 +3,7 @@
 ///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment
 ///           shader means that only depth is written. Specialisation constants become `#define
 ///           SPIRV_CROSS_CONSTANT_ID_<id> value` after the #version line: SPIRV-Cross uses these names and defines
-///           their defaults inside #ifndef.
+///           their defaults inside #ifndef. Bools are comparisons, so that #if reads them, too.
 ///   Thread  the driver thread.
 ///   Fails   reported as ShaderCompile; name() is 0 and draws are skipped.
 #pragma once

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Program.h"
 
+#include "backend/vulkan/FoldConstants.h"
 #include "backend/vulkan/UniformConditions.h"
 
 #include <cstring>
@@ -25,7 +26,8 @@ const char* nameOf(ShaderStage stage) {
     return stage == ShaderStage::Vertex ? "vertex" : stage == ShaderStage::Fragment ? "fragment" : "compute";
 }
 
-Result<Stage> makeStage(Device& device, std::span<const std::byte> bytes, ShaderStage stage, std::string_view program) {
+Result<Stage> makeStage(Device& device, ProgramDesc const& desc, std::span<const std::byte> bytes, ShaderStage stage) {
+    const std::string_view program = desc.debugName;
     const char* const stageName = nameOf(stage);
     std::vector<uint32_t> words = wordsOf(bytes);
     Result<ShaderEdges> edges = readEdges(words, stage);
@@ -33,6 +35,7 @@ Result<Stage> makeStage(Device& device, std::span<const std::byte> bytes, Shader
         return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; what uses it is skipped", program, stageName,
                     edges.error().message);
     }
+    words = foldConstants(std::move(words), desc.constants);
     if (device.physical().quirks.inlinesUniforms) words = hideUniformConditions(std::move(words), stage);
     Stage made{ .edges = std::move(*edges) };
     auto info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
@@ -56,16 +59,16 @@ Result<std::unique_ptr<Program>> Program::create(Device& device, PipelineLayout 
                                                  ProgramDesc const& desc) {
     std::unique_ptr<Program> program(new Program(device, layout, desc));
     if (!desc.compute.empty()) {
-        Result<Stage> compute = makeStage(device, desc.compute, ShaderStage::Compute, desc.debugName);
+        Result<Stage> compute = makeStage(device, desc, desc.compute, ShaderStage::Compute);
         if (!compute) return compute.error();
         program->mCompute = compute->module;
         return program;
     }
-    Result<Stage> vertex = makeStage(device, desc.vertex, ShaderStage::Vertex, desc.debugName);
+    Result<Stage> vertex = makeStage(device, desc, desc.vertex, ShaderStage::Vertex);
     if (!vertex) return vertex.error();
     program->mVertex = vertex->module;
     program->mInputs = std::move(vertex->edges.inputs);
-    Result<Stage> fragment = makeStage(device, desc.fragment, ShaderStage::Fragment, desc.debugName);
+    Result<Stage> fragment = makeStage(device, desc, desc.fragment, ShaderStage::Fragment);
     if (!fragment) return fragment.error();
     program->mFragment = fragment->module;
     program->mOutputMask = fragment->edges.outputMask;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/SpirvToEssl.h"
 
+#include "shaders/compiler/EsslConditions.h"
 #include "shaders/compiler/FetchOutputs.h"
 
 #include <spirv_cross/spirv_glsl.hpp>
@@ -97,7 +98,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
         renumberAll(compiler, layout);
         requireCubeArrays(compiler);
         requirePrimitiveId(compiler);
-        return compiler.compile();
+        return preprocessConditions(compiler.compile());
     } catch (std::exception const& error) {
         return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());
     }

@@ -276,7 +276,7 @@ TEST(ConstantDefinitionsTest, TheyAreDefinesFollowedByTheNumberOfTheNextLine) {
     const ConstantValue constants[] = { { 0, 1, ConstantValue::Type::Bool },
                                         { 7, 0xFFFFFFFFu, ConstantValue::Type::Int } };
     EXPECT_EQ(constantDefinitions(constants),
-              "#define SPIRV_CROSS_CONSTANT_ID_0 true\n#define SPIRV_CROSS_CONSTANT_ID_7 (-1)\n#line 2\n");
+              "#define SPIRV_CROSS_CONSTANT_ID_0 (1 == 1)\n#define SPIRV_CROSS_CONSTANT_ID_7 (-1)\n#line 2\n");
     EXPECT_EQ(constantDefinitions({}), "");
 }
 
