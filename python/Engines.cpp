@@ -2,6 +2,8 @@
 // The engine, and what it loads.
 #include "python/Bindings.h"
 
+#include "tools/materials/PlainMaterials.h"
+
 #include <filament/Environment.h>
 #include <filament/EnvironmentFormat.h>
 #include <filament/Version.h>
@@ -26,6 +28,7 @@ EngineObject makeEngine(std::string const& backend, std::string const& requireDe
         raiseInvalid("workers: {} is not from -1 (one for each other core) to {}", workers, kMaxWorkers);
     options.workers = static_cast<int>(workers);
     options.exactShaders = exactShaders;
+    options.debug.plainMaterials = &tools::plainMaterial;
     options.validation = validation;
     if (cacheDirectory) options.cacheDirectory = *cacheDirectory;
     options.cachePrograms = cachePrograms;

@@ -245,6 +245,10 @@ Result<Engine> Engine::create(EngineOptions const& options) {
     const ApiCall call("Engine::create(EngineOptions)");
     return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
         if (Result<void> cores = checkCores(options); !cores) return cores.error();
+        if (!options.exactShaders && !options.debug.plainMaterials)
+            return fail(ErrorCode::Unsupported,
+                        "exactShaders = false needs shaders that the library does not contain: set "
+                        "EngineDebug::plainMaterials, as filament-render and filament-accuracy do, or leave it on");
         auto stream = CommandStream::start(driverFactory(options), { .maxFramesAhead = framesAhead(options),
                                                                      .driverCore = options.driverCore,
                                                                      .repinAfterWaits = options.repinAfterWaits,

@@ -213,7 +213,9 @@ struct Engine::Impl {
     Result<Material> addMaterial(scene::Material loaded);
     void removeMaterial(Material material) noexcept;
     /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
-    std::span<const std::byte> enginePackage(std::string_view name) const;
+    std::span<const std::byte> enginePackage(std::string_view name) const { return enginePackages()(name); }
+    /// The same for threads that may outlive the engine.
+    std::function<std::span<const std::byte>(std::string_view)> enginePackages() const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
     /// Of the material `motion`, made once: draws what the scene's own materials need not.

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The engine's own materials, compiled by the build and part of the program (library engine_materials).
 ///   Names   the .mat files of shaders/material and shaders/post: "gltf_lit_opaque", "skybox", "tonemap", ...
+///   Exact   their arithmetic is written out, so that both APIs compute the same bits (shaders/compiler/ExactLowering.h).
+///           Programs that measure what this costs compile the same materials with the arithmetic left to the drivers
+///           (tools/materials/PlainMaterials.h); the library does not contain those.
 ///   Thread  any. Memory: read-only data of the program.
 ///   Fails   an unknown name gives an empty span.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace filament::shader {
 
-enum class Arithmetic : uint8_t {
-    Exact, ///< written out, so that both APIs compute the same bits (shaders/compiler/ExactLowering.h)
-    Plain, ///< left to the drivers
-};
-
 /// The bytes of a package, for readPackage().
-std::span<const std::byte> engineMaterial(std::string_view name, Arithmetic arithmetic = Arithmetic::Exact);
+std::span<const std::byte> engineMaterial(std::string_view name);
+
+/// Keeps a package of an engine material that this program compiled itself until the program ends.
+std::span<const std::byte> keepEnginePackage(std::vector<std::byte> package);
+
+/// Whether the bytes are part of an engine material or of a kept package: their code need not be checked.
+bool isEnginePackage(std::span<const std::byte> bytes);
 
 /// All names, ascending.
 std::span<const std::string_view> engineMaterialNames();

@@ -3,6 +3,7 @@
 
 #include "base/Result.h"
 #include "tools/materials/PictureFile.h"
+#include "tools/materials/PlainMaterials.h"
 
 #include <filament/Animator.h>
 #include <filament/ModelCopy.h>
@@ -34,6 +35,7 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
     engineOptions.exactShaders = options.exact;
+    engineOptions.debug.plainMaterials = &tools::plainMaterial;
     engineOptions.validation = options.validation;
     engineOptions.cacheDirectory = options.work / "environments";
     engineOptions.debug.capture = capture;

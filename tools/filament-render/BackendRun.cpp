@@ -6,6 +6,7 @@
 #include "tools/filament-render/HeapCounter.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/PictureFile.h"
+#include "tools/materials/PlainMaterials.h"
 
 #include <filament/Animator.h>
 #include <filament/Environment.h>
@@ -310,6 +311,7 @@ EngineOptions engineOptionsOf(Options const& options) {
     engineOptions.driverCore = options.driverCore;
     engineOptions.repinAfterWaits = options.repinAfterWaits;
     engineOptions.exactShaders = options.exactShaders;
+    engineOptions.debug.plainMaterials = &tools::plainMaterial;
     engineOptions.traceJobs = !options.traceJobs.empty();
     return engineOptions;
 }

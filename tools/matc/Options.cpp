@@ -9,8 +9,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
 namespace filament::matc {
 namespace {
@@ -36,7 +39,9 @@ std::pair<std::string, std::string> nameAndValue(std::string const& text) {
 }
 
 void addOutputs(CLI::App& app, Options& options, bool& writesDependencies) {
-    app.add_option("-o,--output", options.output, "the package to write");
+    app.add_option("-o,--output", options.output,
+                   "the package to write; ends with / : the folder for the packages of all materials, NAME.fmat for "
+                   "NAME.mat");
     app.add_flag("-E,--preprocess", options.preprocess, "print the generated GLSL and stop");
     app.add_option("-r,--reflect", options.reflect, "print what the material declares, as JSON")
             ->check(CLI::IsMember({ "parameters" }));
@@ -105,31 +110,60 @@ int ended(CLI::App const& app, CLI::ParseError const& problem) {
     return status == 0 ? kDone : kUsage;
 }
 
+bool namesFolder(std::string const& output) { return output.ends_with('/'); }
+
+/// Empty: the options make sense together.
+std::string contradiction(Options const& options, std::vector<std::string> const& inputs) {
+    const bool prints = options.preprocess || options.cost || options.printDependencies || !options.reflect.empty();
+    if (options.output.empty() && !prints) return "give the package to write with -o";
+    if (inputs.size() > 1 && (prints || !namesFolder(options.output)))
+        return "several materials need a folder for their packages: give -o FOLDER/, and nothing to print";
+    if (namesFolder(options.output) && !options.dependencyFile.empty())
+        return "-MF names one file, and -o a folder of packages: use -MD";
+    if (namesFolder(options.output) && std::ranges::count(inputs, "-") > 0)
+        return "the standard input has no name for a package in a folder: give -o PACKAGE";
+    std::set<std::string> packages;
+    for (std::string const& input : inputs) {
+        if (!packages.insert(std::filesystem::path(input).stem()).second)
+            return fmt::format("two materials would write one package: rename one '{}'", input);
+    }
+    return {};
+}
+
+/// The options of one material among all.
+Options ofMaterial(Options options, std::string const& input, bool writesDependencies) {
+    options.input = input;
+    if (namesFolder(options.output)) options.output += std::filesystem::path(input).stem().string() + ".fmat";
+    if (writesDependencies && options.dependencyFile.empty()) options.dependencyFile = options.output + ".d";
+    return options;
+}
+
 } // namespace
 
 Parsed parseOptions(int argc, char** argv) {
     Options options;
+    std::vector<std::string> inputs;
     bool writesDependencies = false;
     CLI::App app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
     app.footer(kEpilogue);
     app.set_version_flag("--version", fmt::format("matc of filament_core {}, package format {}", versionText(),
                                                   shader::format::kVersion));
-    app.add_option("input", options.input, "the material definition; - reads it from the standard input")->required();
+    app.add_option("input", inputs, "the material definitions; - reads one from the standard input")->required();
     addOutputs(app, options, writesDependencies);
     addCompilation(app, options);
     addDefinitions(app, options);
     try {
         app.parse(arguments(argc, argv));
     } catch (CLI::ParseError const& problem) {
-        return { std::nullopt, ended(app, problem) };
+        return { {}, ended(app, problem) };
     }
-    const bool prints = options.preprocess || options.cost || options.printDependencies || !options.reflect.empty();
-    if (options.output.empty() && !prints) {
-        std::fprintf(stderr, "matc: give the package to write with -o\n");
-        return { std::nullopt, kUsage };
+    if (const std::string problem = contradiction(options, inputs); !problem.empty()) {
+        std::fprintf(stderr, "matc: %s\n", problem.c_str());
+        return { {}, kUsage };
     }
-    if (writesDependencies && options.dependencyFile.empty()) options.dependencyFile = options.output + ".d";
-    return { std::move(options), kDone };
+    Parsed parsed;
+    for (std::string const& input : inputs) parsed.materials.push_back(ofMaterial(options, input, writesDependencies));
+    return parsed;
 }
 
 } // namespace filament::matc

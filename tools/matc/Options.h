@@ -6,7 +6,6 @@
 #include "filament_core/assets/files/PathInside.h"
 #include "shaders/compiler/Templates.h"
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +20,8 @@ enum Status : int {
 };
 
 struct Options {
-    std::string input; ///< "-": the standard input
-    std::string output;
+    std::string input;  ///< "-": the standard input
+    std::string output; ///< the package
     std::string api = "all";
     std::string reflect;
     std::string platform = "all";
@@ -38,9 +37,9 @@ struct Options {
     bool readsStandardInput() const { return input == "-"; }
 };
 
-/// The options, or the status with which to end.
+/// The options of each material, at least one, or the status with which to end.
 struct Parsed {
-    std::optional<Options> options;
+    std::vector<Options> materials;
     int status = kDone;
 };
 Parsed parseOptions(int argc, char** argv);

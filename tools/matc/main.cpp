@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// matc: compiles one material definition (.mat) into a package (.fmat). Options.h has the command line.
-///   Out     the same bytes for any number of threads. If there is an error, also a full disk, nothing is written: an
-///           old package stays as it was.
+/// matc: compiles material definitions (.mat) into packages (.fmat). Options.h has the command line.
+///   Out     the same bytes for any number of threads and of materials. Of a material with an error, also a full disk,
+///           nothing is written: an old package stays as it was.
 ///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together. A material of
 ///           the standard input lies in the current folder.
 ///   Status  Options.h. The reason is on standard error, as the guide shows it (5.1): a line "ERROR: file:line: reason"
@@ -16,6 +16,7 @@
 #include "tools/common/StandardOutput.h"
 #include "tools/matc/Options.h"
 
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -111,10 +112,11 @@ Result<void> print(Result<std::string> const& text) {
     return tools::printText(*text);
 }
 
-Result<shader::CompileOptions> compileOptions(Options const& options, Files& files, jobs::JobSystem& jobs) {
+/// jobs: null compiles on the calling thread.
+Result<shader::CompileOptions> compileOptions(Options const& options, Files& files, jobs::JobSystem* jobs) {
     const Result<uint16_t> filtered = shader::variantBitsOfFilters(options.filters);
     if (!filtered) return filtered.error();
-    shader::CompileOptions out{ .exact = !options.inexact, .filteredVariants = *filtered, .jobs = &jobs };
+    shader::CompileOptions out{ .exact = !options.inexact, .filteredVariants = *filtered, .jobs = jobs };
     if (options.platform == "mobile") out.platform = shader::Platform::Mobile;
     if (options.platform == "desktop") out.platform = shader::Platform::Desktop;
     out.spirv = options.api != "opengl";
@@ -143,10 +145,9 @@ Result<void> compile(Options const& options, Files& files, std::string const& te
     return writeRule(options, files);
 }
 
-Result<void> run(Options const& options, Files& files) {
+Result<void> run(Options const& options, Files& files, jobs::JobSystem* jobs) {
     const Result<std::string> text = files.material();
     if (!text) return text.error();
-    jobs::JobSystem jobs({ .workers = options.threads > 0 ? options.threads - 1 : -1 });
     Result<shader::CompileOptions> how = compileOptions(options, files, jobs);
     if (!how) return how.error();
     if (options.preprocess) return print(shader::preprocessMaterial(*text, files.name(), *how));
@@ -159,9 +160,9 @@ Result<void> run(Options const& options, Files& files) {
     return compile(options, files, *text, *how);
 }
 
-Result<void> guarded(Options const& options, Files& files) {
+Result<void> guarded(Options const& options, Files& files, jobs::JobSystem* jobs) {
     try {
-        Result<void> done = run(options, files);
+        Result<void> done = run(options, files, jobs);
         return !done && files.problem() ? *files.problem() : done;
     } catch (std::exception const& error) {
         return fail(ErrorCode::OutOfMemory, "{}: out of resources ({}); try a smaller material, or -j 1", files.name(),
@@ -179,15 +180,31 @@ std::string errorLines(std::string_view message) {
     return text;
 }
 
-int runProgram(int argc, char** argv) {
-    const Parsed parsed = parseOptions(argc, argv);
-    if (!parsed.options) return parsed.status;
-    Files files(*parsed.options);
-    const Result<void> done = guarded(*parsed.options, files);
-    if (done) return kDone;
+/// Whether the material was compiled. Any thread; one call writes its report.
+bool compileOne(Options const& options, jobs::JobSystem* jobs) {
+    Files files(options);
+    const Result<void> done = guarded(options, files, jobs);
+    if (done) return true;
     std::fprintf(stderr, "%s\n\nCould not compile material %s\n", errorLines(done.error().message).c_str(),
                  files.name().c_str());
-    return kFailed;
+    return false;
+}
+
+/// One material: its stages side by side. Several: themselves, because the longest stage of each takes most of its time.
+int runProgram(int argc, char** argv) {
+    const Parsed parsed = parseOptions(argc, argv);
+    std::vector<Options> const& materials = parsed.materials;
+    if (materials.empty()) return parsed.status;
+    const int threads = materials.front().threads;
+    jobs::JobSystem jobs({ .workers = threads > 0 ? threads - 1 : -1 });
+    if (materials.size() == 1) return compileOne(materials.front(), &jobs) ? kDone : kFailed;
+    std::atomic<bool> allDone = true;
+    jobs::parallelFor<"compile material">(jobs, materials.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            if (!compileOne(materials[i], nullptr)) allDone = false;
+        }
+    });
+    return allDone ? kDone : kFailed;
 }
 
 } // namespace

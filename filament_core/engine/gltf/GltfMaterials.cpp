@@ -26,7 +26,7 @@ std::optional<uint32_t> roughnessBound(GltfMaterialSettings const& settings, sha
 
 GltfMaterialChoice GltfMaterials::choiceOf(Engine::Impl const& engine) {
     const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::LitScreen));
-    return { .arithmetic = engine.options.exactShaders ? shader::Arithmetic::Exact : shader::Arithmetic::Plain,
+    return { .package = engine.enginePackages(),
              .maxMaps = engine.stream->info().limits.maxTextureUnits - ofEngine }; // a device has at least 16 in all
 }
 

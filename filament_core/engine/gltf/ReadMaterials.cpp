@@ -58,14 +58,13 @@ private:
     std::map<std::string, OfPackage> mPackages;
 };
 
-void read(OfPackage& package, shader::Arithmetic arithmetic) {
-    shader::MaterialPackage unpacked =
-            required(engine::unpackMaterial(materialDesc(package.settings.front(), arithmetic)));
+void read(OfPackage& package, GltfMaterialChoice const& choice) {
+    shader::MaterialPackage unpacked = required(engine::unpackMaterial(materialDesc(package.settings.front(), choice)));
     for (size_t i = 0; i < package.settings.size(); ++i) {
         const bool isLast = i + 1 == package.settings.size();
         shader::MaterialPackage own = isLast ? std::move(unpacked) : unpacked;
         package.materials[i] =
-                required(engine::specialiseMaterial(std::move(own), materialDesc(package.settings[i], arithmetic)));
+                required(engine::specialiseMaterial(std::move(own), materialDesc(package.settings[i], choice)));
     }
 }
 
@@ -80,8 +79,8 @@ std::string materialKey(GltfMaterialSettings const& settings) {
     return key;
 }
 
-MaterialDesc materialDesc(GltfMaterialSettings const& settings, shader::Arithmetic arithmetic) {
-    return { shader::engineMaterial(settings.package, arithmetic), settings.constants, settings.package };
+MaterialDesc materialDesc(GltfMaterialSettings const& settings, GltfMaterialChoice const& choice) {
+    return { choice.package(settings.package), settings.constants, settings.package };
 }
 
 assets::MaterialData const& materialOf(assets::ModelData const& model, uint32_t index) {
@@ -99,7 +98,7 @@ GltfReadyMaterials readMaterials(assets::ModelData const& model, GltfMaterialCho
         const jobs::AdoptedThread seat(jobs);
         jobs::JobGroup group(jobs);
         for (auto& [name, package] : packages)
-            group.run<"unpack material">([&package = package, &choice] { read(package, choice.arithmetic); });
+            group.run<"unpack material">([&package = package, &choice] { read(package, choice); });
         group.wait();
     }
     GltfReadyMaterials ready;

@@ -15,14 +15,18 @@
 #include "jobsystem/JobSystem.h"
 #include "shaders/package/EngineMaterials.h"
 
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace filament {
 
 /// What of an engine decides which material a glTF material becomes. Constant while the engine lives.
 struct GltfMaterialChoice {
-    shader::Arithmetic arithmetic = shader::Arithmetic::Exact;
+    /// Of an engine material; exact by default. Any thread.
+    std::function<std::span<const std::byte>(std::string_view)> package = &shader::engineMaterial;
     size_t maxMaps = SIZE_MAX; ///< see settingsOf()
 };
 
@@ -30,7 +34,7 @@ struct GltfMaterialChoice {
 std::string materialKey(GltfMaterialSettings const& settings);
 
 /// What createMaterial() takes for such settings.
-MaterialDesc materialDesc(GltfMaterialSettings const& settings, shader::Arithmetic arithmetic);
+MaterialDesc materialDesc(GltfMaterialSettings const& settings, GltfMaterialChoice const& choice);
 
 /// glTF 2.0, section 3.9.6: of primitives without one.
 assets::MaterialData const& materialOf(assets::ModelData const& model, uint32_t index);

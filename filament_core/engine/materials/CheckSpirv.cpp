@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/materials/CheckSpirv.h"
 
-#include "shaders/package/EngineMaterials.h"
 #include "shaders/package/GroupLayouts.h"
 
 #include <spirv-tools/libspirv.hpp>
 #include <spirv_cross/spirv.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <map>
 #include <string>
 
@@ -97,22 +95,11 @@ std::string faultOf(Words const& words, spv::ExecutionModel stage, backend::Prog
 
 } // namespace
 
-bool isTrusted(std::span<const std::byte> package) {
-    const std::less_equal<const std::byte*> notAfter;
-    const auto holds = [&](std::span<const std::byte> own) {
-        return !own.empty() && notAfter(own.data(), package.data()) &&
-               notAfter(package.data() + package.size(), own.data() + own.size());
-    };
-    return std::ranges::any_of(shader::engineMaterialNames(), [&](std::string_view name) {
-        return holds(shader::engineMaterial(name)) || holds(shader::engineMaterial(name, shader::Arithmetic::Plain));
-    });
-}
-
 Result<void> checkSpirv(shader::MaterialPackage const& package) {
     std::vector<std::pair<Words const*, backend::ProgramLayout>> checked; // variants share code
     const auto isChecked = [&](Words const& words, backend::ProgramLayout const& layout) {
         return std::ranges::any_of(checked,
-                                   [&](auto const& known) { return *known.first == words && known.second == layout; });
+                                   [&](auto const& known) { return known.first == &words && known.second == layout; });
     };
     for (shader::Variant const& variant : package.variants) {
         const backend::ProgramLayout layout = shader::programLayout(package, variant.key);

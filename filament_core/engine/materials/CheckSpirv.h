@@ -3,21 +3,17 @@
 ///   In      a package that was read from bytes, whose checksum anybody can make right.
 ///   Rules   every module of every variant is valid for Vulkan 1.1 (SPIRV-Tools); its resources are in the layout of
 ///           its program; its `main` is of the stage that it stands for; no type is larger than 1 MiB.
-///   Trust   isTrusted(): the bytes are those that the build put into this program; they need no check.
+///   Trust   packages that are part of this program (shader::isEnginePackage()) need no check.
 ///   Thread  any; pure.
 ///   Fails   Corrupt: the variant, the stage and what SPIRV-Tools says.
 ///   Cost    4 ms per module, once, when a material is created: 69 ms for the 16 variants of gltf_lit_opaque, which
-///           take 0.8 s to compile. Trusted packages: a few comparisons.
+///           take 0.8 s to compile.
 #pragma once
 
 #include "base/Result.h"
 #include "shaders/package/Package.h"
 
-#include <span>
-
 namespace filament::engine {
-
-bool isTrusted(std::span<const std::byte> package);
 
 Result<void> checkSpirv(shader::MaterialPackage const& package);
 

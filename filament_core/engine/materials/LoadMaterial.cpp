@@ -6,6 +6,7 @@
 #include "filament_core/engine/materials/ConstantBits.h"
 #include "filament_core/engine/materials/DescribeMaterial.h"
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/EngineMaterials.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/RemoveUnusedTextures.h"
 
@@ -58,7 +59,7 @@ Result<shader::MaterialPackage> unpackMaterial(MaterialDesc const& desc) {
     if (!package) {
         return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
     }
-    if (isTrusted(desc.package)) return package;
+    if (shader::isEnginePackage(desc.package)) return package;
     if (Result<void> checked = checkSpirv(*package); !checked) {
         return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
     }
@@ -71,7 +72,7 @@ Result<scene::Material> specialiseMaterial(shader::MaterialPackage package, Mate
     scene::Material material;
     material.name = desc.name.empty() ? package.name : desc.name;
     material.package = std::move(package);
-    if (isTrusted(desc.package) && material.package.name.starts_with("gltf_"))
+    if (shader::isEnginePackage(desc.package) && material.package.name.starts_with("gltf_"))
         material.optionalAttributes = kOptionalInGltf;
     material.constants = std::move(*constants);
     shader::removeUnusedTextures(material.package, material.constants);

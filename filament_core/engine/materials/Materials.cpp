@@ -45,8 +45,8 @@ void Engine::Impl::removeMaterial(Material material) noexcept {
     materials.remove(material);
 }
 
-std::span<const std::byte> Engine::Impl::enginePackage(std::string_view name) const {
-    return shader::engineMaterial(name, options.exactShaders ? shader::Arithmetic::Exact : shader::Arithmetic::Plain);
+std::function<std::span<const std::byte>(std::string_view)> Engine::Impl::enginePackages() const {
+    return options.exactShaders ? &shader::engineMaterial : options.debug.plainMaterials;
 }
 
 Material Engine::Impl::engineMaterial(std::string_view package, std::vector<MaterialConstant> constants) {

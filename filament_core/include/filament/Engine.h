@@ -25,6 +25,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -62,6 +63,9 @@ enum class ThreadAffinity : uint8_t {
 struct EngineDebug {
     std::shared_ptr<backend::FrameCapture> capture{}; ///< reads every attachment of a frame, cuts it off after a draw
     std::shared_ptr<backend::FaultInjector> faults{}; ///< loses the device, refuses objects, slows the driver down
+    /// The package of an engine material by its name, compiled with `matc --inexact`; the bytes live as long as the
+    /// engine. Needed where EngineOptions::exactShaders is false; called by any thread.
+    std::function<std::span<const std::byte>(std::string_view name)> plainMaterials{};
 };
 
 struct EngineOptions {
@@ -79,7 +83,9 @@ struct EngineOptions {
     NativeDisplay display{};
     bool validation = false; ///< check every stream, and enable the Vulkan validation layers or KHR_debug
     /// The engine's own shaders write their arithmetic out, so that both APIs draw the same bits. Off: the drivers
-    /// choose, as in other engines. Materials that you compile yourself follow the options given to matc.
+    /// choose, as in other engines; for programs that measure the difference and bring such shaders along
+    /// (EngineDebug::plainMaterials), without which Engine::create() fails with Unsupported. Materials that you compile
+    /// yourself follow the options given to matc.
     bool exactShaders = true;
     bool traceJobs = false;            ///< record what every thread does and when: Engine::writeJobTrace()
     bool hashFrames = false;           ///< FrameTimings::packetHash and streamHash, for tests; reads the data twice

@@ -377,6 +377,13 @@ TEST(JobTimeline, IsReadByOtherThreadsWhileFramesAreDrawn) {
     EXPECT_GE(jobTimeline(*engine, 1e9).size(), 2u);
 }
 
+TEST(EngineCreate, SaysWhatShadersThatAreNotExactNeed) {
+    const auto engine = Engine::create({ .backend = Backend::Null, .exactShaders = false });
+    ASSERT_FALSE(engine);
+    EXPECT_EQ(engine.error().code, ErrorCode::Unsupported);
+    EXPECT_NE(engine.error().message.find("EngineDebug::plainMaterials"), std::string::npos) << engine.error().message;
+}
+
 TEST(EngineCreate, ListsBothApis) {
     bool vulkan = false, gles = false;
     for (DeviceDescription const& device : listDevices()) {

@@ -118,8 +118,7 @@ TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
     std::printf("standard lit material, both APIs, all variants, one thread: %.2f s, %.0f KB\n", seconds,
                 static_cast<double>(bytes) / 1000);
     RecordProperty("bytes", static_cast<int>(bytes));
-    // 400 000 until lit variants held what they read of the picture, contact shadows and fog, behind constants.
-    EXPECT_LT(bytes, 500'000u) << "shadows and area lights are most of it";
+    EXPECT_LT(bytes, 150'000u) << "one fragment stage for all lights; shadows and area lights are most of it";
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(seconds, 3 * 1.5) << "1.5 s on a quiet machine";
 #endif
@@ -134,6 +133,31 @@ TEST_F(Matc, ReportsErrorsWithFileAndLineAndWritesNothing) {
     EXPECT_FALSE(fs::exists(path("out.fmat")));
 }
 
+TEST_F(Matc, CompilesSeveralMaterialsIntoAFolderWithTheBytesOfEach) {
+    const std::string a = file("a.mat", kLit), b = file("b.mat", "material { shadingModel : lodd }\nfragment {}\n"),
+                      c = file("c.mat", kStandard);
+    ASSERT_EQ(matc("-o " + path("a.alone") + " " + a).status, 0);
+    const Outcome all = matc("-MD -o " + path("") + " " + a + " " + b + " " + c);
+    EXPECT_EQ(all.status, 1) << "one of them is wrong";
+    EXPECT_THAT(all.output, HasSubstr("Could not compile material " + b));
+    EXPECT_EQ(contents(path("a.fmat")), contents(path("a.alone")));
+    EXPECT_FALSE(fs::exists(path("b.fmat")));
+    EXPECT_FALSE(package("c.fmat").variants.empty());
+    EXPECT_THAT(contents(path("c.fmat.d")), HasSubstr("c.fmat: " + c));
+    EXPECT_EQ(matc("-o " + path("") + " " + a + " " + c).status, 0);
+
+    const auto refusal = [&](std::string const& arguments) {
+        const Outcome outcome = matc(arguments);
+        EXPECT_EQ(outcome.status, 2) << arguments;
+        return outcome.output;
+    };
+    EXPECT_THAT(refusal("-o " + path("one.fmat") + " " + a + " " + c), HasSubstr("give -o FOLDER/"));
+    EXPECT_THAT(refusal("-E " + a + " " + c), HasSubstr("nothing to print"));
+    EXPECT_THAT(refusal("-MF " + path("all.d") + " -o " + path("") + " " + a), HasSubstr("use -MD"));
+    EXPECT_THAT(refusal("-o " + path("") + " -"), HasSubstr("the standard input has no name"));
+    EXPECT_THAT(refusal("-o " + path("") + " " + a + " " + a), HasSubstr("two materials would write one package"));
+}
+
 TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     const std::string input = file("stone.mat", kLit);
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
@@ -143,7 +167,7 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     EXPECT_EQ(package("one").variants.size(), 6u) << "skinned or not; colour, depth or values";
     EXPECT_THAT(package("all").variants[0].fragment->essl, HasSubstr("#version 310 es"));
     EXPECT_EQ(package("vulkan").variants[0].fragment->essl, "");
-    EXPECT_EQ(package("vulkan").variants[0].fragment->spirv, package("all").variants[0].fragment->spirv);
+    EXPECT_EQ(package("vulkan").variants[0].fragment->spirv, package("one").variants[0].fragment->spirv);
     const Outcome misspelt = matc("-v dynamicLightning -o " + path("none") + " " + input);
     EXPECT_EQ(misspelt.status, 1);
     EXPECT_THAT(misspelt.output, HasSubstr("did you mean 'dynamicLighting'?"));

@@ -2,6 +2,7 @@
 // Size: perform() is a table: an action a case.
 #include "tools/view/app/Viewer.h"
 
+#include "tools/materials/PlainMaterials.h"
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/panels/AnimationModel.h"
@@ -81,7 +82,8 @@ EngineOptions Viewer::engineOptions(Backend backend) const {
              .display = mTarget.display,
              .validation = mOptions.validation,
              .exactShaders = mOptions.exactShaders,
-             .traceJobs = mRecordsJobs };
+             .traceJobs = mRecordsJobs,
+             .debug = { .plainMaterials = &tools::plainMaterial } };
 }
 
 Result<void> Viewer::openStage(Backend backend) {

@@ -2,6 +2,7 @@
 // Every built-in material on both APIs, against closed forms and against each other; their parameters against the table
 // of docs/built-in-materials.md.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
+#include "tools/materials/PlainMaterials.h"
 
 #include <filament/BuiltInMaterials.h>
 #include <filament/Primitives.h>
@@ -326,7 +327,11 @@ TEST(BuiltInMaterials, HaveTheParametersOfTheirPageAndTheAttributesOfAMesh) {
 
 TEST(BuiltInMaterials, CanBeCompiledAheadAndDrawWithoutExactShaders) {
     for (const Backend backend : test::kBothApis) {
-        auto engine = Engine::create({ .backend = backend, .workers = 0, .validation = true, .exactShaders = false });
+        auto engine = Engine::create({ .backend = backend,
+                                       .workers = 0,
+                                       .validation = true,
+                                       .exactShaders = false,
+                                       .debug = { .plainMaterials = &tools::plainMaterial } });
         ASSERT_TRUE(engine) << engine.error().message;
         for (BuiltInMaterial const& material : builtInMaterials()) {
             if (material.name == "wireframe") continue; // other vertices

@@ -56,8 +56,8 @@ std::vector<std::byte> copyOf(const char* name) {
 }
 
 TEST(LoadMaterial, TrustsOnlyThePackagesOfThisProgram) {
-    EXPECT_TRUE(isTrusted(shader::engineMaterial("gltf_lit_opaque")));
-    EXPECT_FALSE(isTrusted(copyOf("gltf_lit_opaque")));
+    EXPECT_TRUE(shader::isEnginePackage(shader::engineMaterial("gltf_lit_opaque")));
+    EXPECT_FALSE(shader::isEnginePackage(copyOf("gltf_lit_opaque")));
     const std::vector<std::byte> copy = copyOf("gltf_lit_opaque");
     EXPECT_TRUE(loadMaterial({ .package = copy })) << "what the compiler wrote is valid, wherever it comes from";
 }
