@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian's packages as targets; scripts/packages.txt is the list that ./run and ./check install.
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)

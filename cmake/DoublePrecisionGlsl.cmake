@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cmake -D SOURCES="a.glsl;b.glsl" -D TARGET_DIR=DIR -P DoublePrecisionGlsl.cmake
 # Copies of the shader library for shaders/lib/LibCppDouble.h: `float` becomes double, literals lose the suffix f, and
 # all.inl includes every copy. An unchanged copy keeps its time stamp, so that nothing is recompiled.

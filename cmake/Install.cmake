@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What users get, by component:  cmake --install build/release --component NAME --prefix PREFIX
 #   runtime      the shared library: what programs need to run
 #   development  headers, archives, CMake and pkg-config files

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian packages, one for each installed component (Install.cmake): scripts/package makes them.
 set(FILAMENT_PACKAGE_CONTACT "" CACHE STRING "Maintainer of the packages, 'Name <address>'; scripts/package takes yours")
 set(soname_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

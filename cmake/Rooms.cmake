@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # A room is a folder: all .cpp files in it form one library of the same name, and its headers are included from the
 # repository root, so that every include shows the layer.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # filament_add_materials(TARGET FILES stone.mat ... [OPTIONS ...])
 #   Compiles materials with matc and puts them into a target. For stone.mat, `#include <materials/stone.h>` declares
 #   materials::stone(), the bytes of the package: `engine.create(MaterialDesc{ .package = materials::stone() })`.

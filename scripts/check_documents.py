@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: every file that a .md or .html file links to or shows exists, and every picture is used.
+"""Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used, and every source
+file names its licence.
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
-Pictures are the .png and .svg files below docs/. Links to other hosts are not followed; scripts/docs also follows those to places within a page.
+Pictures are the .png and .svg files below docs/. Links to other hosts are not followed; scripts/docs also follows those to places
+within a page. The licence is an SPDX line among the first three; the inputs of fuzzers and the data of tests have none.
 """
 import argparse
 import html
@@ -20,6 +22,12 @@ LINKS = {
     ".html": re.compile(r"\b(?:src|href)=\"([^\"]*)\"()"),
 }
 PICTURES = {".png", ".svg"}
+LICENCE = "SPDX-License-Identifier: Apache-2.0"
+# Files whose language has comments, and programs without a suffix; of templates, what they make.
+LICENSED = {".cpp", ".h", ".inl", ".inc", ".c", ".glsl", ".mat", ".py", ".pyi", ".cmake", ".sh", ".js", ".css", ".yml", ".yaml", ".dox",
+            ".pc", ".supp"}
+LICENSED_NAMES = {"CMakeLists.txt", "Doxyfile", ".clang-format", ".clang-tidy", ".editorconfig", ".gitattributes", ".gitignore"}
+INPUTS = "tests/fuzz/corpus/"
 
 
 def without_code(text):
@@ -45,6 +53,24 @@ def targets(document):
             yield text.count("\n", 0, found.start()) + 1, document.parent / target
 
 
+def needs_licence(name, head):
+    path = pathlib.PurePosixPath(name)
+    if name.startswith(INPUTS):
+        return False
+    suffix = path.with_suffix("").suffix if path.suffix == ".in" else path.suffix
+    return suffix in LICENSED or path.name in LICENSED_NAMES or head.startswith(b"#!")
+
+
+def without_licence(root, files):
+    """Those that should name it and do not."""
+    for file in files:
+        with file.open("rb") as opened:
+            head = b"".join(opened.readline() for _ in range(3))
+        name = file.relative_to(root).as_posix()
+        if needs_licence(name, head) and LICENCE.encode() not in head:
+            yield f"{name}:1: names no licence: begin it with a comment '{LICENCE}'"
+
+
 def check(root):
     """The errors, one line each, and the number of documents."""
     files = tracked(root)
@@ -60,6 +86,7 @@ def check(root):
     for file in files:
         if file.suffix in PICTURES and file.relative_to(root).parts[0] == "docs" and file.resolve() not in shown:
             wrong.append(f"{file.relative_to(root)}:1: no document shows this picture")
+    wrong += without_licence(root, files)
     return wrong, len(documents)
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs a build into prefixes of the consumers: WORK/all has every component, WORK/jobs only the job system. Keeps the
 # manifests of earlier installations of that build folder for its target `uninstall`.
 #   cmake -D BUILD=<build tree> -D WORK=<scratch folder> -D COMPONENTS=<list> -P InstallPackage.cmake

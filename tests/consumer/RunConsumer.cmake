@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Configures, builds and runs the consumers against what InstallPackage.cmake installed, by every route: find_package() for the
 # shared and the static library, with materials, and for the job system alone; pkg-config for each of the three.
 #   cmake -D WORK=<scratch folder> -D COMPILER=<g++|clang++> -D LIBDIR=<lib> -P RunConsumer.cmake

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What InstallPackage.cmake installed is gone after uninstalling, and nothing else is.
 #   cmake -D WORK=<scratch folder> -D COMPONENTS=<list> -D UNINSTALL=<Uninstall.cmake> -P UninstallPackage.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Runs a sample for each value of FOR, which replaces EACH among its arguments, and compares what it draws and prints with what
 # is stored: docs/images/samples/*.png and tests/samples/NAME.txt. tests/samples/NAME.in, if it exists, is its standard input.
 #   cmake -D NAME=triangle -D PROGRAM=<file> -D "ARGUMENTS=EACH;triangle.png" -D "FOR=vulkan;gles" -D IMGDIFF=<file>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The program in README.md is samples/hello/main.cpp, character for character.
 #   cmake -D ROOT=<repository> -P CompareReadmeSample.cmake
 cmake_minimum_required(VERSION 3.25)

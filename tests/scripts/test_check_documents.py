@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The document checker finds broken links, missing pictures, and pictures that no document shows."""
+"""The document checker finds broken links, missing pictures, pictures that no document shows, and sources without a licence."""
 import pathlib
 import subprocess
 import sys
@@ -47,6 +47,17 @@ class Documents(unittest.TestCase):
 
     def test_a_picture_that_no_document_shows_is_reported(self):
         self.assert_broken({"a.md": "text", "docs/p/x.png": ""}, "docs/p/x.png:1: no document shows this picture")
+
+    def test_sources_without_a_licence_are_reported(self):
+        licence = "SPDX-License-Identifier: Apache-2.0\n"
+        for name, text in {"a.cpp": "int a;\n", "a.mat": "material {}\n", "CMakeLists.txt": "project(a)\n", "x.cmake": "",
+                           ".gitignore": "/build/\n", "a.cpp.in": "int @a@;\n", "tool": "#!/bin/sh\nexit 0\n",
+                           "late.py": "\n\n\n# " + licence, "other.py": "# SPDX-License-Identifier: MIT\n"}.items():
+            with self.subTest(name):
+                self.assert_broken({"a.md": "a", name: text}, f"{name}:1: names no licence")
+        status, output = check({"a.md": "a", "a.h": "// " + licence, "tool": "#!/bin/sh\n# " + licence, "data.json": "{}",
+                                "server.in": "1", "LICENSE": "x", "tests/fuzz/corpus/a/b.mat": "material {}"})
+        self.assertEqual(status, 0, output)
 
     def test_a_tree_without_documents_is_an_error(self):
         self.assertEqual(check({"a.txt": ""})[0], 1)
