@@ -89,7 +89,11 @@ endif()
 # ---- documents
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE ${CMAKE_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs ${CMAKE_SOURCE_DIR}/samples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs
-    PATTERN "site" EXCLUDE) # builds the site from a checkout
+    PATTERN "site" EXCLUDE # builds the site from a checkout
+    PATTERN "accuracy.html" EXCLUDE) # made from its data, below
+install(CODE "execute_process(COMMAND ${FILAMENT_PLOT_PYTHON} ${CMAKE_SOURCE_DIR}/tools/plot/plot.py accuracy-page
+    ${CMAKE_SOURCE_DIR}/docs/accuracy -o ${CMAKE_BINARY_DIR}/accuracy.html COMMAND_ERROR_IS_FATAL ANY)" COMPONENT docs)
+install(FILES ${CMAKE_BINARY_DIR}/accuracy.html DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT docs)
 
 add_custom_target(uninstall COMMAND ${CMAKE_COMMAND} -D BUILD=${CMAKE_BINARY_DIR} -P ${templates}/Uninstall.cmake VERBATIM
     COMMENT "Removing what was installed")

@@ -44,13 +44,15 @@ def tracked(root):
 
 
 def targets(document):
-    """(line, path) of every file that the document names."""
+    """(line, path) of every file that the document names. A fragment is part of a page in the folder above, where its links begin; its
+    pictures lie beside it."""
     text = document.read_text(encoding="utf-8")
     text = without_code(text) if document.suffix == ".md" else text
     for found in LINKS[document.suffix].finditer(text):
         target = urllib.parse.unquote(html.unescape(found[1] or found[2]).split("#")[0])
         if target and not re.match(r"[a-z]+:|{{", target):  # {{ }}: of a template
-            yield text.count("\n", 0, found.start()) + 1, document.parent / target
+            above = document.name.endswith(".fragment.html") and found[0].startswith("href")
+            yield text.count("\n", 0, found.start()) + 1, document.parent / ".." / target if above else document.parent / target
 
 
 def needs_licence(name, head):
@@ -74,8 +76,7 @@ def without_licence(root, files):
 def check(root):
     """The errors, one line each, and the number of documents."""
     files = tracked(root)
-    # fragments are parts of a page in the folder above, which has their links
-    documents = [file for file in files if file.suffix in LINKS and not file.name.endswith(".fragment.html")]
+    documents = [file for file in files if file.suffix in LINKS]
     wrong, shown = [], set()
     for document in documents:
         for line, target in targets(document):

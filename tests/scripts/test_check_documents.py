@@ -45,6 +45,13 @@ class Documents(unittest.TestCase):
         self.assert_broken({"docs/a.md": "[x](/nowhere/x.md)"}, "docs/a.md:1: there is no /nowhere/x.md")
         self.assert_broken({"docs/a.md": "[x](../y.md)"}, "docs/a.md:1: there is no ../y.md")
 
+    def test_a_fragment_has_its_pictures_beside_it_and_its_links_above(self):
+        fragment = '<a href="a.md">a</a><img src="x.png">'
+        status, output = check({"docs/a.md": "a", "docs/p/1.fragment.html": fragment, "docs/p/x.png": ""})
+        self.assertEqual(status, 0, output)
+        self.assert_broken({"docs/p/a.md": "a", "docs/p/1.fragment.html": fragment, "docs/p/x.png": ""}, "1.fragment.html:1: there is no")
+        self.assert_broken({"docs/a.md": "a", "docs/p/1.fragment.html": fragment}, "docs/p/1.fragment.html:1: there is no x.png")
+
     def test_a_picture_that_no_document_shows_is_reported(self):
         self.assert_broken({"a.md": "text", "docs/p/x.png": ""}, "docs/p/x.png:1: no document shows this picture")
 

@@ -3,6 +3,7 @@
 import importlib.machinery
 import importlib.util
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -87,6 +88,17 @@ class Pages(unittest.TestCase):
             self.assertEqual(place("filament_core/include/filament/View.h"), "api/View_8h.html")
             self.assertEqual(place("samples/hello/main.cpp"), "repository/samples/hello/main.cpp.md")
             self.assertTrue(pathlib.Path(folder, "repository/samples/hello/main.cpp.md").exists())
+            self.assertEqual(place("docs/accuracy.md"), "accuracy.html")
+
+    def test_the_report_of_accuracy_is_made_with_its_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            DOCS.Pages(pathlib.Path(folder)).add_report()
+            text = pathlib.Path(folder, "accuracy.html").read_text(encoding="utf-8")
+            self.assertIn('href="conformance.html"', text)
+            pictures = re.findall(r'src="([^"]+)"', text)
+            self.assertTrue(pictures)
+            for picture in pictures:
+                self.assertTrue(pathlib.Path(folder, picture).exists(), picture)
 
 
 class Charters(unittest.TestCase):

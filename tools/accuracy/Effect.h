@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Effect: one row of the accuracy table: a choice, its values, the reference for each value, and the cost. Rows are
-/// objects in effects.json; docs/accuracy.html begins with how to add one.
+/// objects in effects.json; docs/accuracy.md says where it is told how to add one.
 ///   Value    one word ("fast": CHOICE=fast) or settings separated by spaces ("diffuseIrradiance=sphericalHarmonics
 ///            shBands=2"). Without "values": all values that Settings.h knows for the choice.
 ///   Fails    InvalidArgument, NotFound: row, field, what is valid. Every word of every value is checked.

@@ -2,8 +2,6 @@
 """What the plots share: reading JSON with errors worth reading, colours, fonts."""
 import json
 
-import matplotlib.pyplot as plt
-
 # Colours that colour-blind readers can distinguish: Okabe and Ito 2008, "Color universal design".
 BLUE, ORANGE, GREEN, PINK, GREY, SKY, RED, YELLOW = (
     "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#8c8c8c", "#56b4e9", "#d55e00", "#d9c82b")
@@ -18,6 +16,7 @@ class BadInput(Exception):
 
 
 def apply_style():
+    import matplotlib.pyplot as plt  # not every page has plots
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 10, "axes.titleweight": "bold",
         "axes.titlelocation": "left", "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": "#666666",

@@ -375,9 +375,15 @@ class AccuracyPage(unittest.TestCase):
         with self.assertRaisesRegex(accuracy_page.BadInput, "'none' is not among its values"):
             accuracy_page.page(self.folder(wrong))
 
-    def test_the_committed_page_is_that_of_its_data(self):
+    def test_the_committed_data_make_a_page_with_all_its_pictures(self):
         docs = FOLDER.parents[1] / "docs"
-        self.assertEqual((docs / "accuracy.html").read_text(encoding="utf-8"), accuracy_page.page(docs / "accuracy"))
+        text = accuracy_page.page(docs / "accuracy")
+        shown = set(re.findall(r'src="([^"]+)"', text))
+        self.assertEqual(shown, {f"accuracy/{path.name}" for path in (docs / "accuracy").glob("*.png")})
+        names = [effect["name"] for effect in json.loads((docs / "accuracy/results.json").read_text(encoding="utf-8"))["effects"]]
+        self.assertEqual(re.findall(r'<section id="(\w+)"', text), names)
+        for link in re.findall(r'href="([^"#]+)', text):
+            self.assertTrue((docs / link).exists(), link)
 
 
 if __name__ == "__main__":
