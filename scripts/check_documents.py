@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used, and every source
-file names its licence.
+"""Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used and small, and
+every source file names its licence.
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
-Pictures are the .png and .svg files below docs/. Links to other hosts are not followed; scripts/docs also follows those to places
+Pictures are the .png and .svg files below docs/. A .png with an alpha channel comes as a program wrote it: scripts/shrink_pictures leaves
+pictures none that show nothing through, and 0.6 of their bytes. Links to other hosts are not followed; scripts/docs also follows those to places
 within a page. The licence is an SPDX line among the first three; the inputs of fuzzers and the data of tests have none.
 """
 import argparse
@@ -22,6 +23,7 @@ LINKS = {
     ".html": re.compile(r"\b(?:src|href)=\"([^\"]*)\"()"),
 }
 PICTURES = {".png", ".svg"}
+PNG, ALPHA_AT, ALPHA = b"\x89PNG\r\n\x1a\n", 25, 4  # the bit of the colour type in the first chunk
 LICENCE = "SPDX-License-Identifier: Apache-2.0"
 # Files whose language has comments, and programs without a suffix; of templates, what they make.
 LICENSED = {".cpp", ".h", ".inl", ".inc", ".c", ".glsl", ".mat", ".py", ".pyi", ".cmake", ".sh", ".js", ".css", ".yml", ".yaml", ".dox",
@@ -55,6 +57,12 @@ def targets(document):
             yield text.count("\n", 0, found.start()) + 1, document.parent / ".." / target if above else document.parent / target
 
 
+def has_alpha(picture):
+    with picture.open("rb") as opened:
+        head = opened.read(ALPHA_AT + 1)
+    return head.startswith(PNG) and len(head) > ALPHA_AT and bool(head[ALPHA_AT] & ALPHA)
+
+
 def needs_licence(name, head):
     path = pathlib.PurePosixPath(name)
     if name.startswith(INPUTS):
@@ -85,8 +93,12 @@ def check(root):
                 name = target.relative_to(document.parent) if target.is_relative_to(document.parent) else target
                 wrong.append(f"{document.relative_to(root)}:{line}: there is no {name}")
     for file in files:
-        if file.suffix in PICTURES and file.relative_to(root).parts[0] == "docs" and file.resolve() not in shown:
+        if file.suffix not in PICTURES or file.relative_to(root).parts[0] != "docs":
+            continue
+        if file.resolve() not in shown:
             wrong.append(f"{file.relative_to(root)}:1: no document shows this picture")
+        if has_alpha(file):
+            wrong.append(f"{file.relative_to(root)}:1: is larger than it must be: run scripts/shrink_pictures")
     wrong += without_licence(root, files)
     return wrong, len(documents)
 

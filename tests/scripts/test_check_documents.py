@@ -10,12 +10,12 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_docume
 
 
 def check(files):
-    """Exit status and output of the checker over a tree of {path: text}."""
+    """Exit status and output of the checker over a tree of {path: text or bytes}."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             path = pathlib.Path(folder, name)
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+            path.write_bytes(text if isinstance(text, bytes) else text.encode("utf-8"))
         done = subprocess.run([sys.executable, SCRIPT, "--root", folder], capture_output=True, text=True, check=False)
         return done.returncode, done.stdout
 
@@ -44,6 +44,14 @@ class Documents(unittest.TestCase):
         self.assert_broken({"a.md": "![x](<x.svg>)"}, "a.md:1: there is no x.svg")
         self.assert_broken({"docs/a.md": "[x](/nowhere/x.md)"}, "docs/a.md:1: there is no /nowhere/x.md")
         self.assert_broken({"docs/a.md": "[x](../y.md)"}, "docs/a.md:1: there is no ../y.md")
+
+    def test_a_picture_as_a_program_wrote_it_is_reported(self):
+        picture = lambda color: b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08" + bytes([color])
+        for color in (4, 6):  # grey or colours, with alpha
+            self.assert_broken({"a.md": "![a](docs/a.png)", "docs/a.png": picture(color)}, "docs/a.png:1: is larger than it must be")
+        for color in (0, 2, 3):
+            self.assertEqual(check({"a.md": "![a](docs/a.png)", "docs/a.png": picture(color)})[0], 0)
+        self.assertEqual(check({"a.md": "![a](b/a.png)", "b/a.png": picture(6)})[0], 0)
 
     def test_a_fragment_has_its_pictures_beside_it_and_its_links_above(self):
         fragment = '<a href="a.md">a</a><img src="x.png">'
