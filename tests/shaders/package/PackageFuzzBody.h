@@ -5,24 +5,28 @@
 #include "base/Assert.h"
 #include "base/Hash.h"
 #include "shaders/package/Package.h"
+#include "shaders/package/PackageFormat.h"
 #include "shaders/package/RemoveUnusedTextures.h"
 
-#include <cstring>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 namespace filament::shader::test {
 
-inline constexpr size_t kPackageChecksumAt = 8, kPackageContentAt = 16;
-
-/// The same bytes with a valid checksum, so that mutations reach the code behind the check.
-inline std::vector<std::byte> withValidChecksum(std::span<const std::byte> bytes) {
-    std::vector<std::byte> fixed(bytes.begin(), bytes.end());
-    if (fixed.size() < kPackageContentAt) return fixed;
-    const uint64_t checksum = hashBytes(std::span<const std::byte>(fixed).subspan(kPackageContentAt));
-    std::memcpy(fixed.data() + kPackageChecksumAt, &checksum,
-                sizeof checksum); // little-endian hosts only, like the tests
-    return fixed;
+/// A file of this engine's version and a valid checksum around its sections: mutations of them reach the code behind
+/// the header's checks, and a corpus of them outlives a change of the version.
+inline std::vector<std::byte> withHeader(std::span<const std::byte> sections) {
+    std::vector<std::byte> file;
+    const auto append = [&](auto value) { // little-endian hosts only, like the tests
+        const auto bytes = std::as_bytes(std::span(&value, 1));
+        file.insert(file.end(), bytes.begin(), bytes.end());
+    };
+    append(format::kMagic);
+    append(format::kVersion);
+    append(hashBytes(sections));
+    file.insert(file.end(), sections.begin(), sections.end());
+    return file;
 }
 
 /// A package that was read can be written, and reads back the same. Returns whether the bytes were a package.
@@ -41,9 +45,10 @@ inline bool readAndRewrite(std::span<const std::byte> bytes) {
     return true;
 }
 
+/// `bytes`: sections without a header; refused as a file.
 inline bool fuzzPackage(std::span<const std::byte> bytes) {
-    const bool asIs = readAndRewrite(bytes);
-    return readAndRewrite(withValidChecksum(bytes)) || asIs;
+    const bool isFile = readAndRewrite(bytes);
+    return readAndRewrite(withHeader(bytes)) || isFile;
 }
 
 } // namespace filament::shader::test
