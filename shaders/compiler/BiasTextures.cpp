@@ -9,12 +9,9 @@
 namespace filament::shader {
 namespace {
 
-using Id = SpirvEditor::Id;
-using Instruction = SpirvEditor::Instruction;
-
 /// Those of texture_bias.glsl; 0: there is none.
 struct BiasFunctions {
-    Id isBiased = 0, levels = 0, factor = 0;
+    SpirvId isBiased = 0, levels = 0, factor = 0;
 };
 
 BiasFunctions functionsOf(std::span<const uint32_t> module) {
@@ -37,11 +34,11 @@ public:
     Bias(std::span<const uint32_t> module, BiasFunctions const& functions) : mEditor(module), mFunctions(functions) {}
 
     std::vector<uint32_t> run() {
-        return mEditor.rewrite([this](Instruction const& at) { return replace(at); });
+        return mEditor.rewrite([this](SpirvEditor::Instruction const& at) { return replace(at); });
     }
 
 private:
-    Id replace(Instruction const& at) {
+    SpirvId replace(SpirvEditor::Instruction const& at) {
         const bool isImplicit = at.op == spv::OpImageSampleImplicitLod || at.op == spv::OpImageSampleProjImplicitLod;
         const bool isExplicit = at.op == spv::OpImageSampleExplicitLod || at.op == spv::OpImageSampleProjExplicitLod;
         const bool hasGradients =
@@ -52,16 +49,16 @@ private:
             addLevels(operands);
         else
             scaleGradients(operands);
-        const Id plain = mEditor.emit(at.op, at.type, at.operands);
-        const Id biased = mEditor.emit(at.op, at.type, operands);
+        const SpirvId plain = mEditor.emit(at.op, at.type, at.operands);
+        const SpirvId biased = mEditor.emit(at.op, at.type, operands);
         return mEditor.emit(spv::OpSelect, at.type, { call(mFunctions.isBiased), biased, plain });
     }
 
-    Id call(Id function) { return mEditor.emit(spv::OpFunctionCall, mEditor.typeOf(function), { function }); }
+    SpirvId call(SpirvId function) { return mEditor.emit(spv::OpFunctionCall, mEditor.typeOf(function), { function }); }
 
     /// A bias is the first of what a mask stands for.
     void addLevels(std::vector<uint32_t>& operands) {
-        Id levels = call(mFunctions.levels);
+        SpirvId levels = call(mFunctions.levels);
         if (operands.size() == kMask) operands.push_back(spv::ImageOperandsMaskNone);
         uint32_t& mask = operands[kMask];
         if ((mask & spv::ImageOperandsBiasMask) != 0) {
@@ -74,7 +71,7 @@ private:
 
     /// Without a bias and a level, gradients are the first.
     void scaleGradients(std::vector<uint32_t>& operands) {
-        const Id factor = call(mFunctions.factor);
+        const SpirvId factor = call(mFunctions.factor);
         for (const size_t i : { kMask + 1, kMask + 2 })
             operands[i] = mEditor.emit(spv::OpVectorTimesScalar, mEditor.typeOf(operands[i]), { operands[i], factor });
     }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#define SPV_ENABLE_UTILITY_CODE // HasResultAndType()
 #include "shaders/compiler/ClampIndices.h"
 
 #include "shaders/compiler/SpirvWords.h"
@@ -14,26 +13,22 @@
 namespace filament::shader {
 namespace {
 
-constexpr size_t kBoundWord = 3;
-
-using Words = std::span<const uint32_t>;
-
 struct Type {
     spv::Op op = spv::OpNop;
-    Words words; ///< of the instruction that declares it
+    SpirvWords words; ///< of the instruction that declares it
 };
 
 class Clamp {
 public:
-    explicit Clamp(Words module) : mModule(module), mBound(module[kBoundWord]) {
-        forEachInstruction(module, [&](spv::Op op, Words words) { learn(op, words); });
+    explicit Clamp(SpirvWords module) : mModule(module), mBound(module[kModuleBoundWord]) {
+        forEachInstruction(module, [&](spv::Op op, SpirvWords words) { learn(op, words); });
     }
 
     std::vector<uint32_t> run() {
         if (mExtended == 0) return { mModule.begin(), mModule.end() };
         std::vector<uint32_t> head(mModule.begin(), mModule.begin() + kModuleHeaderWords);
         bool inFunctions = false;
-        forEachInstruction(mModule, [&](spv::Op op, Words words) {
+        forEachInstruction(mModule, [&](spv::Op op, SpirvWords words) {
             inFunctions = inFunctions || op == spv::OpFunction;
             if (inFunctions)
                 rewrite(op, words);
@@ -42,12 +37,12 @@ public:
         });
         head.insert(head.end(), mNewConstants.begin(), mNewConstants.end());
         head.insert(head.end(), mBody.begin(), mBody.end());
-        head[kBoundWord] = mBound;
+        head[kModuleBoundWord] = mBound;
         return head;
     }
 
 private:
-    void learn(spv::Op op, Words words) {
+    void learn(spv::Op op, SpirvWords words) {
         if (op >= spv::OpTypeVoid && op <= spv::OpTypePointer) mTypes[words[1]] = { op, words };
         if (op == spv::OpConstant && words.size() == 4) mConstants[words[2]] = words[3];
         const bool isGroup = op == spv::OpDecorate && words[2] == spv::DecorationDescriptorSet;
@@ -59,13 +54,13 @@ private:
     }
 
     // The type of an index, and of what is indexed.
-    void learnValue(spv::Op op, Words words) {
+    void learnValue(spv::Op op, SpirvWords words) {
         bool hasResult = false, hasType = false;
         spv::HasResultAndType(op, &hasResult, &hasType);
         if (hasResult && hasType) mTypeOf[words[2]] = words[1];
     }
 
-    void rewrite(spv::Op op, Words words) {
+    void rewrite(spv::Op op, SpirvWords words) {
         std::vector<uint32_t> copy(words.begin(), words.end());
         if (op == spv::OpAccessChain || op == spv::OpInBoundsAccessChain)
             clampChain(copy);
@@ -122,7 +117,7 @@ private:
         return id;
     }
 
-    Words mModule;
+    SpirvWords mModule;
     uint32_t mBound = 0, mExtended = 0;
     std::map<uint32_t, Type> mTypes;
     std::map<uint32_t, uint32_t> mConstants, mTypeOf, mBases; ///< by id; bases of pointers made by access chains

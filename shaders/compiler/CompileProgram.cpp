@@ -19,8 +19,6 @@
 namespace filament::shader {
 namespace {
 
-using Words = std::vector<uint32_t>;
-
 bool isHalf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
     return stage == backend::ShaderStage::Fragment && options.halfFragment;
 }
@@ -32,9 +30,9 @@ Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& opt
 }
 
 /// GLSL -> optimised and lowered SPIR-V, still with names.
-Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
-                         ProgramCompileOptions const& options) {
-    Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
+Result<std::vector<uint32_t>> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
+                                         ProgramCompileOptions const& options) {
+    Result<std::vector<uint32_t>> spirv = spirvFromGlsl(glsl, stage, name);
     if (spirv && stage == backend::ShaderStage::Fragment) spirv = biasTextures(*spirv);
     if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
     if (spirv && options.exact) spirv = clampIndices(initializeVariables(*spirv));
@@ -46,12 +44,12 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
     return spirv;
 }
 
-Result<void> writeStage(Words const& lowered, bool half, ProgramCompileOptions const& options,
-                        backend::ProgramLayout const& layout, Words& spirv, std::string& essl) {
+Result<void> writeStage(std::vector<uint32_t> const& lowered, bool half, ProgramCompileOptions const& options,
+                        backend::ProgramLayout const& layout, std::vector<uint32_t>& spirv, std::string& essl) {
     if (options.spirv) {
-        Result<Words> device = half ? halfFromRelaxed(lowered) : lowered;
+        Result<std::vector<uint32_t>> device = half ? halfFromRelaxed(lowered) : lowered;
         if (!device) return device.error();
-        Result<Words> stripped = stripSpirv(*device);
+        Result<std::vector<uint32_t>> stripped = stripSpirv(*device);
         if (!stripped) return stripped.error();
         spirv = std::move(*stripped);
     }
@@ -70,7 +68,7 @@ Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage sta
     FILAMENT_ASSERT(options.layout, "compiling a single stage needs ProgramCompileOptions::layout");
     const bool isVertex = stage == backend::ShaderStage::Vertex;
     const std::string_view name = isVertex ? options.vertexName : options.fragmentName;
-    Result<Words> lowered = lowerStage(glsl, stage, name, options);
+    Result<std::vector<uint32_t>> lowered = lowerStage(glsl, stage, name, options);
     if (!lowered) return lowered.error();
     Result<StageResources> used = reflectStage(*lowered, stage, options.dynamicUniformBuffers);
     if (!used) return used.error();
@@ -85,7 +83,7 @@ Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage sta
 
 Result<ComputeShader> compileCompute(std::string_view glsl, ProgramCompileOptions const& options) {
     constexpr auto kStage = backend::ShaderStage::Compute;
-    Result<Words> lowered = lowerStage(glsl, kStage, options.computeName, options);
+    Result<std::vector<uint32_t>> lowered = lowerStage(glsl, kStage, options.computeName, options);
     if (!lowered) return lowered.error();
     Result<StageResources> used = reflectStage(*lowered, kStage, options.dynamicUniformBuffers);
     if (!used) return used.error();
@@ -101,9 +99,11 @@ Result<ComputeShader> compileCompute(std::string_view glsl, ProgramCompileOption
 
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
                                       ProgramCompileOptions const& options) {
-    Result<Words> vertex = lowerStage(vertexGlsl, backend::ShaderStage::Vertex, options.vertexName, options);
+    Result<std::vector<uint32_t>> vertex =
+            lowerStage(vertexGlsl, backend::ShaderStage::Vertex, options.vertexName, options);
     if (!vertex) return vertex.error();
-    Result<Words> fragment = lowerStage(fragmentGlsl, backend::ShaderStage::Fragment, options.fragmentName, options);
+    Result<std::vector<uint32_t>> fragment =
+            lowerStage(fragmentGlsl, backend::ShaderStage::Fragment, options.fragmentName, options);
     if (!fragment) return fragment.error();
 
     Result<StageResources> used = reflectResources(*vertex, *fragment, options.dynamicUniformBuffers);

@@ -2,10 +2,10 @@
 #include "shaders/compiler/Cost.h"
 
 #include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/compiler/SpirvWords.h"
 
 #include <fmt/core.h>
 #include <spirv_cross/GLSL.std.450.h>
-#include <spirv_cross/spirv.hpp>
 
 #include <utility>
 
@@ -26,7 +26,7 @@ bool isFetch(spv::Op op) { return op >= spv::OpImageSampleImplicitLod && op <= s
 bool isControl(spv::Op op) { return (op >= spv::OpBranch && op <= spv::OpUnreachable) || op == spv::OpFunctionCall; }
 
 /// Conversions, arithmetic, comparisons, bit operations and derivatives are consecutive in SPIR-V's numbering.
-bool isArithmetic(spv::Op op) { return op >= spv::OpConvertFToU && op <= spv::OpFwidthCoarse; }
+bool isCountedArithmetic(spv::Op op) { return op >= spv::OpConvertFToU && op <= spv::OpFwidthCoarse; }
 
 void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& counts) {
     if (op == spv::OpExtInst) {
@@ -37,7 +37,7 @@ void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& count
         ++counts.control;
     } else if (op == spv::OpLoad || op == spv::OpStore) {
         ++counts.memory;
-    } else if (isArithmetic(op)) {
+    } else if (isCountedArithmetic(op)) {
         ++counts.arithmetic;
     }
 }
@@ -75,10 +75,9 @@ std::string row(Variant const& variant, MaterialPackage const& cheapest) {
 } // namespace
 
 InstructionCounts countInstructions(std::span<const uint32_t> module) {
-    constexpr size_t kHeaderWords = 5;
     InstructionCounts counts;
     bool inFunction = false; // before that, operations on specialisation constants are data
-    for (size_t at = kHeaderWords; at < module.size(); at += module[at] >> 16) {
+    for (size_t at = kModuleHeaderWords; at < module.size(); at += module[at] >> 16) {
         const auto op = static_cast<spv::Op>(module[at] & 0xFFFF);
         inFunction = inFunction || op == spv::OpFunction;
         if (inFunction) count(op, module.subspan(at, module[at] >> 16), counts);

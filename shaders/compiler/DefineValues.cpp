@@ -8,8 +8,6 @@
 namespace filament::shader {
 namespace {
 
-constexpr size_t kBoundWord = 3;
-
 bool isUnset(spv::Op op, std::span<const uint32_t> words) {
     const bool isLocal =
             op == spv::OpVariable && (words[3] == spv::StorageClassFunction || words[3] == spv::StorageClassPrivate);
@@ -19,7 +17,7 @@ bool isUnset(spv::Op op, std::span<const uint32_t> words) {
 /// Adds OpConstantNull before the first function or global variable, and names it in every unset variable.
 class Initializer {
 public:
-    explicit Initializer(std::span<const uint32_t> module) : mModule(module), mBound(module[kBoundWord]) {}
+    explicit Initializer(std::span<const uint32_t> module) : mModule(module), mBound(module[kModuleBoundWord]) {}
 
     std::vector<uint32_t> run() {
         forEachInstruction(mModule, [&](spv::Op op, std::span<const uint32_t> words) {
@@ -35,7 +33,7 @@ public:
             const uint32_t zero = zeroOf(mPointees.at(words[1])); // may add it to mOut
             mOut.insert(mOut.end(), { 5u << 16 | op, words[1], words[2], words[3], zero });
         });
-        mOut[kBoundWord] = mBound;
+        mOut[kModuleBoundWord] = mBound;
         return std::move(mOut);
     }
 

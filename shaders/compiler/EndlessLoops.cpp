@@ -12,8 +12,6 @@
 namespace filament::shader {
 namespace {
 
-using Words = std::span<const uint32_t>;
-
 struct Block {
     std::vector<uint32_t> successors;
     bool leaves = false; ///< returns or discards
@@ -23,13 +21,13 @@ struct Block {
 
 class Search {
 public:
-    std::optional<EndlessLoop> run(Words module) {
-        forEachInstruction(module, [&](spv::Op op, Words words) { visit(op, words); });
+    std::optional<EndlessLoop> run(SpirvWords module) {
+        forEachInstruction(module, [&](spv::Op op, SpirvWords words) { visit(op, words); });
         return mFound;
     }
 
 private:
-    void visit(spv::Op op, Words words) {
+    void visit(spv::Op op, SpirvWords words) {
         if (op == spv::OpString) mStrings[words[1]] = reinterpret_cast<const char*>(&words[2]);
         if (op == spv::OpConstantTrue) mTrue.insert(words[2]);
         if (op == spv::OpConstantFalse) mFalse.insert(words[2]);
@@ -44,7 +42,7 @@ private:
         if (op == spv::OpFunctionEnd && mEntry != 0) searchFunction(), mEntry = 0;
     }
 
-    void readBranch(spv::Op op, Words words) {
+    void readBranch(spv::Op op, SpirvWords words) {
         Block& block = mBlocks[mCurrent];
         if (op == spv::OpLoopMerge) block.isLoop = true, block.file = mFile, block.line = mLine;
         if (op == spv::OpBranch) block.successors = { words[1] };

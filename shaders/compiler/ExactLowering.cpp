@@ -14,9 +14,6 @@
 namespace filament::shader {
 namespace {
 
-using Id = SpirvEditor::Id;
-using Instruction = SpirvEditor::Instruction;
-
 constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180.0f;
 constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
 
@@ -25,7 +22,7 @@ constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
 class FunctionChains {
 public:
     /// The instruction as it is, but with sums in front of such a function; 0: it is none.
-    Id separate(SpirvEditor& editor, Instruction const& at) {
+    SpirvId separate(SpirvEditor& editor, SpirvEditor::Instruction const& at) {
         if (isMoved(at)) mResults.insert(at.result);
         if (at.op != spv::OpExtInst || !editor.isExtended(at) || !isFolded(at.operands[1])) return 0;
         mResults.insert(at.result);
@@ -43,13 +40,13 @@ public:
 private:
     static bool isFolded(uint32_t function) { return (function >= GLSLstd450Pow && function <= GLSLstd450InverseSqrt); }
 
-    bool isMoved(Instruction const& at) const {
+    bool isMoved(SpirvEditor::Instruction const& at) const {
         const bool moves =
                 at.op == spv::OpCompositeExtract || at.op == spv::OpCompositeConstruct || at.op == spv::OpVectorShuffle;
-        return moves && std::ranges::any_of(at.operands, [&](Id id) { return mResults.contains(id); });
+        return moves && std::ranges::any_of(at.operands, [&](SpirvId id) { return mResults.contains(id); });
     }
 
-    std::unordered_set<Id> mResults; ///< of functions, and their components
+    std::unordered_set<SpirvId> mResults; ///< of functions, and their components
 };
 
 /// Values that follow from constants alone, so that a driver may know them: also functions of constants, which
@@ -59,25 +56,25 @@ public:
     explicit KnownValues(SpirvEditor const& editor) : mEditor(editor) {}
 
     /// In the order of the module.
-    void note(Instruction const& at) {
+    void note(SpirvEditor::Instruction const& at) {
         const std::span<const uint32_t> inputs = inputsOf(at);
-        if (!inputs.empty() && std::ranges::all_of(inputs, [&](Id input) { return contains(input); }))
+        if (!inputs.empty() && std::ranges::all_of(inputs, [&](SpirvId input) { return contains(input); }))
             mKnown.insert(at.result);
     }
 
-    bool contains(Id value) const { return mKnown.contains(value) || mEditor.isConstantExpression(value); }
+    bool contains(SpirvId value) const { return mKnown.contains(value) || mEditor.isConstantExpression(value); }
 
     /// A driver may find out that it is a NaN.
-    bool mayBeNan(Id value) const {
+    bool mayBeNan(SpirvId value) const {
         const std::span<const float> numbers = mEditor.constantOf(value);
         return numbers.empty() ? contains(value) : std::ranges::any_of(numbers, [](float x) { return x != x; });
     }
 
-    void add(Id value) { mKnown.insert(value); }
+    void add(SpirvId value) { mKnown.insert(value); }
 
 private:
     /// Without literals; empty: not a function of its operands alone.
-    static std::span<const uint32_t> inputsOf(Instruction const& at) {
+    static std::span<const uint32_t> inputsOf(SpirvEditor::Instruction const& at) {
         switch (at.op) {
         case spv::OpExtInst:
             return at.operands.subspan(2);
@@ -94,15 +91,15 @@ private:
     }
 
     SpirvEditor const& mEditor;
-    std::unordered_set<Id> mKnown;
+    std::unordered_set<SpirvId> mKnown;
 };
 
 class Lowering {
 public:
-    Lowering(SpirvEditor& editor, KnownValues& known, Instruction const& at)
+    Lowering(SpirvEditor& editor, KnownValues& known, SpirvEditor::Instruction const& at)
             : mEditor(editor), mKnown(known), mAt(at) {}
 
-    Id run() const {
+    SpirvId run() const {
         if (mAt.op == spv::OpSMod) return lowerSignedModulo();
         if (mAt.op == spv::OpSDiv || mAt.op == spv::OpUDiv || mAt.op == spv::OpUMod) return lowerIntegerDivision();
         if (mAt.op == spv::OpConvertFToS) return convertClamped(-2147483648.0f, 2147483520.0f);
@@ -147,29 +144,30 @@ private:
     }
 
     /// By 0: 0 of signed numbers, all bits of unsigned ones, which some drivers give and GLSL leaves undefined.
-    Id divideIntegers(spv::Op op, Id x, Id y) const {
+    SpirvId divideIntegers(spv::Op op, SpirvId x, SpirvId y) const {
         if (mEditor.isNonZeroInteger(y)) return mEditor.emit(op, mAt.type, { x, y });
-        const Id type = mEditor.typeOf(y), one = mEditor.splatBits(1, type);
-        const Id isZero = mEditor.emit(spv::OpIEqual, mEditor.boolTypeLike(type), { y, mEditor.splatBits(0, type) });
-        const Id divisor = mEditor.emit(spv::OpSelect, type, { isZero, one, y });
-        const Id quotient = mEditor.emit(op, mAt.type, { x, divisor });
-        const Id otherwise = mEditor.splatBits(op == spv::OpSDiv ? 0 : ~0u, mAt.type);
+        const SpirvId type = mEditor.typeOf(y), one = mEditor.splatBits(1, type);
+        const SpirvId isZero =
+                mEditor.emit(spv::OpIEqual, mEditor.boolTypeLike(type), { y, mEditor.splatBits(0, type) });
+        const SpirvId divisor = mEditor.emit(spv::OpSelect, type, { isZero, one, y });
+        const SpirvId quotient = mEditor.emit(op, mAt.type, { x, divisor });
+        const SpirvId otherwise = mEditor.splatBits(op == spv::OpSDiv ? 0 : ~0u, mAt.type);
         return mEditor.emit(spv::OpSelect, mAt.type, { isZero, otherwise, quotient });
     }
 
-    Id lowerIntegerDivision() const {
+    SpirvId lowerIntegerDivision() const {
         return mEditor.isNonZeroInteger(mAt.operands[1]) ? 0 : divideIntegers(mAt.op, mAt.operands[0], mAt.operands[1]);
     }
 
     /// GLSL leaves % of negative numbers undefined; here the quotient is truncated towards zero, as in C++.
-    Id lowerSignedModulo() const {
-        const Id x = mAt.operands[0], y = mAt.operands[1];
-        const Id quotient = divideIntegers(spv::OpSDiv, x, y);
+    SpirvId lowerSignedModulo() const {
+        const SpirvId x = mAt.operands[0], y = mAt.operands[1];
+        const SpirvId quotient = divideIntegers(spv::OpSDiv, x, y);
         return mEditor.emit(spv::OpISub, mAt.type, { x, mEditor.emit(spv::OpIMul, mAt.type, { quotient, y }) });
     }
 
     /// GLSL leaves integers out of range undefined; `high` is the largest float that fits. NaN becomes `low`.
-    Id convertClamped(float low, float high) const {
+    SpirvId convertClamped(float low, float high) const {
         const Value x = operand(0);
         if (!mEditor.isFloat32(x.type())) return 0;
         const Value raised = call(GLSLstd450FMax, { x, x.like(low) });
@@ -178,14 +176,14 @@ private:
     }
 
     /// Sign and payload of a NaN depend on the order of operands, which each driver chooses; only bit casts see them.
-    Id oneNan(Value x) const { return unlessNan(x, x.like(std::bit_cast<float>(0x7FC00000u))); }
+    SpirvId oneNan(Value x) const { return unlessNan(x, x.like(std::bit_cast<float>(0x7FC00000u))); }
 
-    Id unlessNan(Value x, Value otherwise) const {
-        const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
+    SpirvId unlessNan(Value x, Value otherwise) const {
+        const SpirvId isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
         return mEditor.emit(spv::OpSelect, x.type(), { isNan, otherwise.id, x.id });
     }
 
-    Id castNumber() const {
+    SpirvId castNumber() const {
         const Value x = operand(0);
         if (!mEditor.isFloat32(x.type()) || mEditor.isFloat32(mAt.type)) return 0;
         return mEditor.emit(spv::OpBitcast, mAt.type, { oneNan(x) });
@@ -197,15 +195,15 @@ private:
 
     /// ESSL 3.10, 8.8 declares these results lowp, and Mesa then compares them with constants in 16 bits. An operand of
     /// high precision, which is always 0, makes the expression highp.
-    Id inHighPrecision(Id bits) const {
-        const Id result = mEditor.emit(mAt.op, mAt.type, mAt.operands);
-        Id zero = mEditor.emit(spv::OpBitwiseXor, mEditor.typeOf(bits), { bits, bits });
+    SpirvId inHighPrecision(SpirvId bits) const {
+        const SpirvId result = mEditor.emit(mAt.op, mAt.type, mAt.operands);
+        SpirvId zero = mEditor.emit(spv::OpBitwiseXor, mEditor.typeOf(bits), { bits, bits });
         if (mEditor.typeOf(bits) != mAt.type) zero = mEditor.emit(spv::OpBitcast, mAt.type, { zero });
         return mEditor.emit(spv::OpBitwiseOr, mAt.type, { result, zero });
     }
 
-    Id whole(uint32_t value) const { return whole(value, mAt.type); }
-    Id whole(uint32_t value, Id type) const {
+    SpirvId whole(uint32_t value) const { return whole(value, mAt.type); }
+    SpirvId whole(uint32_t value, SpirvId type) const {
         return mEditor.constant(std::array{ std::bit_cast<float>(value) }, type);
     }
 
@@ -216,10 +214,10 @@ private:
 
     /// Where the word is a constant, Mesa 22.3 computes the second component as 0 (nir_opcodes.py, unpack_2x16: << 16).
     /// So both are first components.
-    Id unpackTwo() const {
-        const Id word = mAt.operands[2], type = mEditor.typeOf(word);
-        const Id upper = mEditor.emit(spv::OpShiftRightLogical, type, { word, whole(16, type) });
-        const auto first = [&](Id of) {
+    SpirvId unpackTwo() const {
+        const SpirvId word = mAt.operands[2], type = mEditor.typeOf(word);
+        const SpirvId upper = mEditor.emit(spv::OpShiftRightLogical, type, { word, whole(16, type) });
+        const auto first = [&](SpirvId of) {
             return Value{ &mEditor, mEditor.emit(mAt.op, mAt.type, { mAt.operands[0], mAt.operands[1], of }) }[0];
         };
         const Value x = first(word), y = first(upper);
@@ -227,14 +225,14 @@ private:
     }
 
     /// Drivers pack a NaN as 7E00 or 7FFF, so numbers are packed, and NaNs added to them.
-    Id packHalves() const {
+    SpirvId packHalves() const {
         const Value both = argument(0);
         const Value clean = { &mEditor, unlessNan(both, both.like(0)) };
-        Id packed = mEditor.emit(spv::OpExtInst, mAt.type, { mAt.operands[0], mAt.operands[1], clean.id });
+        SpirvId packed = mEditor.emit(spv::OpExtInst, mAt.type, { mAt.operands[0], mAt.operands[1], clean.id });
         for (uint32_t i = 0; i < 2; ++i) {
             const Value half = both[i];
-            const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(half.type()), { half.id });
-            const Id nan = mEditor.emit(spv::OpSelect, mAt.type, { isNan, whole(0x7E00u << (16 * i)), whole(0) });
+            const SpirvId isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(half.type()), { half.id });
+            const SpirvId nan = mEditor.emit(spv::OpSelect, mAt.type, { isNan, whole(0x7E00u << (16 * i)), whole(0) });
             packed = mEditor.emit(spv::OpBitwiseOr, mAt.type, { packed, nan });
         }
         return packed;
@@ -255,7 +253,7 @@ private:
     /// `result`, but `otherwise` where `x` is a NaN and a driver may know it.
     Value ifNan(Value x, Value otherwise, Value result) const {
         if (!mKnown.mayBeNan(x.id)) return result;
-        const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
+        const SpirvId isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
         return { &mEditor, mEditor.emit(spv::OpSelect, x.type(), { isNan, otherwise.id, result.id }) };
     }
 
@@ -284,7 +282,7 @@ private:
         const std::span<const float> divisor = mEditor.constantOf(y.id);
         const bool mayBeZero = divisor.empty() ? mKnown.contains(y.id) : std::ranges::count(divisor, 0.0f) > 0;
         if (!mayBeZero) return result;
-        const Id isZero = mEditor.emit(spv::OpFOrdEqual, mEditor.boolTypeLike(x.type()), { y.id, y.like(0).id });
+        const SpirvId isZero = mEditor.emit(spv::OpFOrdEqual, mEditor.boolTypeLike(x.type()), { y.id, y.like(0).id });
         return { &mEditor, mEditor.emit(spv::OpSelect, x.type(), { isZero, x.id, result.id }) };
     }
 
@@ -369,7 +367,7 @@ private:
 
     SpirvEditor& mEditor;
     KnownValues& mKnown;
-    Instruction const& mAt;
+    SpirvEditor::Instruction const& mAt;
 };
 
 } // namespace
@@ -378,9 +376,9 @@ std::vector<uint32_t> lowerExactly(std::span<const uint32_t> spirv) {
     SpirvEditor editor(spirv);
     FunctionChains chains;
     KnownValues known(editor);
-    return editor.rewrite([&](Instruction const& at) {
+    return editor.rewrite([&](SpirvEditor::Instruction const& at) {
         known.note(at);
-        const Id lowered = Lowering(editor, known, at).run();
+        const SpirvId lowered = Lowering(editor, known, at).run();
         return lowered != 0 ? lowered : chains.separate(editor, at);
     });
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/FetchOutputs.h"
 
-#include <spirv_cross/spirv.hpp>
+#include "shaders/compiler/SpirvWords.h"
 
 #include <map>
 #include <set>
@@ -9,8 +9,6 @@
 
 namespace filament::shader {
 namespace {
-
-constexpr size_t kHeaderWords = 5, kBoundWord = 3;
 
 /// Positions in the module, as word indices, and what it declares.
 struct Survey {
@@ -24,7 +22,7 @@ Survey survey(std::span<const uint32_t> words) {
     Survey found;
     std::map<uint32_t, uint32_t> locationOf;
     uint32_t float32 = 0;
-    for (size_t at = kHeaderWords; at < words.size() && found.functions == 0; at += words[at] >> 16) {
+    for (size_t at = kModuleHeaderWords; at < words.size() && found.functions == 0; at += words[at] >> 16) {
         const auto op = static_cast<spv::Op>(words[at] & 0xFFFF);
         const std::span<const uint32_t> operands = words.subspan(at + 1, (words[at] >> 16) - 1);
         if (found.annotationsEnd == 0 && op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer)
@@ -55,7 +53,7 @@ void copy(std::vector<uint32_t>& out, std::span<const uint32_t> words, size_t be
 
 std::vector<uint32_t> withFetchOutputs(std::span<const uint32_t> spirv) {
     Survey at = survey(spirv);
-    uint32_t bound = spirv[kBoundWord];
+    uint32_t bound = spirv[kModuleBoundWord];
     std::vector<uint32_t> interface, annotations, globals;
     for (const uint32_t location : at.inputIndices) {
         if (at.outputLocations.contains(location)) continue;
@@ -81,7 +79,7 @@ std::vector<uint32_t> withFetchOutputs(std::span<const uint32_t> spirv) {
     out.insert(out.end(), globals.begin(), globals.end());
     copy(out, spirv, at.functions, spirv.size());
     out[at.entryPoint] += static_cast<uint32_t>(interface.size()) << 16;
-    out[kBoundWord] = bound;
+    out[kModuleBoundWord] = bound;
     return out;
 }
 

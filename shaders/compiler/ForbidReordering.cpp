@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/ForbidReordering.h"
 
-#include <spirv_cross/spirv.hpp>
+#include "shaders/compiler/SpirvWords.h"
 
 #include <set>
 
 namespace filament::shader {
 namespace {
-
-constexpr size_t kHeaderWords = 5;
 
 /// Operations that a driver could compute in another way. They include functions: a driver may turn pow(x, 2) into x *
 /// x, and in ESSL `precise` also affects the arguments of an expression, so both languages must forbid it.
@@ -28,16 +26,14 @@ bool canBeReordered(spv::Op op) {
     }
 }
 
-bool isType(spv::Op op) { return op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer; }
-
 } // namespace
 
 std::vector<uint32_t> forbidReordering(std::span<const uint32_t> spirv) {
     size_t firstType = 0;
     std::set<uint32_t> decorated, results;
-    for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    for (size_t at = kModuleHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
         const auto op = static_cast<spv::Op>(spirv[at] & 0xFFFF);
-        if (firstType == 0 && isType(op)) firstType = at;
+        if (firstType == 0 && isTypeDeclaration(op)) firstType = at;
         if (op == spv::OpDecorate && spirv[at + 2] == spv::DecorationNoContraction) decorated.insert(spirv[at + 1]);
         if (canBeReordered(op)) results.insert(spirv[at + 2]);
     }

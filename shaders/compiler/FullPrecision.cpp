@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/FullPrecision.h"
 
-#include <spirv_cross/spirv.hpp>
+#include "shaders/compiler/SpirvWords.h"
 
 namespace filament::shader {
 namespace {
-
-constexpr size_t kHeaderWords = 5;
 
 bool isRelaxed(std::span<const uint32_t> instruction) {
     const auto op = static_cast<spv::Op>(instruction[0] & 0xFFFF);
@@ -17,8 +15,8 @@ bool isRelaxed(std::span<const uint32_t> instruction) {
 } // namespace
 
 std::vector<uint32_t> fullPrecision(std::span<const uint32_t> spirv) {
-    std::vector<uint32_t> out(spirv.begin(), spirv.begin() + kHeaderWords);
-    for (size_t at = kHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
+    std::vector<uint32_t> out(spirv.begin(), spirv.begin() + kModuleHeaderWords);
+    for (size_t at = kModuleHeaderWords; at < spirv.size(); at += spirv[at] >> 16) {
         const auto instruction = spirv.subspan(at, spirv[at] >> 16);
         if (!isRelaxed(instruction)) out.insert(out.end(), instruction.begin(), instruction.end());
     }

@@ -17,8 +17,6 @@
 namespace filament::shader {
 namespace {
 
-using Id = SpirvEditor::Id;
-
 /// The location of the first probed member among the probe's outputs, and that of its initial value among the inputs.
 constexpr uint32_t kProbeOutputLocation = 1, kProbeInputLocation = 16;
 
@@ -78,16 +76,14 @@ struct Arrival {
 
 /// The variables of the module that have a location, keyed by location.
 struct Interface {
-    std::unordered_map<Id, uint32_t> inputs, outputs;
+    std::unordered_map<SpirvId, uint32_t> inputs, outputs;
 };
 
-using Words = std::span<const uint32_t>;
-
 /// Decorations precede the variables.
-Interface interfaceOf(Words module) {
-    std::unordered_map<Id, uint32_t> locations;
+Interface interfaceOf(SpirvWords module) {
+    std::unordered_map<SpirvId, uint32_t> locations;
     Interface found;
-    forEachInstruction(module, [&](spv::Op op, Words words) {
+    forEachInstruction(module, [&](spv::Op op, SpirvWords words) {
         if (op == spv::OpDecorate && words[2] == spv::DecorationLocation) locations[words[1]] = words[3];
         if (op != spv::OpVariable) return;
         const auto location = locations.find(words[2]);
@@ -100,12 +96,12 @@ Interface interfaceOf(Words module) {
 
 /// The first `count` probed members, in the order of probedMembers(). A member that receives different values from
 /// several stores counts as computed.
-std::vector<Arrival> arrivalsIn(Words module, size_t count) {
+std::vector<Arrival> arrivalsIn(SpirvWords module, size_t count) {
     const Interface interface = interfaceOf(module);
     std::vector<Arrival> arrivals(count);
-    std::unordered_map<Id, uint32_t> loaded; // value -> location of the input it was loaded from
+    std::unordered_map<SpirvId, uint32_t> loaded; // value -> location of the input it was loaded from
     const SpirvEditor editor(module);
-    const auto arrive = [&](size_t member, Id value) {
+    const auto arrive = [&](size_t member, SpirvId value) {
         Arrival arrival{ Arrival::Kind::Computed, {} };
         const auto components = editor.constantOf(value);
         const auto source = loaded.find(value);
@@ -115,7 +111,7 @@ std::vector<Arrival> arrivalsIn(Words module, size_t count) {
         const bool isFirst = arrivals[member].kind == Arrival::Kind::Nothing;
         arrivals[member] = isFirst || arrivals[member] == arrival ? arrival : Arrival{ Arrival::Kind::Computed, {} };
     };
-    forEachInstruction(module, [&](spv::Op op, Words words) {
+    forEachInstruction(module, [&](spv::Op op, SpirvWords words) {
         if (op == spv::OpLoad) {
             const auto input = interface.inputs.find(words[3]);
             if (input != interface.inputs.end()) loaded[words[2]] = input->second;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#define SPV_ENABLE_UTILITY_CODE // HasResultAndType()
 #include "shaders/compiler/OpaqueOutputs.h"
 
 #include "shaders/compiler/SpirvWords.h"
@@ -15,24 +14,20 @@
 namespace filament::shader {
 namespace {
 
-using Id = uint32_t;
-using Words = std::span<const uint32_t>;
-
-constexpr size_t kBoundWord = 3;
 /// Stands for the output of the vertex that does not exist. It only has to differ from what authors write.
 constexpr float kNever = -7.03906250e-12f;
 
-struct Definition {
+struct Defined {
     spv::Op op = spv::OpNop;
-    Id type = 0;
-    Words operands{}; ///< after type and result
+    SpirvId type = 0;
+    SpirvWords operands{}; ///< after type and result
 };
 
-Definition definitionOf(spv::Op op, Words words, Id& result) {
+Defined definedBy(spv::Op op, SpirvWords words, SpirvId& result) {
     bool hasResult = false, hasType = false;
     spv::HasResultAndType(op, &hasResult, &hasType);
-    Words rest = words.subspan(1);
-    Definition definition{ .op = op };
+    SpirvWords rest = words.subspan(1);
+    Defined definition{ .op = op };
     if (hasType) definition.type = rest[0], rest = rest.subspan(1);
     result = hasResult ? rest[0] : 0;
     definition.operands = hasResult ? rest.subspan(1) : rest;
@@ -42,27 +37,27 @@ Definition definitionOf(spv::Op op, Words words, Id& result) {
 /// What each id stands for.
 class Definitions {
 public:
-    explicit Definitions(Words module) {
-        forEachInstruction(module, [&](spv::Op op, Words words) {
-            Id result = 0;
-            const Definition definition = definitionOf(op, words, result);
+    explicit Definitions(SpirvWords module) {
+        forEachInstruction(module, [&](spv::Op op, SpirvWords words) {
+            SpirvId result = 0;
+            const Defined definition = definedBy(op, words, result);
             if (result != 0) mDefinitions[result] = definition;
         });
     }
 
-    Definition const& of(Id id) const {
-        static constexpr Definition kUnknown;
+    Defined const& of(SpirvId id) const {
+        static constexpr Defined kUnknown;
         const auto found = mDefinitions.find(id);
         return found == mDefinitions.end() ? kUnknown : found->second;
     }
 
-    uint32_t componentsOf(Id type) const {
-        Definition const& definition = of(type);
+    uint32_t componentsOf(SpirvId type) const {
+        Defined const& definition = of(type);
         return definition.op == spv::OpTypeVector ? definition.operands[1] : 1;
     }
 
-    bool isFloatOrVector(Id type) const {
-        Definition const& definition = of(type);
+    bool isFloatOrVector(SpirvId type) const {
+        Defined const& definition = of(type);
         if (definition.op == spv::OpTypeVector) return isFloatOrVector(definition.operands[0]);
         return definition.op == spv::OpTypeFloat && definition.operands[0] == 32;
     }
@@ -71,7 +66,7 @@ public:
     auto end() const { return mDefinitions.end(); }
 
 private:
-    std::map<Id, Definition> mDefinitions;
+    std::map<SpirvId, Defined> mDefinitions;
 };
 
 /// Which components of a value a compiler could know.
@@ -79,14 +74,14 @@ class Knowledge {
 public:
     explicit Knowledge(Definitions const& definitions) : mDefinitions(definitions) {}
 
-    bool mayKnow(Id value, uint32_t component) {
+    bool mayKnow(SpirvId value, uint32_t component) {
         const auto [known, isNew] = mKnown.try_emplace({ value, component }, true); // true: the start of a loop
         if (!isNew) return known->second;
         const bool result = decide(mDefinitions.of(value), component);
         return mKnown[{ value, component }] = result;
     }
 
-    bool mayKnowAny(Id value) {
+    bool mayKnowAny(SpirvId value) {
         const uint32_t count = mDefinitions.componentsOf(mDefinitions.of(value).type);
         for (uint32_t i = 0; i < count; ++i) {
             if (mayKnow(value, i)) return true;
@@ -95,7 +90,7 @@ public:
     }
 
 private:
-    bool decide(Definition const& at, uint32_t component) {
+    bool decide(Defined const& at, uint32_t component) {
         if (at.op >= spv::OpConstantTrue && at.op <= spv::OpSpecConstantOp) return true;
         switch (at.op) {
         case spv::OpCompositeConstruct:
@@ -122,12 +117,12 @@ private:
         }
     }
 
-    bool isVector(Id value) const { return mDefinitions.of(mDefinitions.of(value).type).op == spv::OpTypeVector; }
+    bool isVector(SpirvId value) const { return mDefinitions.of(mDefinitions.of(value).type).op == spv::OpTypeVector; }
 
-    bool mayKnowPart(Definition const& at, uint32_t component) {
+    bool mayKnowPart(Defined const& at, uint32_t component) {
         if (mDefinitions.of(at.type).op != spv::OpTypeVector)
-            return std::ranges::any_of(at.operands, [&](Id part) { return mayKnowAny(part); });
-        for (const Id part : at.operands) {
+            return std::ranges::any_of(at.operands, [&](SpirvId part) { return mayKnowAny(part); });
+        for (const SpirvId part : at.operands) {
             const uint32_t count = mDefinitions.componentsOf(mDefinitions.of(part).type);
             if (component < count) return mayKnow(part, component);
             component -= count;
@@ -135,14 +130,14 @@ private:
         return true;
     }
 
-    bool mayKnowShuffled(Definition const& at, uint32_t component) {
+    bool mayKnowShuffled(Defined const& at, uint32_t component) {
         const uint32_t from = at.operands[2 + component];
         const uint32_t first = mDefinitions.componentsOf(mDefinitions.of(at.operands[0]).type);
         if (from == 0xFFFFFFFF) return true;
         return from < first ? mayKnow(at.operands[0], from) : mayKnow(at.operands[1], from - first);
     }
 
-    bool mayKnowPhi(Definition const& at, uint32_t component) {
+    bool mayKnowPhi(Defined const& at, uint32_t component) {
         for (size_t i = 0; i < at.operands.size(); i += 2) { // value, block, value, block ...
             if (!mayKnow(at.operands[i], component)) return false;
         }
@@ -150,8 +145,8 @@ private:
     }
 
     /// Local and private variables may hold constants.
-    bool isLocal(Id pointer) const {
-        Definition const* at = &mDefinitions.of(pointer);
+    bool isLocal(SpirvId pointer) const {
+        Defined const* at = &mDefinitions.of(pointer);
         while (at->op == spv::OpAccessChain || at->op == spv::OpInBoundsAccessChain)
             at = &mDefinitions.of(at->operands[0]);
         if (at->op != spv::OpVariable) return true;
@@ -159,12 +154,12 @@ private:
     }
 
     /// Component by component where the operand has as many; otherwise all components count.
-    bool mayKnowOperation(Definition const& at, uint32_t component) {
-        Words inputs = at.operands;
+    bool mayKnowOperation(Defined const& at, uint32_t component) {
+        SpirvWords inputs = at.operands;
         if (at.op == spv::OpExtInst) inputs = inputs.subspan(2);
         const uint32_t count = mDefinitions.componentsOf(at.type);
-        return std::ranges::all_of(inputs, [&](Id input) {
-            Definition const& definition = mDefinitions.of(input);
+        return std::ranges::all_of(inputs, [&](SpirvId input) {
+            Defined const& definition = mDefinitions.of(input);
             if (definition.op == spv::OpNop || definition.type == 0) return true; // a literal
             if (mDefinitions.componentsOf(definition.type) == count) return mayKnow(input, component);
             return mayKnowAny(input);
@@ -172,16 +167,16 @@ private:
     }
 
     Definitions const& mDefinitions;
-    std::map<std::pair<Id, uint32_t>, bool> mKnown;
+    std::map<std::pair<SpirvId, uint32_t>, bool> mKnown;
 };
 
 class Rewriter {
 public:
-    explicit Rewriter(Words module) : mModule(module), mDefinitions(module), mKnowledge(mDefinitions) { survey(); }
+    explicit Rewriter(SpirvWords module) : mModule(module), mDefinitions(module), mKnowledge(mDefinitions) { survey(); }
 
     std::vector<uint32_t> run() {
         std::vector<uint32_t> body;
-        forEachInstruction(mModule, [&](spv::Op op, Words words) {
+        forEachInstruction(mModule, [&](spv::Op op, SpirvWords words) {
             if (&words[0] < &mModule[mFunctions]) return;
             if (op == spv::OpStore && hides(words))
                 storeHidden(words, body);
@@ -195,7 +190,7 @@ public:
 
 private:
     void survey() {
-        forEachInstruction(mModule, [&](spv::Op op, Words words) {
+        forEachInstruction(mModule, [&](spv::Op op, SpirvWords words) {
             const auto at = static_cast<size_t>(words.data() - mModule.data());
             if (op == spv::OpEntryPoint) {
                 mIsVertex = words[1] == spv::ExecutionModelVertex;
@@ -208,49 +203,49 @@ private:
             if (mTypes == 0 && op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer) mTypes = at;
             if (mFunctions == 0 && op == spv::OpFunction) mFunctions = at;
         });
-        mBound = mModule[kBoundWord];
+        mBound = mModule[kModuleBoundWord];
     }
 
-    Id variableOf(Id pointer) const {
-        Definition const& at = mDefinitions.of(pointer);
+    SpirvId variableOf(SpirvId pointer) const {
+        Defined const& at = mDefinitions.of(pointer);
         return at.op == spv::OpAccessChain || at.op == spv::OpInBoundsAccessChain ? variableOf(at.operands[0])
                                                                                   : pointer;
     }
 
-    bool hides(Words store) {
-        const Id variable = variableOf(store[1]);
-        Definition const& at = mDefinitions.of(variable);
+    bool hides(SpirvWords store) {
+        const SpirvId variable = variableOf(store[1]);
+        Defined const& at = mDefinitions.of(variable);
         const bool isOutput = at.op == spv::OpVariable && at.operands[0] == spv::StorageClassOutput;
         if (!isOutput || !mLocated.contains(variable)) return false;
         return mDefinitions.isFloatOrVector(mDefinitions.of(store[2]).type) && mKnowledge.mayKnowAny(store[2]);
     }
 
-    void storeHidden(Words store, std::vector<uint32_t>& body) {
-        const Id type = mDefinitions.of(store[2]).type;
+    void storeHidden(SpirvWords store, std::vector<uint32_t>& body) {
+        const SpirvId type = mDefinitions.of(store[2]).type;
         const uint32_t count = mDefinitions.componentsOf(type);
-        const Id integer = global(spv::OpTypeInt, 0, { 32, 1 }), boolean = global(spv::OpTypeBool, 0, {});
-        const Id last = global(spv::OpConstant, integer, { std::numeric_limits<int32_t>::max() });
-        Id never = global(spv::OpConstant, scalarOf(type), { std::bit_cast<uint32_t>(kNever) });
+        const SpirvId integer = global(spv::OpTypeInt, 0, { 32, 1 }), boolean = global(spv::OpTypeBool, 0, {});
+        const SpirvId last = global(spv::OpConstant, integer, { std::numeric_limits<int32_t>::max() });
+        SpirvId never = global(spv::OpConstant, scalarOf(type), { std::bit_cast<uint32_t>(kNever) });
         if (count > 1) never = global(spv::OpConstantComposite, type, std::vector<uint32_t>(count, never));
 
-        const Id index = emit(body, spv::OpLoad, integer, { vertexIndex(integer) });
-        Id condition = emit(body, spv::OpIEqual, boolean, { index, last });
+        const SpirvId index = emit(body, spv::OpLoad, integer, { vertexIndex(integer) });
+        SpirvId condition = emit(body, spv::OpIEqual, boolean, { index, last });
         if (count > 1) { // SPIR-V 1.3 needs one condition per component
-            const Id booleans = global(spv::OpTypeVector, 0, { boolean, count });
+            const SpirvId booleans = global(spv::OpTypeVector, 0, { boolean, count });
             condition = emit(body, spv::OpCompositeConstruct, booleans, std::vector<uint32_t>(count, condition));
         }
-        const Id hidden = emit(body, spv::OpSelect, type, { condition, never, store[2] });
+        const SpirvId hidden = emit(body, spv::OpSelect, type, { condition, never, store[2] });
         body.insert(body.end(), store.begin(), store.end());
         body[body.size() - store.size() + 2] = hidden;
     }
 
-    Id scalarOf(Id type) const {
-        Definition const& at = mDefinitions.of(type);
+    SpirvId scalarOf(SpirvId type) const {
+        Defined const& at = mDefinitions.of(type);
         return at.op == spv::OpTypeVector ? at.operands[0] : type;
     }
 
-    Id emit(std::vector<uint32_t>& out, spv::Op op, Id type, std::vector<uint32_t> const& operands) {
-        const Id id = mBound++;
+    SpirvId emit(std::vector<uint32_t>& out, spv::Op op, SpirvId type, std::vector<uint32_t> const& operands) {
+        const SpirvId id = mBound++;
         out.push_back(static_cast<uint32_t>(operands.size() + (type != 0 ? 3 : 2)) << 16 | op);
         if (type != 0) out.push_back(type);
         out.push_back(id);
@@ -259,18 +254,18 @@ private:
     }
 
     /// A type or a constant: the module's own, or a new one. SPIR-V forbids two equal types.
-    Id global(spv::Op op, Id type, std::vector<uint32_t> const& operands) {
+    SpirvId global(spv::Op op, SpirvId type, std::vector<uint32_t> const& operands) {
         for (auto const& [id, known] : mDefinitions) {
             if (known.op == op && known.type == type && std::ranges::equal(known.operands, operands)) return id;
         }
-        Id& made = mMade[{ op, type, operands }];
+        SpirvId& made = mMade[{ op, type, operands }];
         if (made == 0) made = emit(mNewGlobals, op, type, operands);
         return made;
     }
 
-    Id vertexIndex(Id integer) {
+    SpirvId vertexIndex(SpirvId integer) {
         if (mVertexIndex != 0) return mVertexIndex;
-        const Id pointer = global(spv::OpTypePointer, 0, { spv::StorageClassInput, integer });
+        const SpirvId pointer = global(spv::OpTypePointer, 0, { spv::StorageClassInput, integer });
         mVertexIndex = emit(mNewGlobals, spv::OpVariable, pointer, { spv::StorageClassInput });
         mIsNewIndex = true;
         return mVertexIndex;
@@ -279,7 +274,7 @@ private:
     std::vector<uint32_t> assemble(std::vector<uint32_t> const& body) const {
         std::vector<uint32_t> out;
         const auto copy = [&](size_t begin, size_t end) {
-            const Words part = mModule.subspan(begin, end - begin);
+            const SpirvWords part = mModule.subspan(begin, end - begin);
             out.insert(out.end(), part.begin(), part.end());
         };
         const size_t entryEnd = mEntryPoint + (mModule[mEntryPoint] >> 16);
@@ -296,18 +291,18 @@ private:
         copy(mTypes, mFunctions);
         out.insert(out.end(), mNewGlobals.begin(), mNewGlobals.end());
         out.insert(out.end(), body.begin(), body.end());
-        out[kBoundWord] = mBound;
+        out[kModuleBoundWord] = mBound;
         return out;
     }
 
-    Words mModule;
+    SpirvWords mModule;
     Definitions mDefinitions;
     Knowledge mKnowledge;
     bool mIsVertex = false, mIsNewIndex = false;
     size_t mEntryPoint = 0, mTypes = 0, mFunctions = 0; ///< word indices
-    Id mVertexIndex = 0, mBound = 0;
-    std::set<Id> mLocated;
-    std::map<std::tuple<spv::Op, Id, std::vector<uint32_t>>, Id> mMade;
+    SpirvId mVertexIndex = 0, mBound = 0;
+    std::set<SpirvId> mLocated;
+    std::map<std::tuple<spv::Op, SpirvId, std::vector<uint32_t>>, SpirvId> mMade;
     std::vector<uint32_t> mNewGlobals;
 };
 

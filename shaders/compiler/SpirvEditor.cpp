@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#define SPV_ENABLE_UTILITY_CODE // HasResultAndType()
 #include "shaders/compiler/SpirvEditor.h"
 
 #include "base/Assert.h"
@@ -12,17 +11,12 @@
 namespace filament::shader {
 namespace {
 
-constexpr size_t kHeaderWords = 5; // SPIR-V specification 2.3
-constexpr size_t kBoundWord = 3;
-
 void append(std::vector<uint32_t>& words, spv::Op op, std::initializer_list<uint32_t> fixed,
             std::span<const uint32_t> rest = {}) {
     words.push_back(static_cast<uint32_t>(1 + fixed.size() + rest.size()) << 16 | op);
     words.insert(words.end(), fixed);
     words.insert(words.end(), rest.begin(), rest.end());
 }
-
-bool isType(spv::Op op) { return op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer; }
 
 bool isConstant(spv::Op op) { return op >= spv::OpConstantTrue && op <= spv::OpSpecConstantOp; }
 
@@ -35,8 +29,9 @@ bool isArithmetic(spv::Op op) {
 } // namespace
 
 SpirvEditor::SpirvEditor(std::span<const uint32_t> module) : mModule(module) {
-    FILAMENT_ASSERT(module.size() > kHeaderWords && module[0] == spv::MagicNumber, "SpirvEditor takes valid SPIR-V");
-    mTypeOf.resize(module[kBoundWord]);
+    FILAMENT_ASSERT(module.size() > kModuleHeaderWords && module[0] == spv::MagicNumber,
+                    "SpirvEditor takes valid SPIR-V");
+    mTypeOf.resize(module[kModuleBoundWord]);
     scan();
 }
 
@@ -59,10 +54,10 @@ SpirvEditor::Instruction SpirvEditor::instructionAt(size_t word) const {
 }
 
 void SpirvEditor::scan() {
-    for (size_t word = kHeaderWords; word < mModule.size(); word += wordCountAt(word)) {
+    for (size_t word = kModuleHeaderWords; word < mModule.size(); word += wordCountAt(word)) {
         const Instruction at = instructionAt(word);
         if (at.result != 0 && at.type != 0) mTypeOf[at.result] = at.type;
-        if (mGlobals == 0 && isType(at.op)) mGlobals = word;
+        if (mGlobals == 0 && isTypeDeclaration(at.op)) mGlobals = word;
         if (mFunctions == 0 && at.op == spv::OpFunction) mFunctions = word;
         if (mFunctions == 0) scanGlobal(at);
         scanConstant(at);
@@ -278,7 +273,7 @@ std::vector<uint32_t> SpirvEditor::rewrite(Replace const& replace) {
     out.insert(out.end(), globals.begin(), globals.end());
     out.insert(out.end(), mNewGlobals.begin(), mNewGlobals.end());
     out.insert(out.end(), mBody.begin(), mBody.end());
-    out[kBoundWord] = static_cast<uint32_t>(mTypeOf.size());
+    out[kModuleBoundWord] = static_cast<uint32_t>(mTypeOf.size());
     return out;
 }
 

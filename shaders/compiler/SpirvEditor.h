@@ -7,7 +7,7 @@
 ///   Fails   never for a valid module; FILAMENT_ASSERT for a truncated one.
 #pragma once
 
-#include <spirv_cross/spirv.hpp>
+#include "shaders/compiler/SpirvWords.h"
 
 #include <cstdint>
 #include <functional>
@@ -22,7 +22,7 @@ namespace filament::shader {
 
 class SpirvEditor {
 public:
-    using Id = uint32_t; ///< 0 is none
+    using Id = SpirvId;
 
     struct Instruction {
         spv::Op op = spv::OpNop;

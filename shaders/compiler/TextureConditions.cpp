@@ -11,8 +11,6 @@
 namespace filament::shader {
 namespace {
 
-using Words = std::vector<uint32_t>;
-
 /// The names of the constants, as in the author's list.
 std::string namesOf(MaterialDefinition const& definition, Parameter const& texture) {
     std::string names;
@@ -23,8 +21,8 @@ std::string namesOf(MaterialDefinition const& definition, Parameter const& textu
     return names;
 }
 
-Result<Words> authorsCode(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                          IncludeResolver const& includes) {
+Result<std::vector<uint32_t>> authorsCode(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                          IncludeResolver const& includes) {
     const Result<std::string> text = generateObserver(definition, needs, includes);
     if (!text) return text.error();
     return spirvFromGlsl(*text, backend::ShaderStage::Fragment, definition.fileName);
@@ -61,13 +59,13 @@ Result<void> checkTextureConditions(MaterialDefinition const& definition, Materi
     std::vector<Parameter> const& parameters = definition.package.parameters;
     const auto isConditional = [](Parameter const& parameter) { return !parameter.usedIf.empty(); };
     if (std::ranges::none_of(parameters, isConditional)) return {};
-    const Result<Words> code = authorsCode(definition, needs, includes);
+    const Result<std::vector<uint32_t>> code = authorsCode(definition, needs, includes);
     if (!code) return code.error();
     for (size_t i = 0; i < parameters.size(); ++i) {
         if (!isConditional(parameters[i])) continue;
         std::vector<backend::ConstantValue> allFalse;
         for (const uint32_t id : parameters[i].usedIf) allFalse.push_back({ .id = id });
-        const Result<Words> without = optimizeWith(*code, allFalse);
+        const Result<std::vector<uint32_t>> without = optimizeWith(*code, allFalse);
         if (!without) return without.error();
         if (!loads(*without, parameters[i].binding)) continue;
         return errorAt(definition.parameterSources[i].at,
