@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/CodeScan.h"
 
+#include "shaders/compiler/GlslTokens.h"
+
 #include <algorithm>
 #include <cctype>
 #include <vector>
 
 namespace filament::shader {
 namespace {
-
-bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 size_t skipComment(std::string_view text, size_t at) {
     if (text.substr(at).starts_with("//")) return std::min(text.find('\n', at), text.size());
@@ -28,8 +28,8 @@ std::vector<std::string_view> tokensOf(std::string_view text) {
             continue;
         }
         size_t end = at + 1;
-        if (isWordCharacter(text[at])) {
-            while (end < text.size() && isWordCharacter(text[end])) ++end;
+        if (isGlslWordPart(text[at])) {
+            while (end < text.size() && isGlslWordPart(text[end])) ++end;
         }
         if (!std::isspace(static_cast<unsigned char>(text[at]))) tokens.push_back(text.substr(at, end - at));
         at = end;
@@ -42,12 +42,12 @@ std::vector<std::string_view> tokensOf(std::string_view text) {
 CodeScan::CodeScan(std::string_view glsl) {
     const std::vector<std::string_view> tokens = tokensOf(glsl);
     for (size_t i = 0; i < tokens.size(); ++i) {
-        if (!isWordCharacter(tokens[i][0])) continue;
+        if (!isGlslWordPart(tokens[i][0])) continue;
         mWords.emplace(tokens[i]);
         if (i + 1 == tokens.size() || tokens[i + 1] != "(") continue;
         // A type is followed by the declared name.
         const bool isCall =
-                i == 0 || !isWordCharacter(tokens[i - 1][0]) || tokens[i - 1] == "return" || tokens[i - 1] == "else";
+                i == 0 || !isGlslWordPart(tokens[i - 1][0]) || tokens[i - 1] == "return" || tokens[i - 1] == "else";
         if (!isCall) mDeclared.emplace(tokens[i]);
         const auto before = glsl.substr(0, static_cast<size_t>(tokens[i].data() - glsl.data()));
         if (isCall) mCalls.try_emplace(std::string(tokens[i]), static_cast<uint32_t>(std::ranges::count(before, '\n')));

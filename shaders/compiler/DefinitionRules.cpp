@@ -10,13 +10,9 @@
 namespace filament::shader {
 namespace {
 
-bool blends(Blending blending) { return blending != Blending::Opaque && blending != Blending::Masked; }
 /// Fading scales all light, so alpha can say how much of a refracting surface is there.
 bool blendsRefraction(Blending blending) { return blends(blending) && blending != Blending::Fade; }
 bool isUnlit(MaterialDefinition const& definition) { return definition.package.shading == ShadingModel::Unlit; }
-bool refracts(MaterialDefinition const& definition) {
-    return definition.package.refractionMode != RefractionMode::None;
-}
 /// The models of surface/lit_shading.glsl.
 bool hasStandardText(MaterialDefinition const& definition) {
     const ShadingModel model = definition.package.shading;

@@ -2,6 +2,7 @@
 #include "shaders/compiler/EngineNames.h"
 
 #include "shaders/compiler/EmbeddedSources.h"
+#include "shaders/compiler/GlslTokens.h"
 
 #include <fmt/core.h>
 
@@ -11,8 +12,6 @@
 
 namespace filament::shader {
 namespace {
-
-using Kind = GlslDeclaration::Kind;
 
 constexpr std::string_view kColors = "shaders/lib/color.glsl";
 
@@ -43,11 +42,9 @@ bool belongsToMaterials(std::string_view path) {
            path == "shaders/post/tone_table.glsl";
 }
 
-bool isWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 std::string_view wordAt(std::string_view text, size_t at) {
     size_t end = at;
-    while (end < text.size() && isWordPart(text[end])) ++end;
+    while (end < text.size() && isGlslWordPart(text[end])) ++end;
     return text.substr(at, end - at);
 }
 
@@ -82,8 +79,8 @@ EngineTables makeTables() {
         const std::string_view text = *embeddedSource(path);
         addConditions(text, tables.names);
         for (GlslDeclaration& declaration : outlineOf(text, path)) {
-            const bool isHelper =
-                    declaration.kind != Kind::Macro && std::ranges::binary_search(kHelpers, declaration.name);
+            const bool isHelper = declaration.kind != GlslDeclaration::Kind::Macro &&
+                                  std::ranges::binary_search(kHelpers, declaration.name);
             tables.names.insert(declaration.name);
             if (isHelper) tables.helpers.push_back(std::move(declaration));
         }
@@ -100,14 +97,15 @@ EngineTables const& engineTables() {
 /// The same name, and for functions the same parameters.
 bool declaresSame(std::span<const GlslDeclaration> authors, GlslDeclaration const& helper) {
     return std::ranges::any_of(authors, [&](GlslDeclaration const& own) {
-        if (own.name != helper.name || own.kind == Kind::Macro) return false;
-        const bool areFunctions = own.kind == Kind::Function && helper.kind == Kind::Function;
+        if (own.name != helper.name || own.kind == GlslDeclaration::Kind::Macro) return false;
+        const bool areFunctions =
+                own.kind == GlslDeclaration::Kind::Function && helper.kind == GlslDeclaration::Kind::Function;
         return !areFunctions || own.parameters == helper.parameters;
     });
 }
 
 std::string restored(GlslDeclaration const& helper) {
-    if (helper.kind != Kind::Function)
+    if (helper.kind != GlslDeclaration::Kind::Function)
         return fmt::format("const float {} = {}{};\n", helper.name, kReservedPrefix, helper.name);
     std::string parameters, arguments;
     for (size_t i = 0; i < helper.parameters.size(); ++i) {
@@ -128,7 +126,7 @@ public:
         while (mAt < mText.size()) {
             if (const size_t comment = commentLength(); comment > 0)
                 copy(comment);
-            else if (isWordPart(mText[mAt]))
+            else if (isGlslWordPart(mText[mAt]))
                 word();
             else
                 mark();

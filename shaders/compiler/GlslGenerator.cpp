@@ -52,10 +52,6 @@ const char* vertexDomainDefine(VertexDomain domain) {
     return kNames[static_cast<size_t>(domain)];
 }
 
-bool refracts(MaterialDefinition const& definition) {
-    return definition.package.refractionMode != RefractionMode::None;
-}
-
 void defineIf(StageText& out, bool condition, std::string_view name) {
     if (condition) out.define(name);
 }
@@ -67,7 +63,7 @@ Result<void> includeAll(StageText& out, std::initializer_list<std::string_view> 
     return {};
 }
 
-StageText stageOf(MaterialNeeds const& needs, IncludeResolver const& includes) {
+StageText newStageText(MaterialNeeds const& needs, IncludeResolver const& includes) {
     return StageText(includes, &needs.prefixed);
 }
 
@@ -188,7 +184,7 @@ bool shapesDepth(MaterialDefinition const& definition, MaterialNeeds const& need
 Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
     const bool deforms = (variantKey & kVariantSkinning) != 0;
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     beginStage(out, "out");
     defineSurface(out, definition, needs);
     if (deforms) defineDeformation(out, definition);
@@ -369,7 +365,7 @@ Result<void> includeTransmission(StageText& out) {
 
 Result<std::string> depthFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     Result<void> done;
     if (shapesDepth(definition, needs)) {
         done = beginSurfaceFragment(out, definition, needs, variantKey);
@@ -386,7 +382,7 @@ Result<std::string> depthFragment(MaterialDefinition const& definition, Material
 }
 
 Result<std::string> motionFragment(MaterialNeeds const& needs, IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     beginStage(out, "in");
     if (Result<void> done =
                 includeAll(out, { "shaders/interface/interface.glsl", "shaders/material/surface/motion_main.glsl" });
@@ -397,7 +393,7 @@ Result<std::string> motionFragment(MaterialNeeds const& needs, IncludeResolver c
 
 Result<std::string> debugFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done)
@@ -412,7 +408,7 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if ((variantKey & kVariantMotion) != 0) return motionFragment(needs, includes);
     if ((variantKey & kVariantDebug) != 0) return debugFragment(definition, needs, variantKey, includes);
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
@@ -433,7 +429,7 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
 }
 
 Result<std::string> postVertex(MaterialNeeds const& needs, IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     beginStage(out, "out");
     if (Result<void> done = out.include("shaders/post/post_vertex_main.glsl"); !done) return done.error();
     return std::move(out).take();
@@ -441,7 +437,7 @@ Result<std::string> postVertex(MaterialNeeds const& needs, IncludeResolver const
 
 Result<std::string> postFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                  IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     beginStage(out, "in");
     const auto inputs = std::ranges::count_if(definition.package.parameters, [&](Parameter const& parameter) {
         return isSubpassInput(parameter, variantKey);
@@ -482,7 +478,7 @@ bool MaterialNeeds::has(std::string_view term) const {
 
 Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                   IncludeResolver const& includes) {
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
     declareProbe(out, definition);
     if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
@@ -494,7 +490,7 @@ Result<std::string> generateObserver(MaterialDefinition const& definition, Mater
                                      IncludeResolver const& includes) {
     if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, needs, 0, includes);
     if (definition.customSurfaceShading) return surfaceFragment(definition, needs, 0, includes);
-    StageText out = stageOf(needs, includes);
+    StageText out = newStageText(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
     if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
     defineObserverMain(out, definition);

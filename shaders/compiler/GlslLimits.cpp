@@ -3,6 +3,7 @@
 
 #include "shaders/compiler/GlslMacros.h"
 #include "shaders/compiler/GlslOutline.h"
+#include "shaders/compiler/GlslTokens.h"
 
 namespace filament::shader {
 namespace {
@@ -139,14 +140,14 @@ private:
 };
 
 /// A token and where the author wrote it.
-struct Located {
+struct LocatedTokens {
     std::vector<GlslToken> tokens;
     std::vector<std::pair<size_t, std::string_view>> files; // from this token on
     std::vector<uint32_t> lines;                            // of every token
 };
 
 /// `#line NUMBER "file"`
-void readLine(std::string_view rest, GlslTokens& tokens, Located& text) {
+void readLine(std::string_view rest, GlslTokens& tokens, LocatedTokens& text) {
     uint32_t line = tokens.line() + 1;
     std::string_view file;
     readLineDirective(rest, line, file);
@@ -154,8 +155,8 @@ void readLine(std::string_view rest, GlslTokens& tokens, Located& text) {
     if (!file.empty()) text.files.emplace_back(text.tokens.size(), file);
 }
 
-Located tokensOf(std::string_view glsl, std::string_view name, GlslMacros& macros) {
-    Located text;
+LocatedTokens locatedTokensOf(std::string_view glsl, std::string_view name, GlslMacros& macros) {
+    LocatedTokens text;
     text.files.emplace_back(0, name);
     GlslTokens tokens(glsl);
     tokens.setLine(1);
@@ -174,7 +175,7 @@ Located tokensOf(std::string_view glsl, std::string_view name, GlslMacros& macro
     return text;
 }
 
-std::string placeOf(Located const& text, size_t token) {
+std::string placeOfToken(LocatedTokens const& text, size_t token) {
     std::string_view file;
     for (auto const& [from, name] : text.files)
         if (from <= token) file = name;
@@ -185,11 +186,11 @@ std::string placeOf(Located const& text, size_t token) {
 
 Result<void> checkGlslLimits(std::string_view glsl, std::string_view name) {
     GlslMacros macros;
-    const Located text = tokensOf(glsl, name, macros);
+    const LocatedTokens text = locatedTokensOf(glsl, name, macros);
     LimitCheck check(macros);
     for (size_t i = 0; i < text.tokens.size(); ++i) {
         if (const char* const exceeded = check.check(text.tokens, i))
-            return fail(ErrorCode::InvalidArgument, "{}: {}", placeOf(text, i), exceeded);
+            return fail(ErrorCode::InvalidArgument, "{}: {}", placeOfToken(text, i), exceeded);
     }
     return {};
 }

@@ -11,6 +11,8 @@
 
 namespace filament::shader {
 
+inline bool isGlslWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
 struct GlslToken {
     std::string_view text; ///< empty: the end
     bool isWord = false;
@@ -48,16 +50,15 @@ public:
     }
 
 private:
-    static bool isWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
     bool isWordStart(char c) const {
         const bool isFraction = c == '.' && mRest.size() > 1 && std::isdigit(static_cast<unsigned char>(mRest[1])) != 0;
-        return isWordPart(c) || isFraction;
+        return isGlslWordPart(c) || isFraction;
     }
 
     size_t wordLength() const {
         const bool isNumber = std::isalpha(static_cast<unsigned char>(mRest[0])) == 0 && mRest[0] != '_';
         size_t length = 1;
-        while (length < mRest.size() && (isWordPart(mRest[length]) || (isNumber && mRest[length] == '.'))) ++length;
+        while (length < mRest.size() && (isGlslWordPart(mRest[length]) || (isNumber && mRest[length] == '.'))) ++length;
         return length;
     }
 

@@ -11,7 +11,7 @@
 namespace filament::shader {
 namespace {
 
-constexpr int kMaxDepth = 32;
+constexpr int kMaxValueDepth = 32;
 
 bool equalsIgnoringCase(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, [](char x, char y) { return std::tolower(static_cast<unsigned char>(x)) == y; });
@@ -87,7 +87,7 @@ private:
     }
 
     Result<JsonValue> value(Token const& token, int depth) {
-        if (depth > kMaxDepth) return errorAt(token.at, "values are nested too deeply");
+        if (depth > kMaxValueDepth) return errorAt(token.at, "values are nested too deeply");
         switch (token.kind) {
         case TokenKind::Word:
         case TokenKind::Quoted:

@@ -17,7 +17,7 @@
 namespace filament::shader {
 namespace {
 
-std::string listOf(std::vector<std::string_view> const& names) {
+std::string nameListOf(std::vector<std::string_view> const& names) {
     std::string list;
     for (const std::string_view name : names) {
         if (!list.empty()) list += ", ";
@@ -277,9 +277,9 @@ void addWords(std::string_view text, std::set<std::string>& out) {
 std::vector<std::pair<std::string, std::string>> languageTables() {
     return { { "properties", propertyTable() },
              { "lists", listTable() },
-             { "types", listOf(parameterTypeNames()) },
-             { "attributes", listOf(attributeNames()) },
-             { "filters", listOf(variantFilterNames()) },
+             { "types", nameListOf(parameterTypeNames()) },
+             { "attributes", nameListOf(attributeNames()) },
+             { "filters", nameListOf(variantFilterNames()) },
              { "members", memberTable() },
              { "members-of-vertices", vertexMemberTable() },
              { "members-of-shading", shadingMemberTable() },

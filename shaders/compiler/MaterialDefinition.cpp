@@ -42,8 +42,6 @@ Result<void> readProperties(JsonValue const& material, MaterialDefinition& out) 
     return {};
 }
 
-bool blends(Blending blending) { return blending != Blending::Opaque && blending != Blending::Masked; }
-
 void addHiddenParameter(MaterialDefinition& out, std::string_view name, ParameterType type) {
     out.package.parameters.push_back({ .name = std::string(name), .type = type });
     out.parameterSources.push_back({});

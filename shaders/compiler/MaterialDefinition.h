@@ -77,6 +77,12 @@ struct MaterialDefinition {
                      ErrorCode code = ErrorCode::InvalidArgument) const;
 };
 
+inline bool blends(Blending blending) { return blending != Blending::Opaque && blending != Blending::Masked; }
+/// Of any shading model; unlit ones are an error.
+inline bool refracts(MaterialDefinition const& definition) {
+    return definition.package.refractionMode != RefractionMode::None;
+}
+
 inline constexpr size_t kMaxVariables = 4;
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);

@@ -20,10 +20,10 @@ bool isCloth(Definition const& d) { return modelOf(d) == ShadingModel::Cloth; }
 bool isGlossy(Definition const& d) { return modelOf(d) == ShadingModel::SpecularGlossiness; }
 bool isMetallic(Definition const& d) { return isLit(d) || isSubsurface(d); }
 bool isLayered(Definition const& d) { return isLit(d) || isGlossy(d); }
-bool refracts(Definition const& d) { return isShaded(d) && d.package.refractionMode != RefractionMode::None; }
-bool isThin(Definition const& d) { return refracts(d) && d.package.refractionType == RefractionType::Thin; }
-bool hasThickness(Definition const& d) { return isSubsurface(d) || refracts(d); }
-bool hasIor(Definition const& d) { return isLit(d) || refracts(d); }
+bool refractsShaded(Definition const& d) { return isShaded(d) && d.package.refractionMode != RefractionMode::None; }
+bool isThin(Definition const& d) { return refractsShaded(d) && d.package.refractionType == RefractionType::Thin; }
+bool hasThickness(Definition const& d) { return isSubsurface(d) || refractsShaded(d); }
+bool hasIor(Definition const& d) { return isLit(d) || refractsShaded(d); }
 
 constexpr float kAny = std::numeric_limits<float>::quiet_NaN();
 constexpr std::array<float, 4> kZero{}, kOne{ 1, 1, 1, 1 }, kUp{ 0, 0, 1, 0 }, kDark{ 0, 0, 0, kAny };
@@ -87,10 +87,10 @@ constexpr MaterialMember kMembers[] = {
     { "glossiness", "1 - roughness, [0, 1]", 1, kZero, isGlossy },
     { "transmission",
       "the part of the light below the surface that passes through instead of being diffused, [0, 1]",
-      1, kOne, refracts, kNeutral, "HAS_TRANSMISSION", kOne },
+      1, kOne, refractsShaded, kNeutral, "HAS_TRANSMISSION", kOne },
     { "absorption",
       "by colour, 1 / m along the path through the body; a part in [0, 1] if no thickness is set",
-      3, kZero, refracts, kNeutral, "HAS_ABSORPTION", kZero },
+      3, kZero, refractsShaded, kNeutral, "HAS_ABSORPTION", kZero },
     { "ior",
       "index of refraction, at least 1; without refraction it sets `reflectance`",
       1, { 1.5f }, hasIor, kNeutral, "HAS_IOR", { 1.5f } },
@@ -99,7 +99,7 @@ constexpr MaterialMember kMembers[] = {
       1, kZero, isThin, kNeutral, "HAS_MICRO_THICKNESS", kZero },
     { "dispersion",
       "20 / Abbe number: how far the colours are refracted apart",
-      1, kZero, refracts, kNeutral, "HAS_DISPERSION", kZero },
+      1, kZero, refractsShaded, kNeutral, "HAS_DISPERSION", kZero },
     // Not in the guide: added for glTF's extensions.
     { "specularFactor",
       "scales the reflectance of dielectrics, [0, 1]",

@@ -2,6 +2,7 @@
 #include "shaders/compiler/StageText.h"
 
 #include "shaders/compiler/EmbeddedSources.h"
+#include "shaders/compiler/GlslTokens.h"
 
 #include <fmt/core.h>
 
@@ -14,7 +15,7 @@ namespace filament::shader {
 namespace {
 
 constexpr size_t kMaxBytes = 4 << 20;
-constexpr size_t kMaxDepth = 16;
+constexpr size_t kMaxCodeIncludeDepth = 16;
 
 /// The line without comments; `isInComment` says whether a comment of several lines is open.
 std::string withoutComments(std::string_view line, bool& isInComment) {
@@ -71,8 +72,6 @@ std::string besides(std::string_view file, std::string_view path) {
     return isAlone ? std::string(path) : std::string(file.substr(0, slash + 1)) + std::string(path);
 }
 
-bool isWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 /// The names that OpenGL has and Vulkan's GLSL does not. The engine merges draw calls, so that gl_InstanceIndex would
 /// reveal which renderables share one.
 std::string withVulkanNames(std::string_view line) {
@@ -82,8 +81,8 @@ std::string withVulkanNames(std::string_view line) {
     std::string out(line);
     for (auto const& [name, replacement] : kNames) {
         for (size_t at = out.find(name); at != std::string::npos; at = out.find(name, at + 1)) {
-            const bool isWhole = (at == 0 || !isWordPart(out[at - 1])) &&
-                                 (at + name.size() == out.size() || !isWordPart(out[at + name.size()]));
+            const bool isWhole = (at == 0 || !isGlslWordPart(out[at - 1])) &&
+                                 (at + name.size() == out.size() || !isGlslWordPart(out[at + name.size()]));
             if (isWhole) out.replace(at, name.size(), replacement);
         }
     }
@@ -118,7 +117,7 @@ void StageText::watch(std::string_view line) {
     if (directive.name.starts_with("if")) ++mConditions;
     if (directive.name == "endif" && mConditions > 0) --mConditions;
     if (directive.name != "define") return;
-    const auto end = std::ranges::find_if_not(directive.rest, isWordPart);
+    const auto end = std::ranges::find_if_not(directive.rest, isGlslWordPart);
     mMacros.emplace_back(directive.rest.begin(), end);
 }
 
@@ -169,7 +168,7 @@ Result<void> StageText::include(std::string_view path, uint32_t fromLine) {
     if (!text) return cannotInclude(fromLine, fmt::format("cannot find the file \"{}\" of this #include", path));
     if (std::ranges::count(mOpen, found, &Open::path) > 0)
         return cannotInclude(fromLine, fmt::format("\"{}\" includes itself", path));
-    if (mOpen.size() >= kMaxDepth) return cannotInclude(fromLine, "includes are nested more than 16 deep");
+    if (mOpen.size() >= kMaxCodeIncludeDepth) return cannotInclude(fromLine, "includes are nested more than 16 deep");
     return lines(*text, { found, found }, 1);
 }
 

@@ -184,7 +184,7 @@ std::string wordOf(T value) {
 }
 
 template <class Owner, class T>
-T typeOf(T Owner::*);
+T memberTypeOf(T Owner::*);
 template <class Owner, class T>
 Owner ownerOf(T Owner::*);
 
@@ -213,7 +213,7 @@ std::string shownMember(MaterialDefinition const& definition) {
 
 template <auto Member>
 constexpr StateProperty property(std::string_view name, std::string_view meaning) {
-    return { name, meaning, readMember<Member>, valuesOf<decltype(typeOf(Member))>, shownMember<Member> };
+    return { name, meaning, readMember<Member>, valuesOf<decltype(memberTypeOf(Member))>, shownMember<Member> };
 }
 
 Result<void> readName(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
