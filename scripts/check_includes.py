@@ -88,7 +88,7 @@ LIBRARIES = {
     r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "tools", "tests",
                    "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
-    r"CLI/": ["tools", "bench"],
+    r"CLI/": ["tools"],
     r"embree\d?/": ["tools"],
     r"imgui": ["tools", "tests"],
     r"pybind11/|numpy/|Python\.h": ["python"],

@@ -5,12 +5,12 @@
 // with 95 % certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program
 // fails. The last line is the time of a pass that fetches one texel a pixel: the floor below everything that works on
 // whole pictures.
+#include "tools/common/CommandLine.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
 
 #include <filament/filament.h>
 
-#include <CLI/CLI.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
@@ -520,17 +520,17 @@ void print(Pair const& pair, Backend backend, Measured const& m) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("What effects cost where they are seen, and where they are not");
+    filament::tools::CommandLine app("What effects cost where they are seen, and where they are not");
     Options options{ .assets = tools::assetDir() };
     std::string size = "1280x720", json, only;
     bool isUnseenOnly = false;
-    app.add_option("--frames", options.frames, "pairs of frames a measurement")->check(CLI::Range(4, 10'000));
-    app.add_option("--size", size, "WxH in pixels");
-    app.add_option("--assets", options.assets, "directory with models/ and environments/");
-    app.add_option("--only", only, "pairs whose names contain this");
-    app.add_flag("--unseen", isUnseenOnly, "only effects that the scene cannot show");
-    app.add_option("--json", json, "also write the figures to this file");
-    CLI11_PARSE(app, argc, argv);
+    app.option("--frames", options.frames, "pairs of frames a measurement").inRange(4, 10'000);
+    app.option("--size", size, "WxH in pixels");
+    app.option("--assets", options.assets, "directory with models/ and environments/");
+    app.option("--only", only, "pairs whose names contain this");
+    app.flag("--unseen", isUnseenOnly, "only effects that the scene cannot show");
+    app.option("--json", json, "also write the figures to this file");
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     if (std::sscanf(size.c_str(), "%ux%u", &options.size.x, &options.size.y) != 2 || options.size.x == 0 ||
         options.size.y == 0) {
         std::fprintf(stderr, "effects_bench: error: --size wants WxH, got '%s'\n", size.c_str());

@@ -5,7 +5,6 @@
 // APIs first, then the distance to the published figure.
 #include <filament/filament.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
 namespace {
@@ -96,14 +96,14 @@ void print(Subject const& subject, Backend backend, Measured const& m) {
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Whole frames of real models on both APIs");
+    filament::tools::CommandLine app("Whole frames of real models on both APIs");
     int frames = 24;
     std::string size = "1280x720", json, assets = tools::assetDir();
-    app.add_option("--frames", frames, "frames a measurement")->check(CLI::Range(1, 10'000));
-    app.add_option("--size", size, "WxH in pixels");
-    app.add_option("--assets", assets, "directory with models/ and environments/");
-    app.add_option("--json", json, "also write the figures to this file");
-    CLI11_PARSE(app, argc, argv);
+    app.option("--frames", frames, "frames a measurement").inRange(1, 10'000);
+    app.option("--size", size, "WxH in pixels");
+    app.option("--assets", assets, "directory with models/ and environments/");
+    app.option("--json", json, "also write the figures to this file");
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     uint2 pixels{ 0, 0 };
     if (std::sscanf(size.c_str(), "%ux%u", &pixels.x, &pixels.y) != 2 || pixels.x == 0 || pixels.y == 0) {
         std::fprintf(stderr, "frame_bench: error: --size wants WxH, got '%s'\n", size.c_str());

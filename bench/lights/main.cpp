@@ -5,12 +5,12 @@
 //   Method  one engine per API; every round draws every number of lamps on each, so that all see the same machine.
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
+#include "tools/common/CommandLine.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
 
 #include <filament/filament.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -195,14 +195,13 @@ Result<void> run(Options const& options) {
 int main(int argc, char** argv) {
     using namespace filament;
     bench::Options options;
-    CLI::App app{ "Frames with many small lamps, beside a frame with one." };
-    app.add_option("--rounds", options.rounds, "rounds; each draws every number of lamps")->check(CLI::Range(1, 1000));
-    app.add_option("--frames", options.frames, "frames a measurement")->check(CLI::Range(1, 1000));
-    app.add_option("--lamps", options.lamps, "numbers of lamps")->check(CLI::Range(0, 100'000));
-    app.add_option("--shapes", options.shapes, "shapes of lamps")
-            ->check(CLI::IsMember({ "point", "rect", "disc", "tube", "profile" }));
-    app.add_option("--range", options.range, "metres; 0: unlimited")->check(CLI::Range(0.0, 1e6));
-    CLI11_PARSE(app, argc, argv);
+    filament::tools::CommandLine app{ "Frames with many small lamps, beside a frame with one." };
+    app.option("--rounds", options.rounds, "rounds; each draws every number of lamps").inRange(1, 1000);
+    app.option("--frames", options.frames, "frames a measurement").inRange(1, 1000);
+    app.option("--lamps", options.lamps, "numbers of lamps").inRange(0, 100'000);
+    app.option("--shapes", options.shapes, "shapes of lamps").oneOf({ "point", "rect", "disc", "tube", "profile" });
+    app.option("--range", options.range, "metres; 0: unlimited").inRange(0.0, 1e6);
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     const Result<void> done = bench::run(options);
     if (!done) std::fprintf(stderr, "lights_bench: error: %s\n", done.error().message.c_str());
     return done ? 0 : 1;

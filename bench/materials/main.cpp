@@ -5,6 +5,7 @@
 //           Processor time of the process, which includes the device of a CPU driver, minus that of a frame without the
 //           object; medians of the ratios within rounds. --wall uses elapsed time instead, for other devices.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
+#include "tools/common/CommandLine.h"
 #include "tools/common/Machine.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
@@ -13,7 +14,6 @@
 
 #include <filament/filament.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -260,16 +260,18 @@ int main(int argc, char** argv) {
     using namespace filament;
     bench::Options options;
     std::string size = "1280x720";
-    CLI::App app{ "What each term of a material costs over a full screen, beside the standard model." };
-    app.add_option("--rounds", options.rounds, "rounds; each draws every material once")->check(CLI::Range(1, 10'000));
-    app.add_option("--frames", options.frames, "frames a measurement")->check(CLI::Range(1, 1000));
-    app.add_option("--lamps", options.lamps, "point lights besides environment and sun")->check(CLI::Range(0, 64));
-    app.add_option("--size", size, "WxH in pixels");
-    app.add_option("--json", options.json, "also write the figures to this file");
-    app.add_option("--plot", options.plot, "also draw them: .png, .svg or .pdf");
-    app.add_option("--only", options.only, "cases whose names contain one of these");
-    app.add_flag("--wall", options.wall, "elapsed time instead of processor time");
-    CLI11_PARSE(app, argc, argv);
+    filament::tools::CommandLine app{
+        "What each term of a material costs over a full screen, beside the standard model."
+    };
+    app.option("--rounds", options.rounds, "rounds; each draws every material once").inRange(1, 10'000);
+    app.option("--frames", options.frames, "frames a measurement").inRange(1, 1000);
+    app.option("--lamps", options.lamps, "point lights besides environment and sun").inRange(0, 64);
+    app.option("--size", size, "WxH in pixels");
+    app.option("--json", options.json, "also write the figures to this file");
+    app.option("--plot", options.plot, "also draw them: .png, .svg or .pdf");
+    app.option("--only", options.only, "cases whose names contain one of these");
+    app.flag("--wall", options.wall, "elapsed time instead of processor time");
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     if (std::sscanf(size.c_str(), "%ux%u", &options.size.x, &options.size.y) != 2 || options.size.x == 0 ||
         options.size.y == 0 || options.size.x > 8192 || options.size.y > 8192) {
         std::fprintf(stderr, "material_bench: error: --size wants WxH up to 8192, got '%s'\n", size.c_str());

@@ -9,9 +9,9 @@
 #include "bench/threading/Placement.h"
 #include "bench/threading/Report.h"
 #include "bench/threading/Workloads.h"
+#include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
-#include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -137,21 +137,20 @@ int main(int argc, char** argv) {
     Options options;
     Settings& settings = options.settings;
     int workers = static_cast<int>(allowedCores().size()) - 1;
-    CLI::App app("Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns");
-    app.add_option("--filter", options.filter, "only workloads whose name matches this regular expression");
-    CLI::Option* const rounds =
-            app.add_option("--rounds", settings.rounds, "rounds: every contender once")->check(CLI::Range(1, 10'000));
-    app.add_option("--workers", workers, "threads besides the caller; default: one less than the allowed cores")
-            ->check(CLI::Range(0, 254));
-    app.add_option("--json", options.json, "write all figures to this file");
-    app.add_option("--plot", options.plot, "draw the figures into this .png or .svg (tools/plot)");
-    app.add_flag("--quick", settings.quick, "three rounds of small sizes: takes seconds, only tests that it works");
-    app.add_flag("--list", options.list, "list the workloads and exit");
-    CLI11_PARSE(app, argc, argv);
+    filament::tools::CommandLine app("Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns");
+    app.option("--filter", options.filter, "only workloads whose name matches this regular expression");
+    app.option("--rounds", settings.rounds, "rounds: every contender once").inRange(1, 10'000);
+    app.option("--workers", workers, "threads besides the caller; default: one less than the allowed cores")
+            .inRange(0, 254);
+    app.option("--json", options.json, "write all figures to this file");
+    app.option("--plot", options.plot, "draw the figures into this .png or .svg (tools/plot)");
+    app.flag("--quick", settings.quick, "three rounds of small sizes: takes seconds, only tests that it works");
+    app.flag("--list", options.list, "list the workloads and exit");
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     settings.threads = static_cast<unsigned>(workers) + 1;
     if (settings.quick) {
         settings.sampleNs = 5e4;
-        if (rounds->empty()) settings.rounds = 3;
+        if (!app.wasGiven("--rounds")) settings.rounds = 3;
     }
     return run(options);
 }

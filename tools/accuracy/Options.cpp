@@ -4,8 +4,6 @@
 #include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
-#include <CLI/CLI.hpp>
-
 namespace filament::accuracy {
 namespace {
 
@@ -20,36 +18,32 @@ struct Words {
     bool quick = false;
 };
 
-void declare(CLI::App& app, Words& words, Options& options) {
-    app.add_option(
-               "--compare", words.compare,
+void declare(tools::CommandLine& app, Words& words, Options& options) {
+    app.option("--compare", words.compare,
                "instead: the engine's pictures against the path tracer's, all rows or these; writes a fragment of the "
                "report into --out")
-            ->expected(0, -1)
-            ->type_name("[NAME...]");
-    app.add_option("--effect", options.effect, "only these rows")->type_name("NAME...");
-    app.add_flag("--list", options.list, "print the rows and their values");
-    app.add_option("--effects", words.effects, "the table of effects")->type_name("FILE");
-    app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
-    app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
-    app.add_option("-o,--out", words.out, "folder of results.json, results.csv and the plots")->type_name("DIR");
-    app.add_option("--page", words.page,
-                   "the report, its pictures in a folder of its name; default: accuracy.html in --out")
-            ->type_name("FILE");
-    app.add_option("--include", words.include, "HTML fragments with further sections of the report")
-            ->type_name("FILE...");
-    app.add_option("--frame", words.frame, "scene for whole frames; default: the showcase")->type_name("SCENE");
-    app.add_option("--backend", words.backends, "vulkan gles; errors are measured on the first")->type_name("NAME...");
-    app.add_option("--rounds", words.rounds, "rounds in which every value is timed, 1 to 1000; default 15")
-            ->type_name("N");
-    app.add_option("--size", words.size, "size of the timed frames; default 960x540")->type_name("WxH");
-    app.add_option("--plots", words.plots, "draw them")->type_name("on|off");
-    app.add_option("--pictures", words.pictures, "also keep every picture whose error is measured")->type_name("DIR");
-    app.add_option("--shard", words.shard,
-                   "every N-th row beginning with row I, and no page; or auto, from the scheduler")
-            ->type_name("I/N");
-    app.add_option("--merge", words.merge, "do not measure: merge the results of shards")->type_name("DIR...");
-    app.add_flag("--quick", words.quick, "small frames, three rounds: a quick test, not for quoting");
+            .anyWords()
+            .typeName("[NAME...]");
+    app.option("--effect", options.effect, "only these rows").typeName("NAME...");
+    app.flag("--list", options.list, "print the rows and their values");
+    app.option("--effects", words.effects, "the table of effects").typeName("FILE");
+    app.option("--scenes", words.scenes, "folder of scene files").typeName("DIR");
+    app.option("--assets", words.assets, "where \"asset:\" paths of scenes begin").typeName("DIR");
+    app.option("-o,--out", words.out, "folder of results.json, results.csv and the plots").typeName("DIR");
+    app.option("--page", words.page,
+               "the report, its pictures in a folder of its name; default: accuracy.html in --out")
+            .typeName("FILE");
+    app.option("--include", words.include, "HTML fragments with further sections of the report").typeName("FILE...");
+    app.option("--frame", words.frame, "scene for whole frames; default: the showcase").typeName("SCENE");
+    app.option("--backend", words.backends, "vulkan gles; errors are measured on the first").typeName("NAME...");
+    app.option("--rounds", words.rounds, "rounds in which every value is timed, 1 to 1000; default 15").typeName("N");
+    app.option("--size", words.size, "size of the timed frames; default 960x540").typeName("WxH");
+    app.option("--plots", words.plots, "draw them").typeName("on|off");
+    app.option("--pictures", words.pictures, "also keep every picture whose error is measured").typeName("DIR");
+    app.option("--shard", words.shard, "every N-th row beginning with row I, and no page; or auto, from the scheduler")
+            .typeName("I/N");
+    app.option("--merge", words.merge, "do not measure: merge the results of shards").typeName("DIR...");
+    app.flag("--quick", words.quick, "small frames, three rounds: a quick test, not for quoting");
 }
 
 Result<void> convertBackends(std::vector<std::string> const& words, std::vector<Backend>& backends) {
@@ -132,15 +126,16 @@ Result<void> convert(Words const& words, Options& options) {
 } // namespace
 
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
-    CLI::App app("Measures what each approximation of the engine costs, in error and in time.", "filament-accuracy");
+    tools::CommandLine app("Measures what each approximation of the engine costs, in error and in time.",
+                           "filament-accuracy");
     Words words;
     Options options;
     declare(app, words, options);
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>();
     if (const Result<void> done = convert(words, options); !done) return done.error();
-    const bool isComparison = app.count("--compare") > 0;
+    const bool isComparison = app.wasGiven("--compare");
     convertComparison(words, isComparison, options);
     if (const Result<void> done = convertShard(words, isComparison, options); !done) return done.error();
     return std::optional(options);

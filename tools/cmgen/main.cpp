@@ -13,7 +13,6 @@
 #include "tools/common/CommandLine.h"
 #include "tools/common/Program.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -187,36 +186,31 @@ Result<void> bake(Arguments const& arguments) {
 /// Empty after the help text.
 Result<std::optional<Arguments>> parse(int argc, const char* const* argv) {
     Arguments arguments;
-    CLI::App app(
+    tools::CommandLine app(
             "Bakes an equirectangular .hdr or .exr, or a cube map in a .ktx2: NAME.ktx2 for the engine, and to look at "
             "specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr",
             "cmgen");
-    app.add_option("environment", arguments.environment, "the picture")->required();
-    const std::map<std::string, PackageKind> packages{ { "ktx2", PackageKind::Ktx2 }, { "fenv", PackageKind::Fenv } };
-    app.add_option("--package", arguments.package,
-                   "ktx2, or fenv: the layout of the cache, which only this version of the engine reads")
-            ->transform(CLI::CheckedTransformer(packages, CLI::ignore_case));
-    app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
-            ->capture_default_str();
-    app.add_option("--samples", arguments.samples, "approximate number of sky pieces that each texel integrates")
-            ->capture_default_str();
-    const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
-                                                          { "r11g11b10f", backend::Format::R11G11B10F },
-                                                          { "rgb9e5", backend::Format::RGB9E5 },
-                                                          { "rgbm", backend::Format::RGBA8 } };
-    app.add_option("--format", arguments.format, "rgba16f, r11g11b10f, rgb9e5 or rgbm")
-            ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
-    const std::map<std::string, RoughnessMapping> mappings{ { "quadratic", RoughnessMapping::Quadratic },
-                                                            { "logarithmic", RoughnessMapping::Logarithmic },
-                                                            { "linear", RoughnessMapping::Linear } };
-    app.add_option("--mapping", arguments.mapping, "of roughness to levels: quadratic, logarithmic or linear")
-            ->transform(CLI::CheckedTransformer(mappings, CLI::ignore_case));
-    app.add_option("--out", arguments.out, "directory for the results")->capture_default_str();
-    app.add_option("--workers", arguments.workers, "threads besides the main one; -1: all cores")
-            ->check(CLI::Range(-1, 256));
-    app.add_flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
-    app.add_option("--exposure", arguments.exposure, "factor of the previews")->capture_default_str();
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    app.option("environment", arguments.environment, "the picture").required();
+    app.choice("--package", arguments.package,
+               "ktx2, or fenv: the layout of the cache, which only this version of the engine reads",
+               { { "ktx2", PackageKind::Ktx2 }, { "fenv", PackageKind::Fenv } });
+    app.option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]").showsDefault();
+    app.option("--samples", arguments.samples, "approximate number of sky pieces that each texel integrates")
+            .showsDefault();
+    app.choice("--format", arguments.format, "rgba16f, r11g11b10f, rgb9e5 or rgbm",
+               { { "rgba16f", backend::Format::RGBA16F },
+                 { "r11g11b10f", backend::Format::R11G11B10F },
+                 { "rgb9e5", backend::Format::RGB9E5 },
+                 { "rgbm", backend::Format::RGBA8 } });
+    app.choice("--mapping", arguments.mapping, "of roughness to levels: quadratic, logarithmic or linear",
+               { { "quadratic", RoughnessMapping::Quadratic },
+                 { "logarithmic", RoughnessMapping::Logarithmic },
+                 { "linear", RoughnessMapping::Linear } });
+    app.option("--out", arguments.out, "directory for the results").showsDefault();
+    app.option("--workers", arguments.workers, "threads besides the main one; -1: all cores").inRange(-1, 256);
+    app.flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
+    app.option("--exposure", arguments.exposure, "factor of the previews").showsDefault();
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     return *parsed ? std::optional(std::move(arguments)) : std::nullopt;
 }

@@ -7,8 +7,6 @@
 #include <filament/Look.h>
 #include <filament/RenderPreset.h>
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,42 +135,35 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
 
 } // namespace
 
-void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options) {
-    app.set_help_flag("--help", "print this text");
-    app.add_option("MODEL", words.model,
-                   ".gltf or .glb; filament-render and filament-view also draw .mat and .fmat; without one the "
-                   "showcase is drawn")
-            ->type_name("");
-    app.add_option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
-    app.add_option("--environment", words.environment,
-                   "equirectangular .hdr or .exr, a cube map in a .ktx2, or a package that cmgen baked: light and "
-                   "background; or none (that of the model's file; else the showcase's sky, unless there is a --sun)");
-    app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
-    app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
-    app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3)->allow_extra_args(false);
-    app.add_option("--at", words.at, "X Y Z that it looks at (0 0 0)")->expected(3)->allow_extra_args(false);
-    app.add_option("--fov", words.fov, "vertical field of view in degrees (40)");
-    app.add_option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)")
-            ->expected(3)
-            ->allow_extra_args(false);
-    app.add_option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
-    app.add_option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels")
-            ->expected(4)
-            ->allow_extra_args(false);
-    app.add_option("--skybox", words.skybox, "on or off: the environment as background (on)");
-    app.add_option("--tone-mapper", words.toneMapper, std::string(toneMapperNames()) + " (aces)");
-    app.add_option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
-    app.add_option("--dither", words.dither, "on or off (off)");
-    app.add_option("--preset", words.preset, "fast, balanced, fine or cinematic: the whole view, effects included");
-    app.add_option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
-    app.add_option(
-               "--set", words.set,
+void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& options) {
+    app.helpFlag("--help", "print this text");
+    app.option("MODEL", words.model,
+               ".gltf or .glb; filament-render and filament-view also draw .mat and .fmat; without one the "
+               "showcase is drawn")
+            .typeName("");
+    app.option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
+    app.option("--environment", words.environment,
+               "equirectangular .hdr or .exr, a cube map in a .ktx2, or a package that cmgen baked: light and "
+               "background; or none (that of the model's file; else the showcase's sky, unless there is a --sun)");
+    app.option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
+    app.flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
+    app.option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)").words(3);
+    app.option("--at", words.at, "X Y Z that it looks at (0 0 0)").words(3);
+    app.option("--fov", words.fov, "vertical field of view in degrees (40)");
+    app.option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)").words(3);
+    app.option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
+    app.option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels").words(4);
+    app.option("--skybox", words.skybox, "on or off: the environment as background (on)");
+    app.option("--tone-mapper", words.toneMapper, std::string(toneMapperNames()) + " (aces)");
+    app.option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
+    app.option("--dither", words.dither, "on or off (off)");
+    app.option("--preset", words.preset, "fast, balanced, fine or cinematic: the whole view, effects included");
+    app.option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
+    app.option("--set", words.set,
                "NAME=VALUE: after --quality, one of docs/options.md: a choice of quality, an option of an effect, how "
                "files are loaded, what is shown; repeatable")
-            ->expected(1)
-            ->allow_extra_args(false)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--out", words.out, "folder for pictures and report.json (out)");
+            .repeatable();
+    app.option("--out", words.out, "folder for pictures and report.json (out)");
 }
 
 Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options) {

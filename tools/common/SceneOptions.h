@@ -17,11 +17,9 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace filament::tools {
+
+class CommandLine;
 
 struct SceneOptions {
     std::filesystem::path model; ///< empty: the showcase
@@ -58,7 +56,7 @@ struct SceneWords {
     std::vector<std::string> set; ///< name=value
 };
 
-void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options);
+void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& options);
 Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options);
 
 Camera cameraOf(SceneOptions const& options);

@@ -8,8 +8,6 @@
 
 #include <filament/Quality.h>
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 
 namespace filament::conformance {
@@ -26,47 +24,40 @@ struct Words {
     std::string journal, random = "0", seed = "1", reduce;
 };
 
-void declare(CLI::App& app, Words& words, Options& options) {
-    app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
-    app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
-    app.add_option("--baselines", words.baselines, "file of stored pictures, or none")->type_name("FILE");
-    app.add_flag("--update-baselines", options.updateBaselines, "store the pictures of this run as baselines");
-    app.add_option("-o,--out", words.out, "folder of the report")->type_name("DIR");
-    app.add_option("--only", options.only, "cases whose names contain one of these")->type_name("TEXT...");
-    app.add_option("--cases", options.cases, "of those, the cases with these names")->type_name("NAME...");
-    app.add_option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
-            ->type_name("I/N");
-    app.add_option("--merge", words.merge, "do not run: merge the results of shards")->type_name("DIR...");
-    app.add_option("--backends", words.backends, "vulkan gles, the first is the reference")->type_name("NAME...");
-    app.add_option("--require-device", options.requireDevice, "part of the device's name")->type_name("NAME");
-    app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
-            ->type_name("on|off");
-    app.add_option("--mutations", words.mutations, "check that injected defects are detected")->type_name("on|off");
-    app.add_option("--pictures", words.pictures, "all, or failed: leave out those of cases that passed")
-            ->type_name("all|failed");
-    app.add_option(
-               "--machines", words.machines,
+void declare(tools::CommandLine& app, Words& words, Options& options) {
+    app.option("--scenes", words.scenes, "folder of scene files").typeName("DIR");
+    app.option("--assets", words.assets, "where \"asset:\" paths of scenes begin").typeName("DIR");
+    app.option("--baselines", words.baselines, "file of stored pictures, or none").typeName("FILE");
+    app.flag("--update-baselines", options.updateBaselines, "store the pictures of this run as baselines");
+    app.option("-o,--out", words.out, "folder of the report").typeName("DIR");
+    app.option("--only", options.only, "cases whose names contain one of these").typeName("TEXT...");
+    app.option("--cases", options.cases, "of those, the cases with these names").typeName("NAME...");
+    app.option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
+            .typeName("I/N");
+    app.option("--merge", words.merge, "do not run: merge the results of shards").typeName("DIR...");
+    app.option("--backends", words.backends, "vulkan gles, the first is the reference").typeName("NAME...");
+    app.option("--require-device", options.requireDevice, "part of the device's name").typeName("NAME");
+    app.option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies").typeName("on|off");
+    app.option("--mutations", words.mutations, "check that injected defects are detected").typeName("on|off");
+    app.option("--pictures", words.pictures, "all, or failed: leave out those of cases that passed")
+            .typeName("all|failed");
+    app.option("--machines", words.machines,
                "draw the cases again in child processes that simulate other machines: none, all, or those that --list "
                "prints")
-            ->type_name("NAME...");
-    app.add_option("--journal", words.journal, "record the beginning and end of each case in this file")
-            ->type_name("FILE");
-    app.add_option("--set", words.set, "exact=off, or a quality choice of docs/quality.md, in every case; repeatable")
-            ->type_name("NAME=VALUE")
-            ->expected(1)
-            ->allow_extra_args(false)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
-    app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
-            ->type_name("CASE");
-    app.add_option("--mutate", options.mutate, "with --bisect or --random: inject this defect into one backend")
-            ->type_name("MUTATION");
-    app.add_option("--random", words.random, "do not run: draw this many generated materials, reduce what differs")
-            ->type_name("N");
-    app.add_option("--reduce", words.reduce, "look for a small material that fails in the same way")
-            ->type_name("on|off");
-    app.add_option("--seed", words.seed, "of the first generated material; the next ones follow")->type_name("S");
-    app.add_flag("--list", options.list, "print the cases and the mutations");
+            .typeName("NAME...");
+    app.option("--journal", words.journal, "record the beginning and end of each case in this file").typeName("FILE");
+    app.option("--set", words.set, "exact=off, or a quality choice of docs/quality.md, in every case; repeatable")
+            .typeName("NAME=VALUE")
+            .repeatable();
+    app.option("--build", options.build, "name of this build in the results").typeName("NAME");
+    app.option("--bisect", options.bisect, "do not run: find the first draw of a case that differs").typeName("CASE");
+    app.option("--mutate", options.mutate, "with --bisect or --random: inject this defect into one backend")
+            .typeName("MUTATION");
+    app.option("--random", words.random, "do not run: draw this many generated materials, reduce what differs")
+            .typeName("N");
+    app.option("--reduce", words.reduce, "look for a small material that fails in the same way").typeName("on|off");
+    app.option("--seed", words.seed, "of the first generated material; the next ones follow").typeName("S");
+    app.flag("--list", options.list, "print the cases and the mutations");
 }
 
 Result<void> convertBackends(std::vector<std::string> const& words, Options& options) {
@@ -154,12 +145,12 @@ Result<void> convert(Words const& words, Options& options) {
 } // namespace
 
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
-    CLI::App app("Draws every scene on every backend with every number of workers and compares the pictures.",
-                 "filament-conformance");
+    tools::CommandLine app("Draws every scene on every backend with every number of workers and compares the pictures.",
+                           "filament-conformance");
     Words words;
     Options options{ .build = FILAMENT_BUILD_NAME };
     declare(app, words, options);
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>();
     if (const Result<void> done = convert(words, options); !done) return done.error();

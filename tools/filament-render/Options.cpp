@@ -4,8 +4,6 @@
 #include "jobsystem/Topology.h"
 #include "tools/common/CommandLine.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cmath>
 
 namespace filament::tools {
@@ -112,41 +110,39 @@ Result<void> convertTime(Words const& words, Options& options) {
     return {};
 }
 
-void declare(CLI::App& app, Words& words, Options& options) {
-    app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
-    app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
-    app.add_option("--copies", words.copies, "number of copies of the model, on a grid (1)");
-    app.add_option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
-    app.add_option("--time", words.time, "SECONDS: the time of the animation and of materials (0)");
-    app.add_option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
-    app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
-    app.add_option(
-            "--format", words.format,
-            "png; png16: ten bits a channel, stored in 16; or exr: scene-linear half floats before the tone mapper "
-            "(png)");
-    app.add_option("--save-look", words.saveLook,
-                   "FILE.cube: write grading, tone mapper and look as a cube for other programs");
-    app.add_flag("--timing", options.timing, "print the time taken by start-up and frames");
-    app.add_flag("--explain", options.explain, "print what ran, what was culled, and why");
-    app.add_flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");
-    app.add_option("--save-frame", words.saveFrame,
-                   "FOLDER: save the frame with its commands for each API, for filament-replay and for bug reports");
-    app.add_option("--trace-jobs", words.traceJobs,
-                   "FILE: the timeline of every thread, for chrome://tracing or tools/plot/plot.py jobs");
-    app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
-    app.add_option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
-    app.add_option("--driver-core", words.driverCore,
-                   "none, last or a number: the core of the driver thread, which job threads avoid (none)");
-    app.add_flag("--repin", options.repinAfterWaits,
-                 "threads with cores of their own take them again after every wait");
-    app.add_option(
+void declare(CommandLine& app, Words& words, Options& options) {
+    app.option("--backend", words.backend, "vulkan, gles or both (default)").shownDefault("both");
+    app.option("--frames", words.frames, "frames to draw; the last one is saved (1)");
+    app.option("--copies", words.copies, "number of copies of the model, on a grid (1)");
+    app.option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
+    app.option("--time", words.time, "SECONDS: the time of the animation and of materials (0)");
+    app.option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
+    app.option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
+    app.option("--format", words.format,
+               "png; png16: ten bits a channel, stored in 16; or exr: scene-linear half floats before the tone mapper "
+               "(png)");
+    app.option("--save-look", words.saveLook,
+               "FILE.cube: write grading, tone mapper and look as a cube for other programs");
+    app.flag("--timing", options.timing, "print the time taken by start-up and frames");
+    app.flag("--explain", options.explain, "print what ran, what was culled, and why");
+    app.flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");
+    app.option("--save-frame", words.saveFrame,
+               "FOLDER: save the frame with its commands for each API, for filament-replay and for bug reports");
+    app.option("--trace-jobs", words.traceJobs,
+               "FILE: the timeline of every thread, for chrome://tracing or tools/plot/plot.py jobs");
+    app.option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
+    app.option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
+    app.option("--driver-core", words.driverCore,
+               "none, last or a number: the core of the driver thread, which job threads avoid (none)");
+    app.flag("--repin", options.repinAfterWaits, "threads with cores of their own take them again after every wait");
+    app.option(
             "--budget", words.budget,
             "MS: device time per frame; chooses the quality with the least error within it, and explains the choice");
-    app.add_option("--costs", words.costs, "FILE: the cost table for --budget (the library's own)");
-    app.add_option("--measure-costs", words.measureCosts,
-                   "FILE: measure what every quality choice costs in this scene, for --costs");
-    app.add_flag("--list-devices", options.listDevices, "print the devices of every backend");
-    app.add_option("--require-device", words.requireDevice, "fail unless the device's name contains this");
+    app.option("--costs", words.costs, "FILE: the cost table for --budget (the library's own)");
+    app.option("--measure-costs", words.measureCosts,
+               "FILE: measure what every quality choice costs in this scene, for --costs");
+    app.flag("--list-devices", options.listDevices, "print the devices of every backend");
+    app.option("--require-device", words.requireDevice, "fail unless the device's name contains this");
 }
 
 } // namespace
@@ -155,12 +151,14 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     Options options;
     SceneWords sceneWords;
     Words words;
-    CLI::App app{ "Draws a glTF model, or a material on a sphere, with image-based light on Vulkan, OpenGL ES or both, "
-                  "and compares the bits.",
-                  "filament-render" };
+    CommandLine app{
+        "Draws a glTF model, or a material on a sphere, with image-based light on Vulkan, OpenGL ES or both, "
+        "and compares the bits.",
+        "filament-render"
+    };
     declareSceneOptions(app, sceneWords, options);
     declare(app, words, options);
-    const Result<bool> parsed = parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     options.requireDevice = words.requireDevice;

@@ -2,10 +2,9 @@
 // imgdiff A.png B.png [--out DIFF.png] [--tolerance N]: the comparison of filament-render for any two pictures.
 // Exit status 0: within the tolerance; 1: not; 2: the pictures could not be compared.
 #include "filament_core/assets/image/ImageWriter.h"
+#include "tools/common/CommandLine.h"
 #include "tools/common/StandardOutput.h"
 #include "tools/imgdiff/ImageCompare.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 
@@ -47,20 +46,17 @@ int compareFiles(std::string const& pathA, std::string const& pathB, std::string
 } // namespace filament::tools
 
 int main(int argc, char** argv) {
-    CLI::App app{ "Says how many pixels of two PNG files are the same and how far apart the others are." };
+    filament::tools::CommandLine app{
+        "Says how many pixels of two PNG files are the same and how far apart the others are.", "imgdiff"
+    };
     std::string a, b, out;
     uint32_t tolerance = 0;
-    app.add_option("A", a, "first picture")->required();
-    app.add_option("B", b, "second picture")->required();
-    app.add_option("--out", out, "write a picture of the differences");
-    app.add_option("--tolerance", tolerance, "largest difference in 1/255 that still counts as equal");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::CallForHelp const&) {
-        std::fputs(app.help().c_str(), stdout);
-        return filament::tools::finished(0);
-    } catch (CLI::Error const& error) {
-        return filament::tools::failed({ filament::ErrorCode::InvalidArgument, error.what() });
-    }
+    app.option("A", a, "first picture").required();
+    app.option("B", b, "second picture").required();
+    app.option("--out", out, "write a picture of the differences");
+    app.option("--tolerance", tolerance, "largest difference in 1/255 that still counts as equal");
+    const filament::Result<bool> parsed = app.parse(argc, argv);
+    if (!parsed) return filament::tools::failed(parsed.error());
+    if (!*parsed) return filament::tools::finished(0);
     return filament::tools::finished(filament::tools::compareFiles(a, b, out, tolerance));
 }

@@ -2,17 +2,18 @@
 #include "tools/matc/Options.h"
 
 #include "shaders/package/PackageFormat.h"
+#include "tools/common/CommandLine.h"
 #include "tools/common/StandardOutput.h"
 
 #include <filament/Version.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 namespace filament::matc {
@@ -30,82 +31,85 @@ bool isIdentifier(std::string_view name) {
     return true;
 }
 
-/// "NAME=VALUE"; NAME alone has the value 1, as for C compilers.
-std::pair<std::string, std::string> nameAndValue(std::string const& text) {
+/// "NAME=VALUE"; NAME alone has the value 1, as for C compilers. Nothing: the name is none.
+std::optional<std::pair<std::string, std::string>> nameAndValue(std::string const& text) {
     const size_t equals = text.find('=');
     std::string name = text.substr(0, equals);
-    if (!isIdentifier(name)) throw CLI::ValidationError("'" + text + "' is not of the form NAME=VALUE");
-    return { std::move(name), equals == std::string::npos ? "1" : text.substr(equals + 1) };
+    if (!isIdentifier(name)) return std::nullopt;
+    return std::pair{ std::move(name), equals == std::string::npos ? "1" : text.substr(equals + 1) };
 }
 
-void addOutputs(CLI::App& app, Options& options, bool& writesDependencies) {
-    app.add_option("-o,--output", options.output,
-                   "the package to write; ends with / : the folder for the packages of all materials, NAME.fmat for "
-                   "NAME.mat");
-    app.add_flag("-E,--preprocess", options.preprocess, "print the generated GLSL and stop");
-    app.add_option("-r,--reflect", options.reflect, "print what the material declares, as JSON")
-            ->check(CLI::IsMember({ "parameters" }));
-    app.add_flag("--cost", options.cost, "print the operations of the fragment stages and stop");
-    app.add_flag("-M,--print-dependencies", options.printDependencies,
-                 "print a rule for make that names the files of the material, and stop");
-    app.add_flag("--write-dependencies", writesDependencies,
-                 "-MD: beside the package, write this rule into a file whose name has .d added");
-    app.add_option("--dependency-file", options.dependencyFile, "-MF FILE: write this rule into FILE");
+/// What becomes members of Options by a conversion.
+struct Words {
+    std::vector<std::string> defines, templates;
+    bool writesDependencies = false, allowsOutside = false, isQuiet = false;
+};
+
+void addOutputs(tools::CommandLine& app, Options& options, Words& words) {
+    app.option(
+            "-o,--output", options.output,
+            "the package to write; ends with / : the folder for the packages of all materials, NAME.fmat for NAME.mat");
+    app.flag("-E,--preprocess", options.preprocess, "print the generated GLSL and stop");
+    app.option("-r,--reflect", options.reflect, "print what the material declares, as JSON").oneOf({ "parameters" });
+    app.flag("--cost", options.cost, "print the operations of the fragment stages and stop");
+    app.flag("-M,--print-dependencies", options.printDependencies,
+             "print a rule for make that names the files of the material, and stop");
+    app.flag("--write-dependencies", words.writesDependencies,
+             "-MD: beside the package, write this rule into a file whose name has .d added");
+    app.option("--dependency-file", options.dependencyFile, "-MF FILE: write this rule into FILE");
 }
 
-void addCompilation(CLI::App& app, Options& options) {
-    app.add_option("-a,--api", options.api, "languages in the package")
-            ->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
-    app.add_option("-p,--platform", options.platform,
-                   "platform whose defaults for quality and occlusion apply (one package runs on all)")
-            ->check(CLI::IsMember({ "desktop", "mobile", "all" }));
-    app.add_option("-v,--variant-filter", options.filters, "variants to leave out, separated by commas")
-            ->delimiter(',');
-    app.add_option("-j,--jobs", options.threads, "threads; the output does not depend on it (default: all cores)")
-            ->check(CLI::Range(1, 256));
-    app.add_flag("-S,--optimize-size", options.optimizeSize, "small shaders rather than fast ones");
-    app.add_flag("-g,--no-optimization", options.noOptimization, "shaders as written, for debugging");
-    app.add_flag("--inexact", options.inexact,
-                 "leave dot, normalize, mix, ... to the drivers; the bits may then differ between APIs");
-    app.add_flag_callback(
-            "--allow-outside", [&] { options.includes = assets::FilesFrom::Anywhere; },
-            "#include files outside of the material's folder too: absolute paths, \"..\", links that lead out");
-    app.add_flag_callback(
-            "-w,--no-warnings", [&] { options.warn = false; }, "print no warnings");
+void addCompilation(tools::CommandLine& app, Options& options, Words& words) {
+    app.option("-a,--api", options.api, "languages in the package").oneOf({ "opengl", "vulkan", "all" });
+    app.option("-p,--platform", options.platform,
+               "platform whose defaults for quality and occlusion apply (one package runs on all)")
+            .oneOf({ "desktop", "mobile", "all" });
+    app.option("-v,--variant-filter", options.filters, "variants to leave out, separated by commas").separatedBy(',');
+    app.option("-j,--jobs", options.threads, "threads; the output does not depend on it (default: all cores)")
+            .inRange(1, 256);
+    app.flag("-S,--optimize-size", options.optimizeSize, "small shaders rather than fast ones");
+    app.flag("-g,--no-optimization", options.noOptimization, "shaders as written, for debugging");
+    app.flag("--inexact", options.inexact,
+             "leave dot, normalize, mix, ... to the drivers; the bits may then differ between APIs");
+    app.flag("--allow-outside", words.allowsOutside,
+             "#include files outside of the material's folder too: absolute paths, \"..\", links that lead out");
+    app.flag("-w,--no-warnings", words.isQuiet, "print no warnings");
 }
 
-void addDefinitions(CLI::App& app, Options& options) {
-    app.add_option_function<std::vector<std::string>>(
-               "-D,--define",
-               [&](std::vector<std::string> const& all) {
-                   for (std::string const& each : all) options.defines.push_back(nameAndValue(each));
-               },
-               "NAME=VALUE: a macro in both blocks, also for #if")
-            ->allow_extra_args(false);
-    app.add_option_function<std::vector<std::string>>(
-               "-T,--template",
-               [&](std::vector<std::string> const& all) {
-                   for (std::string const& each : all) options.templates.insert(nameAndValue(each));
-               },
-               "NAME=VALUE: replaces ${NAME} everywhere in the text")
-            ->allow_extra_args(false);
+void addDefinitions(tools::CommandLine& app, Words& words) {
+    app.option("-D,--define", words.defines, "NAME=VALUE: a macro in both blocks, also for #if").oneWord();
+    app.option("-T,--template", words.templates, "NAME=VALUE: replaces ${NAME} everywhere in the text").oneWord();
+}
+
+/// The first definition that has no name; nothing: all are converted.
+std::optional<std::string> convertDefinitions(Words const& words, Options& options) {
+    for (std::string const& each : words.defines) {
+        auto definition = nameAndValue(each);
+        if (!definition) return each;
+        options.defines.push_back(std::move(*definition));
+    }
+    for (std::string const& each : words.templates) {
+        auto definition = nameAndValue(each);
+        if (!definition) return each;
+        options.templates.insert(std::move(*definition));
+    }
+    return std::nullopt;
 }
 
 /// The names of C compilers, which CLI11 would take for groups of one-letter flags.
 std::vector<std::string> arguments(int argc, char** argv) {
-    std::vector<std::string> reversed;
-    for (int i = argc - 1; i > 0; --i) {
+    std::vector<std::string> words;
+    for (int i = 1; i < argc; ++i) {
         const std::string_view given = argv[i];
-        reversed.emplace_back(given == "-MD"                   ? "--write-dependencies"
-                              : given == "-MF"                 ? "--dependency-file"
-                              : given == "--preprocessor-only" ? "--preprocess"
-                                                               : given);
+        words.emplace_back(given == "-MD"                   ? "--write-dependencies"
+                           : given == "-MF"                 ? "--dependency-file"
+                           : given == "--preprocessor-only" ? "--preprocess"
+                                                            : given);
     }
-    return reversed;
+    return words;
 }
 
-int ended(CLI::App const& app, CLI::ParseError const& problem) {
-    const int status = app.exit(problem);
+int ended(int status) {
     if (!tools::finishOutput()) return kFailed;
     return status == 0 ? kDone : kUsage;
 }
@@ -143,26 +147,27 @@ Options ofMaterial(Options options, std::string const& input, bool writesDepende
 Parsed parseOptions(int argc, char** argv) {
     Options options;
     std::vector<std::string> inputs;
-    bool writesDependencies = false;
-    CLI::App app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
+    Words words;
+    tools::CommandLine app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
     app.footer(kEpilogue);
-    app.set_version_flag("--version", fmt::format("matc of filament_core {}, package format {}", versionText(),
-                                                  shader::format::kVersion));
-    app.add_option("input", inputs, "the material definitions; - reads one from the standard input")->required();
-    addOutputs(app, options, writesDependencies);
-    addCompilation(app, options);
-    addDefinitions(app, options);
-    try {
-        app.parse(arguments(argc, argv));
-    } catch (CLI::ParseError const& problem) {
-        return { {}, ended(app, problem) };
-    }
+    app.versionFlag("--version", fmt::format("matc of filament_core {}, package format {}", versionText(),
+                                             shader::format::kVersion));
+    app.option("input", inputs, "the material definitions; - reads one from the standard input").required();
+    addOutputs(app, options, words);
+    addCompilation(app, options, words);
+    addDefinitions(app, words);
+    if (const std::optional<int> status = app.exitStatus(arguments(argc, argv))) return { {}, ended(*status) };
+    if (const std::optional<std::string> wrong = convertDefinitions(words, options))
+        return { {}, ended(app.reject("'" + *wrong + "' is not of the form NAME=VALUE")) };
+    if (words.allowsOutside) options.includes = assets::FilesFrom::Anywhere;
+    if (words.isQuiet) options.warn = false;
     if (const std::string problem = contradiction(options, inputs); !problem.empty()) {
         std::fprintf(stderr, "matc: %s\n", problem.c_str());
         return { {}, kUsage };
     }
     Parsed parsed;
-    for (std::string const& input : inputs) parsed.materials.push_back(ofMaterial(options, input, writesDependencies));
+    for (std::string const& input : inputs)
+        parsed.materials.push_back(ofMaterial(options, input, words.writesDependencies));
     return parsed;
 }
 

@@ -3,10 +3,9 @@
 ///   Out     parameters, constants, sizes of the variants; with --code the code of one stage.
 ///   Status  0: printed; 1: the package, or what was asked of it; 2: the command line.
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/common/CommandLine.h"
 #include "tools/common/StandardOutput.h"
 #include "tools/matinfo/Describe.h"
-
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <string>
@@ -37,19 +36,16 @@ Result<void> run(Options const& options) {
 
 int main(int argc, char** argv) {
     Options options;
-    CLI::App app{ "Shows what a material package (.fmat) holds." };
-    app.add_option("input", options.input, "the package")->required();
-    app.add_option("--code", options.code, "print the code for this API: GLSL, or SPIR-V as text")
-            ->check(CLI::IsMember({ "opengl", "vulkan" }));
-    app.add_option("--variant", options.variant, "key of the variant whose code is printed (default: 0)");
-    app.add_option("--stage", options.stage, "stage whose code is printed (default: fragment)")
-            ->check(CLI::IsMember({ "vertex", "fragment" }));
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& problem) {
-        const int status = app.exit(problem);
+    tools::CommandLine app{ "Shows what a material package (.fmat) holds." };
+    app.option("input", options.input, "the package").required();
+    app.option("--code", options.code, "print the code for this API: GLSL, or SPIR-V as text")
+            .oneOf({ "opengl", "vulkan" });
+    app.option("--variant", options.variant, "key of the variant whose code is printed (default: 0)");
+    app.option("--stage", options.stage, "stage whose code is printed (default: fragment)")
+            .oneOf({ "vertex", "fragment" });
+    if (const std::optional<int> status = app.exitStatus(argc, argv)) {
         if (!tools::finishOutput()) return 1;
-        return status == 0 ? 0 : 2;
+        return *status == 0 ? 0 : 2;
     }
     const Result<void> done = run(options);
     if (!done) std::fprintf(stderr, "matinfo: %s\n", done.error().message.c_str());

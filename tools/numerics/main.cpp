@@ -7,8 +7,6 @@
 #include "tools/common/Program.h"
 #include "tools/numerics/Report.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 
 namespace filament::shader::numerics {
@@ -20,15 +18,12 @@ struct Options {
     std::string only, csv, json, markdown;
 };
 
-void declare(CLI::App& app, Options& options) {
-    CLI::Option* const only =
-            app.add_option("--only", options.only, "rows whose function contains this, or of this file")
-                    ->type_name("TEXT");
-    app.add_option("--csv", options.csv, "write every count of every column")->type_name("FILE");
-    app.add_option("--json", options.json, "the same as JSON")->type_name("FILE");
-    app.add_option("--write", options.markdown, "write the tables of docs/numerics.md")
-            ->type_name("FILE")
-            ->excludes(only);
+void declare(tools::CommandLine& app, Options& options) {
+    const tools::CommandLine::Option only =
+            app.option("--only", options.only, "rows whose function contains this, or of this file").typeName("TEXT");
+    app.option("--csv", options.csv, "write every count of every column").typeName("FILE");
+    app.option("--json", options.json, "the same as JSON").typeName("FILE");
+    app.option("--write", options.markdown, "write the tables of docs/numerics.md").typeName("FILE").excludes(only);
 }
 
 Result<void> write(std::string const& path, std::string const& text) {
@@ -58,10 +53,11 @@ int main(int argc, char** argv) {
     using namespace filament;
     tools::setProgramName("filament-numerics");
     tools::routeLogToConsole();
-    CLI::App app("Evaluates every function of shaders/lib over edge grids in every precision.", "filament-numerics");
+    tools::CommandLine app("Evaluates every function of shaders/lib over edge grids in every precision.",
+                           "filament-numerics");
     shader::numerics::Options options;
     shader::numerics::declare(app, options);
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return tools::failed(parsed.error());
     const int status = *parsed ? shader::numerics::run(options) : 0;
     const Result<void> printed = tools::finishOutput();

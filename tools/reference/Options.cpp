@@ -4,8 +4,6 @@
 #include "tools/common/CommandLine.h"
 #include "tools/reference/Division.h"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -173,73 +171,41 @@ Result<void> convertNumbers(Words const& words, Options& options) {
     return {};
 }
 
-void declare(CLI::App& app, Words& words, Options& options) {
-    app.add_option("--integrator", words.integrator, "path: all light; unoccluded: one reflection, no shadows (path)");
-    app.add_option("--spp", words.samples, "samples per pixel; with --error the maximum (256)");
-    app.add_option("--error", words.error, "stop when the relative standard error of the picture is below this");
-    app.add_option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
-    app.add_option("--seed", words.seed, "seed of the noise (1)");
-    app.add_option("--filter", words.filter, "box: the mean over a pixel; center: its middle (box)");
-    app.add_option("--occlusion-map", words.occlusion, "on, off or auto: with unoccluded only (auto)");
-    app.add_option("--ao-radius", words.occlusionRadius,
-                   "with unoccluded: metres within which surfaces dim indirect light, as ambient occlusion does (0)");
-    app.add_option("--ao-rays", words.occlusionRays, "rays for that, each sample of a pixel (64)");
-    app.add_flag("--ao-bent", options.settings.occlusionBends, "diffuse light comes from the mean open direction");
-    app.add_option("--visibility", words.visibility, "correlated, fast or uncorrelated (correlated)");
-    app.add_option("--fresnel", words.fresnel, "schlick or exact (schlick)");
-    app.add_option("--diffuse", words.diffuse, "lambert or disney (lambert)");
-    app.add_option("--energy", words.energy, "compensated or single-scatter (compensated)");
-    app.add_option("--coupling", words.coupling,
-                   "engine, ambient-only, always or never: the light for which the diffuse lobe gets only what the "
-                   "specular lobe leaves");
-    app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
-    app.add_option("--solid-tint", words.solidTint,
-                   "each-interface or once: how often the base colour of a solid applies (each-interface)");
-    app.add_option("--specular-light", words.specularLight,
-                   "integral or split-sum: how the environment is gathered (integral)");
-    app.add_option("--diffuse-light", words.diffuseLight,
-                   "integral or harmonics: the same for diffuse light (integral)");
-    app.add_option("--ibl-rotation", words.rotation, "rotation of the environment around +Y in degrees (0)");
-    app.add_option("--threads", words.threads, "number of tracing threads (one per core)");
-    app.add_option("--tile", words.tile, "render a part: X,Y,W,H in pixels, or I/CxR: tile I of C columns and R rows");
-    app.add_option("--samples", words.samplesOfPart,
-                   "render a part: COUNT samples of every pixel from FIRST on, whole passes")
-            ->type_name("FIRST,COUNT");
-    app.add_option("--shard", words.shard, "render part I of N; or auto, from the scheduler")->type_name("I/N");
-    app.add_option("--merge", words.merge, "do not render: write the picture of parts, files or folders of them")
-            ->type_name("FILE...");
-    app.add_flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
-}
-
-constexpr std::array kNotOfThePicture{ "--help", "--out", "--threads", "--tile", "--samples", "--shard", "--merge" };
-
-bool isOfThePicture(CLI::Option const& option) {
-    return std::ranges::none_of(kNotOfThePicture, [&](const char* name) { return option.check_name(name); });
-}
-
-/// The command line again, without what only says which part of the picture is rendered, how and where to.
-std::vector<std::string> argumentsOf(CLI::App const& app) {
-    std::vector<std::string> positional, named;
-    for (CLI::Option const* option : app.get_options()) {
-        if (option->count() == 0 || !isOfThePicture(*option)) continue;
-        if (option->get_positional()) {
-            positional.insert(positional.end(), option->results().begin(), option->results().end());
-            continue;
-        }
-        const std::string name = option->get_name();
-        if (option->get_items_expected_max() == 0) { // a flag; false: its negation was given
-            named.push_back(option->results().back() == "true" ? name : name + "=" + option->results().back());
-            continue;
-        }
-        const bool hasOneWord = option->get_expected_max() == 1; // several: the option was repeated
-        if (!hasOneWord) named.push_back(name);
-        for (std::string const& word : option->results()) {
-            if (hasOneWord) named.push_back(name);
-            named.push_back(word);
-        }
-    }
-    positional.insert(positional.end(), named.begin(), named.end());
-    return positional;
+void declare(tools::CommandLine& app, Words& words, Options& options) {
+    app.option("--integrator", words.integrator, "path: all light; unoccluded: one reflection, no shadows (path)");
+    app.option("--spp", words.samples, "samples per pixel; with --error the maximum (256)");
+    app.option("--error", words.error, "stop when the relative standard error of the picture is below this");
+    app.option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
+    app.option("--seed", words.seed, "seed of the noise (1)");
+    app.option("--filter", words.filter, "box: the mean over a pixel; center: its middle (box)");
+    app.option("--occlusion-map", words.occlusion, "on, off or auto: with unoccluded only (auto)");
+    app.option("--ao-radius", words.occlusionRadius,
+               "with unoccluded: metres within which surfaces dim indirect light, as ambient occlusion does (0)");
+    app.option("--ao-rays", words.occlusionRays, "rays for that, each sample of a pixel (64)");
+    app.flag("--ao-bent", options.settings.occlusionBends, "diffuse light comes from the mean open direction");
+    app.option("--visibility", words.visibility, "correlated, fast or uncorrelated (correlated)");
+    app.option("--fresnel", words.fresnel, "schlick or exact (schlick)");
+    app.option("--diffuse", words.diffuse, "lambert or disney (lambert)");
+    app.option("--energy", words.energy, "compensated or single-scatter (compensated)");
+    app.option("--coupling", words.coupling,
+               "engine, ambient-only, always or never: the light for which the diffuse lobe gets only what the "
+               "specular lobe leaves");
+    app.option("--lobes", words.lobes, "both, diffuse or specular (both)");
+    app.option("--solid-tint", words.solidTint,
+               "each-interface or once: how often the base colour of a solid applies (each-interface)");
+    app.option("--specular-light", words.specularLight,
+               "integral or split-sum: how the environment is gathered (integral)");
+    app.option("--diffuse-light", words.diffuseLight, "integral or harmonics: the same for diffuse light (integral)");
+    app.option("--ibl-rotation", words.rotation, "rotation of the environment around +Y in degrees (0)");
+    app.option("--threads", words.threads, "number of tracing threads (one per core)");
+    app.option("--tile", words.tile, "render a part: X,Y,W,H in pixels, or I/CxR: tile I of C columns and R rows");
+    app.option("--samples", words.samplesOfPart,
+               "render a part: COUNT samples of every pixel from FIRST on, whole passes")
+            .typeName("FIRST,COUNT");
+    app.option("--shard", words.shard, "render part I of N; or auto, from the scheduler").typeName("I/N");
+    app.option("--merge", words.merge, "do not render: write the picture of parts, files or folders of them")
+            .typeName("FILE...");
+    app.flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
 }
 
 Result<void> convertPart(Words const& words, Options& options) {
@@ -275,11 +241,13 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     Options options;
     tools::SceneWords sceneWords;
     Words words;
-    CLI::App app{ "Renders what the engine approximates: paths traced in double precision, with a standard error.",
-                  "filament-reference" };
+    tools::CommandLine app{
+        "Renders what the engine approximates: paths traced in double precision, with a standard error.",
+        "filament-reference"
+    };
     tools::declareSceneOptions(app, sceneWords, options);
     declare(app, words, options);
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
@@ -287,7 +255,9 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
          { convertChoices, convertMicrofacets, convertLobes, convertPrefiltered, convertNumbers, convertPart }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
-    options.arguments = argumentsOf(app);
+    // which part of the picture is rendered, how and where to is not of the picture
+    options.arguments =
+            app.givenBesides({ "--help", "--out", "--threads", "--tile", "--samples", "--shard", "--merge" });
     if (!options.merge.empty() && !options.arguments.empty())
         return fail(ErrorCode::InvalidArgument, "--merge takes all settings from the parts; leave out '{}'",
                     tools::joined(options.arguments));

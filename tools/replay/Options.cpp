@@ -3,8 +3,6 @@
 
 #include "tools/common/CommandLine.h"
 
-#include <CLI/CLI.hpp>
-
 namespace filament::replay {
 namespace {
 
@@ -67,19 +65,19 @@ Result<void> convertPlaces(Words const& words, Options& options) {
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     Options options;
     Words words;
-    CLI::App app{ kDescription, "filament-replay" };
+    tools::CommandLine app{ kDescription, "filament-replay" };
     app.footer(kFooter);
-    app.add_option("FOLDER", words.folder, "a saved frame: the folder with frame.json");
-    app.add_option("--backend", words.backend,
-                   "vulkan, gles, null (checks the commands without a device) or all (default)");
-    app.add_option("--require-device", words.requireDevice, "fail unless the device's name contains this");
-    app.add_option("--frame", words.frame, "NUMBER of the frame to look into, as listed (the last one)");
-    app.add_flag("--list", options.list, "print the frames, passes and draws");
-    app.add_option("--stop-after-pass", words.stopAfterPass, "NUMBER or NAME of a pass");
-    app.add_option("--stop-after-draw", words.stopAfterDraw, "NUMBER of a draw within the frame");
-    app.add_option("--step", words.step, "DIR: write what every draw left in the attachments of its pass");
-    app.add_option("--out", words.out, "DIR: write the pictures, or the attachments of the pass");
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    app.option("FOLDER", words.folder, "a saved frame: the folder with frame.json");
+    app.option("--backend", words.backend,
+               "vulkan, gles, null (checks the commands without a device) or all (default)");
+    app.option("--require-device", words.requireDevice, "fail unless the device's name contains this");
+    app.option("--frame", words.frame, "NUMBER of the frame to look into, as listed (the last one)");
+    app.flag("--list", options.list, "print the frames, passes and draws");
+    app.option("--stop-after-pass", words.stopAfterPass, "NUMBER or NAME of a pass");
+    app.option("--stop-after-draw", words.stopAfterDraw, "NUMBER of a draw within the frame");
+    app.option("--step", words.step, "DIR: write what every draw left in the attachments of its pass");
+    app.option("--out", words.out, "DIR: write the pictures, or the attachments of the pass");
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     if (words.folder.empty())

@@ -6,8 +6,6 @@
 #include "tools/common/Program.h"
 #include "tools/tables/Tables.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 
 namespace filament::tools {
@@ -48,12 +46,12 @@ int main(int argc, char** argv) {
     using namespace filament;
     tools::setProgramName("filament-tables");
     tools::routeLogToConsole();
-    CLI::App app("Checks or writes the tables of documents.", "filament-tables");
+    tools::CommandLine app("Checks or writes the tables of documents.", "filament-tables");
     std::vector<std::string> files;
     bool writes = false;
-    app.add_flag("--write", writes, "write the tables that are not current");
-    app.add_option("FILE", files, "documents")->required();
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    app.flag("--write", writes, "write the tables that are not current");
+    app.option("FILE", files, "documents").required();
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return tools::failed(parsed.error());
     const int status = *parsed ? tools::run(files, writes) : 0;
     const Result<void> printed = tools::finishOutput();

@@ -4,7 +4,6 @@
 #include "tools/common/CommandLine.h"
 #include "tools/view/panels/Panels.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,28 +21,28 @@ struct Words {
     std::string cameraPath, framesTo, frameFormat = "png", framesPerSecond = "30", video;
 };
 
-void declare(CLI::App& app, Words& words, ViewerOptions& options) {
-    app.add_option("--backend", words.backend, "vulkan (default) or gles; B changes it while it runs")
-            ->default_str("vulkan");
-    app.add_option("--present", words.presentMode, "fifo (default: vsync), mailbox or immediate")->default_str("fifo");
-    app.add_option("--frames", words.frames, "end after so many frames of the loaded scene (0: when it is closed)");
-    app.add_option("--screenshot", words.screenshot, "FILE.png: save the last frame, with the panels");
-    app.add_option("--document", words.document, "FILE.json: what a viewer saved, in the place of the other options");
-    app.add_option("--camera-path", words.cameraPath, "FILE.json: a camera path, as the viewer saves it");
-    app.add_option("--frames-to", words.framesTo,
-                   "FOLDER: draw the camera path to numbered pictures, without a window, and end");
-    app.add_option("--frame-format", words.frameFormat, "of those: png (default), or exr: light before the tone mapper")
-            ->default_str("png");
-    app.add_option("--video", words.video, "FILE.mp4, .mov, .mkv, .webm: make a video of them, by the ffmpeg command");
-    app.add_option("--fps", words.framesPerSecond, "frames a second of the camera path")->default_str("30");
-    app.add_option("--panels", words.panels, "on (default) or off; Tab changes it while it runs")->default_str("on");
-    app.add_option("--panel", options.openPanels, "NAME, as on its tab: open it at the start; repeatable");
-    app.add_option("--compare", words.compare,
-                   "off (default), wipe, difference or flip: with the other API; C changes it while it runs")
-            ->default_str("off");
-    app.add_option("--select", options.select, "NODE: select this node of the model, once it is loaded");
-    app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
-    app.add_flag("--validation", options.validation, "check every command, and enable the validation layers");
+void declare(tools::CommandLine& app, Words& words, ViewerOptions& options) {
+    app.option("--backend", words.backend, "vulkan (default) or gles; B changes it while it runs")
+            .shownDefault("vulkan");
+    app.option("--present", words.presentMode, "fifo (default: vsync), mailbox or immediate").shownDefault("fifo");
+    app.option("--frames", words.frames, "end after so many frames of the loaded scene (0: when it is closed)");
+    app.option("--screenshot", words.screenshot, "FILE.png: save the last frame, with the panels");
+    app.option("--document", words.document, "FILE.json: what a viewer saved, in the place of the other options");
+    app.option("--camera-path", words.cameraPath, "FILE.json: a camera path, as the viewer saves it");
+    app.option("--frames-to", words.framesTo,
+               "FOLDER: draw the camera path to numbered pictures, without a window, and end");
+    app.option("--frame-format", words.frameFormat, "of those: png (default), or exr: light before the tone mapper")
+            .shownDefault("png");
+    app.option("--video", words.video, "FILE.mp4, .mov, .mkv, .webm: make a video of them, by the ffmpeg command");
+    app.option("--fps", words.framesPerSecond, "frames a second of the camera path").shownDefault("30");
+    app.option("--panels", words.panels, "on (default) or off; Tab changes it while it runs").shownDefault("on");
+    app.option("--panel", options.openPanels, "NAME, as on its tab: open it at the start; repeatable");
+    app.option("--compare", words.compare,
+               "off (default), wipe, difference or flip: with the other API; C changes it while it runs")
+            .shownDefault("off");
+    app.option("--select", options.select, "NODE: select this node of the model, once it is loaded");
+    app.option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
+    app.flag("--validation", options.validation, "check every command, and enable the validation layers");
 }
 
 Result<void> convertChoices(Words const& words, ViewerOptions& options) {
@@ -119,11 +118,11 @@ Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* co
     ViewerOptions options;
     tools::SceneWords sceneWords;
     Words words;
-    CLI::App app{ "Shows a glTF model or a material in a window, on Vulkan or OpenGL ES. F1 lists the keys.",
-                  "filament-view" };
+    tools::CommandLine app{ "Shows a glTF model or a material in a window, on Vulkan or OpenGL ES. F1 lists the keys.",
+                            "filament-view" };
     tools::declareSceneOptions(app, sceneWords, options);
     declare(app, words, options);
-    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<ViewerOptions>{};
     if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
