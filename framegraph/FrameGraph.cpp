@@ -71,7 +71,7 @@ void FrameGraph::markOutput(BufferId buffer) {
     mBuffers[buffer.index()].isOutput = true;
 }
 
-History FrameGraph::history(GraphTextureDesc const& desc, std::array<float, 4> const& clear) {
+History FrameGraph::history(GraphTextureDesc const& desc, std::array<float, 4> const& clear, bool beginsAnew) {
     require(backend::formatInfo(desc.format).isRenderable && desc.samples == 1,
             "history '{}': needs a renderable format and one sample a pixel", desc.name);
     for (Texture const& other : mTextures) {
@@ -86,7 +86,8 @@ History FrameGraph::history(GraphTextureDesc const& desc, std::array<float, 4> c
     return { .previous = addTexture({ .desc = previous,
                                       .contents = InitialContents::Keep,
                                       .history = HistoryRole::Previous,
-                                      .clear = clear }),
+                                      .clear = clear,
+                                      .beginsAnew = beginsAnew }),
              .current = addTexture({ .desc = desc, .isOutput = true, .history = HistoryRole::Current }) };
 }
 

@@ -99,6 +99,7 @@ struct Texture {
     bool isOutput = false; ///< wanted after the last pass: imported, marked, or what the next frame calls previous
     HistoryRole history = HistoryRole::None; ///< Previous: the texture declared next is its Current
     std::array<float, 4> clear{};            ///< Previous: what it holds where there is no frame before
+    bool beginsAnew = false;                 ///< Previous: as if there was none
 };
 
 /// A picture that outlives its frame.
@@ -193,9 +194,9 @@ public:
     /// A picture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
     /// whenever `current` was written. Without a frame before this one, or with one whose description was another,
     /// `previous` is filled with `clear` (for depth formats {depth, stencil}) before the first pass:
-    /// PassContext::historyAge() tells. The textures share no memory with others, and go when TransientPool's
-    /// keepFrames graphs have not asked for them.
-    History history(GraphTextureDesc const& desc, std::array<float, 4> const& clear = {});
+    /// PassContext::historyAge() tells. So it is with `beginsAnew`: what was kept is not what this frame follows. The
+    /// textures share no memory with others, and go when TransientPool's keepFrames graphs have not asked for them.
+    History history(GraphTextureDesc const& desc, std::array<float, 4> const& clear = {}, bool beginsAnew = false);
     /// The contents are needed after the frame although no pass reads them. Imported textures are always outputs.
     void markOutput(TextureId texture);
 

@@ -105,7 +105,7 @@ void assignHistory(FrameGraph const& graph, size_t previous, std::span<TexturePl
     from.usage = to.usage = historyUsage(desc.format);
     const PooledHistory pair = pool.history(descOf(desc, to.usage), to.lifetime.isUsed());
     from.handle = pair.previous;
-    from.historyAge = pair.age;
+    from.historyAge = graph.textures()[previous].beginsAnew ? 0 : pair.age;
     to.handle = pair.current;
 }
 

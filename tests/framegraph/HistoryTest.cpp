@@ -29,6 +29,7 @@ struct Frame {
     Format format = Format::RGBA16F;
     uint8_t levels = 1;
     std::string_view name = "taa";
+    bool beginsAnew = false;
 };
 
 class HistoryTest : public DeviceGraphTest {
@@ -38,7 +39,7 @@ protected:
         const TextureId out = target();
         const History taa = graph.history(
                 { .width = what.width, .height = 32, .format = what.format, .levels = what.levels, .name = what.name },
-                { 0.25f, 0.5f, 0, 1 });
+                { 0.25f, 0.5f, 0, 1 }, what.beginsAnew);
         previous = current = {};
         age = 99;
         if (what.writes) {
@@ -242,6 +243,19 @@ TEST_F(HistoryTest, NamesKeepHistoriesApart) {
     EXPECT_EQ(pool->historyCount(), 2u);
     frame({ .name = "a" });
     EXPECT_EQ(age, 2u);
+}
+
+TEST_F(HistoryTest, WhatIsKeptIsClearedWhereAFrameBeginsAnew) {
+    frame();
+    const TextureHandle written = current;
+    const Seen anew = frame({ .beginsAnew = true });
+    EXPECT_EQ(anew.created, 0u);
+    EXPECT_EQ(previous, written) << "the same textures";
+    EXPECT_EQ(age, 0u);
+    EXPECT_EQ(anew.names[0], "previous taa");
+    EXPECT_EQ(anew.passes[0].colors[0].load, LoadOp::Clear);
+    EXPECT_EQ(frame().passes.size(), 2u) << "nothing is cleared";
+    EXPECT_EQ(age, 1u) << "the frame that began anew is followed";
 }
 
 TEST_F(HistoryTest, AGraphThatIsCompiledButNotRecordedChangesNothing) {
