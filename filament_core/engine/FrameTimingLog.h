@@ -56,6 +56,8 @@ public:
             mVisited = frame;
         }
     }
+    /// Frames until now are not visited.
+    void skip() { mVisited = mNewest; }
     /// Of the last frame whose timers have all been read, also if take() has returned it; empty: there is none.
     std::vector<PassTiming> latestPasses() const;
 

@@ -171,6 +171,15 @@ struct Renderer::Impl final : engine::Dependent {
         return input;
     }
 
+    /// What earlier frames left, from the gathered picture to the places of shadow maps, belongs to their scene and
+    /// view. To another one it is as if there had been none.
+    void beginAnewWithAnother(Scene const& scene, View const& view, Target const& target) {
+        if (last.isFollowedBy(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr))) return;
+        shadows.beginAnew();
+        shares.forget();
+        timings.skip();
+    }
+
     /// What finished frames took decides how large the next one is.
     void chooseShare(View const& view) {
         if (!view.effects.resolution.dynamic) return shares.forget();
@@ -182,7 +191,8 @@ struct Renderer::Impl final : engine::Dependent {
     }
 
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
-    FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines) {
+    FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines,
+                            framegraph::TransientPool& pool) {
         arena.reset();
         graph.reset();
         plan = {};
@@ -192,14 +202,20 @@ struct Renderer::Impl final : engine::Dependent {
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
         addDebugQuads(context, view, output);
-        shadows.use(packet.shadows);
-        context.resources.shadowAtlas = shadows.depths();
-        context.resources.shadowMoments = shadows.moments();
+        useShadows(context, pipelines);
         blocks.begin();
         context.blocks = &blocks;
         passes::describeFrame(graph, context, output);
-        plan = compile(graph, transients);
+        plan = compile(graph, pool);
         return context;
+    }
+
+    /// An expected frame leaves the maps as they are: any texture stands for them.
+    void useShadows(FrameContext& context, PipelineSource const& pipelines) {
+        passes::FrameResources& used = context.resources;
+        if (!pipelines.isWishing()) shadows.use(context.packet.shadows);
+        used.shadowAtlas = pipelines.isWishing() ? used.white : shadows.depths();
+        used.shadowMoments = pipelines.isWishing() ? used.white : shadows.moments();
     }
 
     void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
@@ -243,9 +259,10 @@ struct Renderer::Impl final : engine::Dependent {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
         timers.clear();
         stamps = { .begin = clock() };
+        beginAnewWithAnother(scene, view, target);
         chooseShare(view);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
-        FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines));
+        FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines), transients);
         scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
         if (material) return samplesTarget(*material, target);
         if (target.isSampled && isDirtOf(context, target)) return dirtIsTarget(target);
@@ -322,8 +339,7 @@ struct Renderer::Impl final : engine::Dependent {
         try {
             const jobs::AdoptedThread seat(engine.jobs);
             std::vector<passes::FullScreenWish> wishes;
-            planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &wishes));
-            framegraph::rehearse(plan);
+            rehearse(scene, view, target, wishes);
             if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
             for (passes::FullScreenWish const& wish : wishes) {
                 engine.compilations.add(
@@ -334,6 +350,18 @@ struct Renderer::Impl final : engine::Dependent {
             engine.reportOutOfMemory("expecting a frame");
         }
         plan = {};
+    }
+
+    /// With a pool of its own: nothing is created, and the next frame finds what the last one left.
+    void rehearse(Scene const& scene, View const& view, Target const& target,
+                  std::vector<passes::FullScreenWish>& wishes) {
+        struct ExpectedTextures {
+            framegraph::TransientPool pool;
+            CommandBuffer& commands;
+            ~ExpectedTextures() { pool.destroyAll(commands); }
+        } expected{ framegraph::TransientPool(*engine.stream), engine.pending };
+        planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &wishes), expected.pool);
+        framegraph::rehearse(plan);
     }
 
     engine::Picker& pickerOfRenderer() {

@@ -7,9 +7,13 @@ namespace filament::engine {
 
 using namespace backend;
 
-void ShadowTexture::release() {
+void ShadowTexture::beginAnew() {
     mHeld.size = 0;
     mHeld.maps.clear();
+}
+
+void ShadowTexture::release() {
+    beginAnew();
     mSize = 0;
     for (TextureHandle* texture : { &mDepths, &mMoments }) {
         if (*texture) mEngine.stream->destroy(mEngine.pending, std::exchange(*texture, {}));

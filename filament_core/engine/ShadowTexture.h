@@ -20,6 +20,8 @@ public:
 
     /// For prepareFrame().
     prepare::ShadowAtlas const& held() const { return mHeld; }
+    /// As if there had been no frame: where maps lie depends on the frames before.
+    void beginAnew();
     /// Makes what a packet with maps needs, if it is not there.
     void use(prepare::ShadowPacket const& shadows);
     backend::TextureHandle depths() const { return mDepths; }

@@ -69,10 +69,10 @@ TextureId addHistogram(FrameGraph& graph, FrameContext const& context, TextureId
 void addExposurePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::AutoExposure)) return;
     targets.histogram = addHistogram(graph, context, addSamples(graph, context, targets.color));
-    const framegraph::History history =
-            graph.history({ .width = 1, .height = 1, .format = Format::R32F, .name = "exposure" });
     AutoExposure const& options = context.packet.effects.autoExposure;
     prepare::LastView const& last = context.packet.last;
+    const framegraph::History history =
+            graph.history({ .width = 1, .height = 1, .format = Format::R32F, .name = "exposure" }, {}, !last.isExposed);
     const float2 steps = last.isExposed ? float2(options.speedUp, options.speedDown) * last.secondsSince : float2(-1);
     const std::array inputs{ FullScreenInput{ .name = "histogram", .texture = targets.histogram },
                              FullScreenInput{ .name = "last", .texture = history.previous } };

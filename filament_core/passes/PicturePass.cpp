@@ -136,7 +136,7 @@ TextureId addPicturePasses(FrameGraph& graph, FrameContext const& context, Textu
 
 void addReflectedPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Reflections)) return;
-    targets.lastPicture = graph.history(pictureDesc(context, 1, "last picture"));
+    targets.lastPicture = graph.history(pictureDesc(context, 1, "last picture"), {}, !context.packet.last.isReflected);
     if (!targets.lastPicture.previous) return;
     targets.picture = createPicture(graph, context);
     addReprojected(graph, context, targets, targets.picture);

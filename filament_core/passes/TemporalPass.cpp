@@ -31,7 +31,8 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
     const bool isEnlarged = gathersLarger(context);
     const uint2 size = isEnlarged ? context.packet.shownSize : context.packet.size;
     const framegraph::History history = graph.history(
-            { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" });
+            { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" }, {},
+            context.packet.gathering.weight == 1);
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
                              FullScreenInput{ .name = "history",
                                               .texture = history.previous,

@@ -159,6 +159,7 @@ struct LastView {
     float4 alongView{ 0.0f };       ///< its product with a point of this frame's world, w = 1: metres along that view
     float4 time{ 0.0f };            ///< FrameUniforms::time
     bool isExposed = false;         ///< it left an exposure that this one follows
+    bool isReflected = false;       ///< it left a picture, of as many pixels, for the reflections of this one
     float secondsSince = 0;         ///< of View::timeSeconds, >= 0
     bool isElsewhere = false;       ///< not as this frame is seen
 };

@@ -81,7 +81,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     hash = hashEffects(packet.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
-    hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed);
+    hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed, packet.last.isReflected);
     hash = hashValues(hash, packet.size, packet.shownSize, packet.band, packet.covered, packet.gathering.jitterPixels,
                       packet.gathering.weight, packet.gathering.ramp, packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;

@@ -33,6 +33,7 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
     const bool gathers = packet.demand.needs(Effect::Taa);
     mJitters = gathers ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
+    mIsReflected = packet.demand.needs(Effect::Reflections);
     mGathered = gathers ? 1 / packet.gathering.weight : 0;
     mScene = 0; // until all places are kept
     if (readsMotion(packet.mainView().counts, view.quality, view.effects, view.debugView)) keepPlaces(scene);
@@ -46,7 +47,6 @@ float2 LastFrame::jitterPixels(scene::SceneData const& scene, ViewInput const& v
     return float2(glm::fract(place) - 0.5);
 }
 
-/// By a frame of the same scene and size of what it shows.
 bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const {
     return mSeen && mSeen->scene == scene.serial && mSeen->view.shown() == view.shown() &&
            (mSeen->view.band > 0) == (view.band > 0);
@@ -115,7 +115,8 @@ LastView LastFrame::seenFrom(scene::SceneData const& scene, ViewSpace const& spa
     return { .clipFromWorld = float4x4(glm::translate(double4x4(last.clipFromWorld), moved)),
              .alongView = float4(last.forward, static_cast<float>(along)),
              .time = last.time,
-             .isExposed = mIsExposed && isFollowedBy(scene, view),
+             .isExposed = mIsExposed,
+             .isReflected = mIsReflected && last.view.size == view.size,
              .secondsSince = static_cast<float>(std::max(view.timeSeconds - last.view.timeSeconds, 0.0)),
              .isElsewhere = last.clipFromWorld != space.clipFromWorld || moved != double3(0.0) };
 }

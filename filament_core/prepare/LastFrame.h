@@ -2,7 +2,9 @@
 /// LastFrame: what a frame leaves to the next one of the same renderer: how it was seen, and where everything was.
 /// Effects that gather over frames find by it where the last picture shows a point of this one.
 ///   In      the scene and the main view of a frame, once it is drawn.
-///   Limits  parameters of materials are not remembered: a vertex block that the app moves by one shows no motion.
+///   Limits  of one scene and one view, by the size of what it shows: beside others, frames know none before them
+///           (isFollowedBy(), which prepareFrame() asks first).
+///           Parameters of materials are not remembered: a vertex block that the app moves by one shows no motion.
 ///   Memory  places only if asked for: 72 B a renderable, 48 B a bone, 4 B a morph target; kept and reused.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
 ///   Fails   std::bad_alloc; there was no last frame then.
@@ -23,6 +25,9 @@ public:
     /// `view`: without jitter. What the next frame may ask for decides what is kept.
     void keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet);
     void forget() { *this = {}; }
+
+    /// Whether such a frame goes on with what the last one left: it shows the same scene in the same size.
+    bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
 
     /// As this frame sees the last one; itself, if there was none.
     LastView seenFrom(scene::SceneData const& scene, ViewSpace const& space, ViewInput const& view,
@@ -53,7 +58,6 @@ private:
     };
 
     void keepPlaces(scene::SceneData const& scene);
-    bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
     bool isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
@@ -61,6 +65,7 @@ private:
     uint32_t mJitters = 0;                ///< frames in a row that gathered
     float mGathered = 0;                  ///< frames in the gathered picture
     bool mIsExposed = false;              ///< by AutoExposure
+    bool mIsReflected = false;            ///< its picture was kept for reflections
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
     std::vector<Renderable> mRenderables; // parallel to mPlacements
     std::vector<scene::Placement> mPlacements;

@@ -135,9 +135,11 @@ void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& las
 } // namespace
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                         std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& last) {
+                         std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& kept) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
     ViewInput const& main = views[0]; // without jitter, so that shadow maps and places of the last frame stay
+    static const LastFrame kNone;
+    LastFrame const& last = kept.isFollowedBy(scene, main) ? kept : kNone;
     const std::span<const ViewInput> drawn = jittered(arena, scene, views, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
     for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i]);

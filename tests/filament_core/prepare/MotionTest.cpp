@@ -18,13 +18,14 @@ struct MotionTest : testing::Test, BoxScene {
     ViewInput view = cubeView(100);
 
     /// Draws a frame, and keeps it as the last one.
-    FramePacket frame() {
+    FramePacket frame() { return frameOf(scene); }
+    FramePacket frameOf(scene::SceneData& drawn) {
         jobs::JobSystem jobs({ .workers = 0 });
         const jobs::AdoptedThread seat(jobs);
         const std::array views{ view };
         view.debugView = DebugView::Motion;
-        const FramePacket packet = prepareFrame(jobs, arena, scene, views, {}, last);
-        last.keep(scene, view, packet);
+        const FramePacket packet = prepareFrame(jobs, arena, drawn, views, {}, last);
+        last.keep(drawn, view, packet);
         return packet;
     }
 
@@ -125,6 +126,34 @@ TEST_F(MotionTest, PlacesInTheViewMoveWithTheCamera) {
     EXPECT_TRUE(moved(frame()).empty());
     view.camera = Camera::lookAt({ 0.1, 0, 8 }, { 0, 0, 0 });
     EXPECT_EQ(moved(frame()).size(), 2u);
+}
+
+// A frame of another scene, or of another size, knows neither places nor the camera nor the exposure of the last one.
+TEST_F(MotionTest, AnotherSceneAndAnotherSizeBeginAnew) {
+    const auto drawn = [&](scene::SceneData& of, double x) {
+        view.camera = Camera::lookAt({ x, 0, 8 }, { x, 0, 0 });
+        view.timeSeconds += 0.5;
+        setTransform(of, of.renderables.index.handleAt(0), placeAt({ x, 0, 0 }));
+        return frameOf(of);
+    };
+    BoxScene other;
+    other.add(double3(0), other.material());
+    add(double3(0), material());
+    view.effects.autoExposure.enabled = true;
+    view.effects.motionBlur.enabled = true;
+    const auto expectFirst = [&](FramePacket const& packet, bool isFirst) {
+        EXPECT_EQ(moved(packet).size(), isFirst ? 0u : 1u);
+        EXPECT_EQ(packet.last.isElsewhere, !isFirst);
+        EXPECT_EQ(packet.last.secondsSince, isFirst ? 0 : 0.5f);
+    };
+    expectFirst(drawn(scene, 0), true);
+    expectFirst(drawn(scene, 0.25), false);
+    expectFirst(drawn(other.scene, 0.5), true);
+    expectFirst(drawn(other.scene, 0.75), false);
+    view.size = view.size * 2u;
+    expectFirst(drawn(other.scene, 0), true);
+    expectFirst(drawn(other.scene, 0.25), false);
+    expectFirst(drawn(scene, 0.5), true);
 }
 
 TEST_F(MotionTest, TheLastFrameIsSeenFromThisOne) {
