@@ -19,7 +19,7 @@ struct Words {
     std::string scenes = tools::sourceDir() / "tests/conformance/scenes";
     std::string baselines = tools::sourceDir() / "tests/conformance/baselines.json";
     std::string assets = tools::assetDir();
-    std::string out = "conformance", shard = "0/1", threads, mutations, pictures = "all";
+    std::string out = "conformance", shard = "0/1", shuffle, threads, mutations, pictures = "all";
     std::vector<std::string> backends, machines, merge, set;
     std::string journal, random = "0", seed = "1", reduce;
 };
@@ -32,6 +32,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("-o,--out", words.out, "folder of the report").typeName("DIR");
     app.option("--only", options.only, "cases whose names contain one of these").typeName("TEXT...");
     app.option("--cases", options.cases, "of those, the cases with these names").typeName("NAME...");
+    app.option("--shuffle", words.shuffle, "draw the cases in another order, the same for a seed on every machine")
+            .typeName("SEED");
     app.option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
             .typeName("I/N");
     app.option("--merge", words.merge, "do not run: merge the results of shards").typeName("DIR...");
@@ -108,11 +110,17 @@ Result<void> convertSet(std::vector<std::string> const& words, Options& options)
     return {};
 }
 
+Result<uint64_t> seedOf(const char* option, std::string const& word) {
+    const auto seed = tools::wholeNumber(word, 0, 1'000'000'000);
+    if (!seed) return invalidOption(option, word, "a whole number up to 1000000000");
+    return uint64_t{ *seed };
+}
+
 Result<void> convertRandom(Words const& words, Options& options) {
     const auto count = tools::wholeNumber(words.random, 0, 1'000'000);
     if (!count) return invalidOption("--random", words.random, "a whole number up to 1000000");
-    const auto seed = tools::wholeNumber(words.seed, 0, 1'000'000'000);
-    if (!seed) return invalidOption("--seed", words.seed, "a whole number up to 1000000000");
+    const Result<uint64_t> seed = seedOf("--seed", words.seed);
+    if (!seed) return seed.error();
     options.random = *count, options.seed = *seed;
     return tools::convertSwitch("--reduce", words.reduce, options.reduce);
 }
@@ -136,6 +144,11 @@ Result<void> convert(Words const& words, Options& options) {
     if (!options.bisect.empty() && options.backends.size() < 2 && options.mutate.empty())
         return fail(ErrorCode::InvalidArgument, "--bisect needs two backends, or one and --mutate");
     if (auto done = convertRandom(words, options); !done) return done;
+    if (!words.shuffle.empty()) {
+        const Result<uint64_t> seed = seedOf("--shuffle", words.shuffle);
+        if (!seed) return seed.error();
+        options.shuffle = *seed;
+    }
     const Result<tools::Shard> shard = tools::parseShard(words.shard);
     if (!shard) return shard.error();
     options.shard = *shard;

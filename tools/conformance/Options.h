@@ -21,8 +21,9 @@ struct Options {
     std::filesystem::path out = "conformance";
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles }; ///< the first is the reference
     std::string requireDevice;
-    std::vector<std::string> only;  ///< cases whose names contain one of these; empty: all
-    std::vector<std::string> cases; ///< of those, the ones with these names; empty: all
+    std::vector<std::string> only;   ///< cases whose names contain one of these; empty: all
+    std::vector<std::string> cases;  ///< of those, the ones with these names; empty: all
+    std::optional<uint64_t> shuffle; ///< seed of the order in which cases are drawn; none: by name
     tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;

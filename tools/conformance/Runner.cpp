@@ -9,6 +9,7 @@
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
 #include "tools/conformance/Mutations.h"
+#include "tools/conformance/random/Dice.h"
 #include "tools/imgdiff/ImageCompare.h"
 
 #include <algorithm>
@@ -222,6 +223,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
         for (std::string const& reason : results.cases.back().reasons)
             std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
     }
+    std::ranges::sort(results.cases, {}, &CaseResult::name); // however they were shuffled
     if (options.updateBaselines && !tools::isInterrupted()) {
         if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();
     }
@@ -299,11 +301,10 @@ std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& option
         return isOneOf(options.only, [&](auto const& part) { return contains(spec.name, part); }) &&
                isOneOf(options.cases, [&](auto const& name) { return spec.name == name; });
     };
+    std::erase_if(all, [&](SceneSpec const& spec) { return !wanted(spec); });
+    if (options.shuffle) Dice(*options.shuffle).shuffle(all);
     std::vector<SceneSpec> chosen;
-    uint32_t index = 0;
-    for (SceneSpec& spec : all) {
-        if (wanted(spec) && index++ % options.shard.count == options.shard.index) chosen.push_back(std::move(spec));
-    }
+    for (size_t i = options.shard.index; i < all.size(); i += options.shard.count) chosen.push_back(std::move(all[i]));
     return chosen;
 }
 

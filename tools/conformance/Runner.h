@@ -30,7 +30,7 @@ Result<StagePair> openPair(Options const& options, bool capture);
 /// Values of --set override those of the cases.
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options);
 
-/// The cases that --only and --cases name, and every shard.count-th one of those.
+/// The cases that --only and --cases name, in the order of --shuffle, and every shard.count-th one of those.
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options);
 
 /// Here, and then on the machines of --machines.

@@ -46,7 +46,7 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
 
 Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture)
         : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)),
-          mRenderer(std::in_place, mEngine) {}
+          mRenderer(mEngine) {}
 
 Result<void> Stage::loadModel(SceneSpec const& spec) {
     mMaterial.reset();
@@ -126,8 +126,6 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
 
 Result<void> Stage::set(SceneSpec const& spec) {
     mScene.reset();
-    // Where maps lie in an atlas depends on the frames before, and so do reflections; a picture must not.
-    if (spec.view.quality.shadows != ShadowFilter::Off || spec.view.quality.ssr) mRenderer.emplace(mEngine);
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);
@@ -182,16 +180,16 @@ void Stage::drawOverlays() {
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
     for (uint32_t i = mSpec.frames - 1; i > 0; --i) {
         setBack(i);
-        mRenderer->render(*mScene, mView, mTarget);
+        mRenderer.render(*mScene, mView, mTarget);
     }
     setBack(0);
     if (request && mCapture) {
         mEngine.waitIdle(); // earlier frames must not be affected by the request
         mCapture->arm(*request);
     }
-    mRenderer->render(*mScene, mView, mTarget);
+    mRenderer.render(*mScene, mView, mTarget);
     drawOverlays();
-    Result<Image> image = mRenderer->waitPixels(mRenderer->readPixels(mTarget));
+    Result<Image> image = mRenderer.waitPixels(mRenderer.readPixels(mTarget));
     if (!image) return image.error();
     Shot shot{ .image = std::move(*image) };
     if (request && mCapture) {

@@ -63,7 +63,7 @@ private:
     const StageOptions mOptions;
     Engine mEngine;
     std::shared_ptr<backend::FrameCapture> mCapture;
-    std::optional<Renderer> mRenderer;
+    Renderer mRenderer;
     std::string mModelKey, mEnvironmentKey;
     std::optional<Model> mModel;
     std::optional<tools::MaterialStand> mMaterial; ///< instead of a model

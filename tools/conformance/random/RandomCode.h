@@ -5,28 +5,13 @@
 ///   Thread   one at a time; the same dice give the same code.
 #pragma once
 
+#include "tools/conformance/random/Dice.h"
 #include "tools/conformance/random/MaterialTree.h"
 #include "tools/conformance/random/Productions.h"
 
 #include <map>
-#include <random>
 
 namespace filament::conformance {
-
-/// Numbers that are the same with every standard library.
-class Dice {
-public:
-    explicit Dice(uint64_t seed) : mBits(seed) {}
-    uint32_t below(size_t count) { return static_cast<uint32_t>((mBits() >> 32) % count); }
-    bool chance(uint32_t percent) { return below(100) < percent; }
-    template <class List>
-    auto const& one(List const& list) {
-        return list[below(std::size(list))];
-    }
-
-private:
-    std::mt19937_64 mBits;
-};
 
 class RandomCode {
 public:
