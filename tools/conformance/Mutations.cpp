@@ -2,6 +2,7 @@
 // Size: a list of small classes, one for each defect, and their table.
 #include "tools/conformance/Mutations.h"
 
+#include "base/math/Half.h"
 #include "shaders/interface/LtcTable.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/EngineMaterials.h"
@@ -153,8 +154,20 @@ public:
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
         mRadii.clear();
-        GroupsOfDiscs finder{ mRadii };
-        replay(commands, finder);
+        replay(commands, *this);
+    }
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBindGroup const& command) {
+        constexpr uint64_t kTangent = 11 * sizeof(float); // axisZ.w of sun_disc.mat
+        mGroups.erase(command.handle);
+        if (command.desc.debugName != "sun_disc") return;
+        for (BindGroupEntry const& entry : command.desc.entries)
+            mGroups[command.handle].emplace_back(entry.buffer, entry.offset + kTangent);
+    }
+    void execute(CmdBindGroup const& command) {
+        const auto group = mGroups.find(command.group);
+        if (group != mGroups.end()) mRadii.insert(mRadii.end(), group->second.begin(), group->second.end());
     }
 
     using PayloadEdit::edit;
@@ -169,19 +182,8 @@ public:
 private:
     using Places = std::vector<std::pair<BufferHandle, uint64_t>>;
 
-    struct GroupsOfDiscs {
-        Places& radii;
-        template <class C>
-        void execute(C const&) {}
-        void execute(CmdCreateBindGroup const& command) {
-            constexpr uint64_t kTangent = 11 * sizeof(float); // axisZ.w of sun_disc.mat
-            if (command.desc.debugName != "sun_disc") return;
-            for (BindGroupEntry const& entry : command.desc.entries)
-                radii.emplace_back(entry.buffer, entry.offset + kTangent);
-        }
-    };
-
-    Places mRadii; // of blocks that groups of this stream read
+    std::map<BindGroupHandle, Places> mGroups;
+    Places mRadii; // of blocks that draws of this stream read
 };
 
 /// Inverts green in normal maps: the picture of a loader that assumes DirectX's convention.
@@ -266,13 +268,36 @@ class OneWeightEdit final : public FrameEdit {
     }
 };
 
-class IrradianceEdit final : public FrameEdit {
+/// Diffuse light of the environment in coefficients: where it has no cube, or the quality asks for them.
+class IrradianceShEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
         Bytes& bytes = copy(command.bytes);
         const size_t begin = offsetof(shader::FrameUniforms, irradianceSh);
         for (size_t at = begin; at < begin + sizeof(shader::FrameUniforms::irradianceSh); at += 4)
             writeFloat(bytes, at, 1.01f * readFloat(bytes, at));
     }
+};
+
+/// Diffuse light of the environment in its cube, which shading reads by default.
+class IrradianceEdit final : public PayloadEdit {
+public:
+    using PayloadEdit::edit;
+    void edit(CmdCreateTexture& command) override {
+        if (command.desc.debugName.ends_with(" irradiance")) mCubes.insert(command.handle);
+    }
+    void edit(CmdUploadTexture& command) override {
+        if (!mCubes.contains(command.texture)) return;
+        Bytes& texels = copy(command.bytes); // always RGBA16F
+        for (size_t at = 0; at + sizeof(uint16_t) <= texels.size(); at += sizeof(uint16_t)) {
+            uint16_t half;
+            std::memcpy(&half, texels.data() + at, sizeof(half));
+            half = halfFromFloat(1.01f * floatFromHalf(half));
+            std::memcpy(texels.data() + at, &half, sizeof(half));
+        }
+    }
+
+private:
+    std::set<TextureHandle> mCubes;
 };
 
 /// In every block of the frame: channels of lights have blocks of their own.
@@ -739,8 +764,8 @@ std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bum
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMutations[] = {
-    { "none", "nothing: must not be noticed", make<StreamEdit> },
-    { "oneList", "one list of lights instead of froxels: must not be noticed", make<OneListEdit> },
+    { kNoDefect, "nothing: must not be noticed", make<StreamEdit> },
+    { kOneList, "one list of lights instead of froxels: must not be noticed", make<OneListEdit> },
     { "roughness", "roughness + 1 %", roughness },
     { "normalY", "normal maps with y flipped", make<NormalYEdit> },
     { "srgb", "sRGB decoding dropped", make<SrgbDroppedEdit> },
@@ -752,6 +777,7 @@ constexpr Mutation kMutations[] = {
     { "blendOff", "blending off", make<BlendOffEdit> },
     { "wrapMode", "repeating textures mirrored", make<WrapModeEdit> },
     { "irradiance", "irradiance + 1 %", make<IrradianceEdit> },
+    { "irradianceSh", "irradiance in harmonics + 1 %", make<IrradianceShEdit> },
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
@@ -824,7 +850,7 @@ Mutation const* findMutation(std::string_view name) {
     return found == std::end(kMutations) ? nullptr : found;
 }
 
-bool isControl(std::string_view name) { return name == "none" || name == "oneList"; }
+bool isControl(std::string_view name) { return name == kNoDefect || name == kOneList; }
 
 std::vector<std::string_view> mutationNames() {
     std::vector<std::string_view> names;

@@ -31,6 +31,7 @@ struct Mutation {
 std::span<const Mutation> mutations();
 Mutation const* findMutation(std::string_view name);
 std::vector<std::string_view> mutationNames();
+inline constexpr std::string_view kNoDefect = "none", kOneList = "oneList"; ///< the controls
 bool isControl(std::string_view name);
 
 inline constexpr uint32_t kSmallestLevel = ~0u;

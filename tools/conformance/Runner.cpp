@@ -8,6 +8,7 @@
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
+#include "tools/conformance/MutantRun.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/random/Dice.h"
 #include "tools/imgdiff/ImageCompare.h"
@@ -33,8 +34,8 @@ struct Actor {
 /// Draws one case in all configurations and fills in its result.
 class CaseRun {
 public:
-    CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec)
-            : mOptions(options), mActors(actors), mSpec(spec) {
+    CaseRun(Options const& options, std::vector<Actor>& actors, MutantRun& mutants, SceneSpec const& spec)
+            : mOptions(options), mActors(actors), mMutants(mutants), mSpec(spec) {
         mResult.name = spec.name;
     }
 
@@ -127,9 +128,11 @@ private:
 
     void killMutants() {
         if (mSpec.kills.empty()) return;
-        tryMutant("none");
+        tryMutant(std::string(kNoDefect));
         // A picture of the lists themselves may show it.
-        if (!mSpec.lights.empty() && mSpec.view.debugView != DebugView::Froxels) tryMutant("oneList");
+        const auto isListed = [](auto const& light) { return !std::holds_alternative<SunLight>(light); };
+        if (std::ranges::any_of(mSpec.lights, isListed) && mSpec.view.debugView != DebugView::Froxels)
+            tryMutant(std::string(kOneList));
         for (std::string const& name : mSpec.kills) tryMutant(name);
     }
 
@@ -140,17 +143,11 @@ private:
         const auto actor = std::ranges::find_if(
                 mActors, [&](Actor const& each) { return mutation->fits(each.configuration.stage.backend); });
         if (actor == mActors.end()) return; // a run without that API
-        auto stage = Stage::open(actor->configuration.stage, mutation->make());
-        if (!stage) return blame(name, stage.error().message);
-        const std::optional<Shot> shot = draw(**stage, "mutant " + name, false);
-        if (!shot) return;
-        const Result<Comparison> compared = comparePictures(mReference.image, shot->image, mSpec.comparator);
-        if (!compared) return blame(name, compared.error().message);
-        const bool caught = !compared->passed;
-        mResult.kills.push_back({ name, caught, compared->differing });
-        if (isControl(name) && caught) blame("mutations", fmt::format("'{}' draws a different picture", name));
-        if (!isControl(name) && !caught)
-            blame("mutations", fmt::format("'{}' ({}) was not noticed", name, mutation->what));
+        Result<MutantVerdict> verdict = mMutants.run(*mutation, actor->configuration.stage, mSpec, mReference.image);
+        if (!verdict) return blame("mutant " + name, verdict.error().message);
+        for (std::string const& error : verdict->errors) blame("mutant " + name, error);
+        if (!verdict->fault.empty()) blame("mutations", verdict->fault);
+        if (verdict->kill) mResult.kills.push_back(std::move(*verdict->kill));
     }
 
     void saveDifference(Comparison& comparison, Image const& image) {
@@ -169,6 +166,7 @@ private:
 
     Options const& mOptions;
     std::vector<Actor>& mActors;
+    MutantRun& mMutants;
     SceneSpec const& mSpec;
     Shot mReference;
     CaseResult mResult;
@@ -199,6 +197,16 @@ Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string cons
     return fail(ErrorCode::NotFound, "there is no case '{}'; --list prints all", name);
 }
 
+/// Nothing, or the error that the defect of --mutate cannot be found.
+Result<std::string> proofOfEquality(Options const& options, StagePair const& stages) {
+    Mutation const* mutation = findMutation(options.mutate);
+    if (!mutation || mutation->name == kNoDefect) return std::string();
+    const DefectReach a = stages.a->reach(), b = stages.b->reach();
+    const std::string why = whyUndrawn(*mutation, a.changed.empty() ? b : a);
+    if (why.empty()) return std::string();
+    return fail(ErrorCode::InvalidArgument, "{}: {}", options.bisect, why);
+}
+
 /// Draws the cases in this process. Its engines are gone when it returns.
 Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& cases) {
     Result<Baselines> baselines = Baselines::read(options.baselines);
@@ -209,13 +217,14 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
     for (Actor const& actor : *actors)
         results.devices[toString(actor.stage->device().backend)] =
                 actor.stage->device().device + ", " + actor.stage->device().driver;
+    MutantRun mutants;
     Journal journal(options.journal);
     journal.devices(results.devices);
     for (size_t i = 0; i < cases.size() && !tools::isInterrupted(); ++i) {
         showCase(i, cases.size(), cases[i].name);
         journal.begins(cases[i].name);
         const auto start = std::chrono::steady_clock::now();
-        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
+        results.cases.push_back(CaseRun(options, *actors, mutants, cases[i]).run(*baselines));
         results.seconds[cases[i].name] =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         journal.ends(results.cases.back());
@@ -325,7 +334,8 @@ Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> co
     }
     auto found = bisect(insideOf(*stages->a), insideOf(*stages->b));
     if (!found) return found.error();
-    return *found ? (*found)->line() : std::string();
+    if (*found) return (*found)->line();
+    return proofOfEquality(options, *stages);
 }
 
 } // namespace filament::conformance

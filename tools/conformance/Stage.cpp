@@ -28,9 +28,13 @@ std::string keyOf(std::filesystem::path const& path, EnvironmentLoadOptions cons
 
 } // namespace
 
-Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::unique_ptr<backend::StreamEdit> edit) {
+Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::unique_ptr<backend::StreamEdit> edit,
+                                           DefectSize size) {
+    std::unique_ptr<DefectTrace> trace;
+    if (edit) trace = std::make_unique<DefectTrace>(std::move(edit), size == DefectSize::Exaggerated);
+    DefectTrace* const traced = trace.get();
     std::shared_ptr<backend::FrameCapture> capture;
-    if (options.capture || edit) capture = std::make_shared<backend::FrameCapture>(std::move(edit));
+    if (options.capture || trace) capture = std::make_shared<backend::FrameCapture>(std::move(trace));
     EngineOptions engineOptions{ .backend = options.backend, .requireDevice = options.requireDevice };
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
@@ -41,11 +45,12 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
     engineOptions.debug.capture = capture;
     Result<Engine> engine = Engine::create(engineOptions);
     if (!engine) return engine.error();
-    return std::unique_ptr<Stage>(new Stage(options, std::move(*engine), std::move(capture)));
+    return std::unique_ptr<Stage>(new Stage(options, std::move(*engine), std::move(capture), traced));
 }
 
-Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture)
-        : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)),
+Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture,
+             DefectTrace* trace)
+        : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)), mTrace(trace),
           mRenderer(mEngine) {}
 
 Result<void> Stage::loadModel(SceneSpec const& spec) {
@@ -126,6 +131,10 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
 
 Result<void> Stage::set(SceneSpec const& spec) {
     mScene.reset();
+    if (mTrace) {
+        mEngine.waitIdle();
+        mTrace->begin();
+    }
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);
@@ -198,6 +207,12 @@ Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request)
     }
     shot.errors = mEngine.takeErrors();
     return shot;
+}
+
+DefectReach Stage::reach() {
+    if (!mTrace) return {};
+    mEngine.waitIdle();
+    return mTrace->reach();
 }
 
 FrameSource insideOf(Stage& stage) {

@@ -8,6 +8,7 @@
 
 #include "backend/layers/Captured.h"
 #include "tools/conformance/Bisect.h"
+#include "tools/conformance/DefectTrace.h"
 #include "tools/conformance/MaterialModel.h"
 #include "tools/conformance/SceneAssets.h"
 
@@ -32,6 +33,9 @@ struct StageOptions {
     std::filesystem::path assets; ///< the folder of "asset:"; empty: none
 };
 
+/// Of a defect in a stage.
+enum class DefectSize : uint8_t { AsItIs, Exaggerated };
+
 struct Shot {
     Image image;
     std::vector<std::string> errors; ///< of the device
@@ -42,15 +46,19 @@ class Stage {
 public:
     /// `edit` changes the stream of everything that this stage draws; it implies `capture`.
     static Result<std::unique_ptr<Stage>> open(StageOptions const& options,
-                                               std::unique_ptr<backend::StreamEdit> edit = nullptr);
+                                               std::unique_ptr<backend::StreamEdit> edit = nullptr,
+                                               DefectSize size = DefectSize::AsItIs);
 
     DeviceDescription const& device() const { return mEngine.device(); }
     Result<void> set(SceneSpec const& spec);
     /// Draws the case's frames and returns the last one.
     Result<Shot> shoot(std::optional<backend::CaptureRequest> const& request = {});
+    /// How far `edit` came since set(). Waits for the device. Without one: nowhere.
+    DefectReach reach();
 
 private:
-    Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture);
+    Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture,
+          DefectTrace* trace);
 
     Result<void> loadModel(SceneSpec const& spec);
     Result<void> placeModel(SceneSpec const& spec);
@@ -63,6 +71,7 @@ private:
     const StageOptions mOptions;
     Engine mEngine;
     std::shared_ptr<backend::FrameCapture> mCapture;
+    DefectTrace* mTrace; ///< that of mCapture; null: no edit
     Renderer mRenderer;
     std::string mModelKey, mEnvironmentKey;
     std::optional<Model> mModel;
