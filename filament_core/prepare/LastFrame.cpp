@@ -107,8 +107,7 @@ void LastFrame::keepPlaces(scene::SceneData const& scene) {
     mScene = scene.serial;
 }
 
-LastView LastFrame::seenFrom(scene::SceneData const& scene, ViewSpace const& space, ViewInput const& view,
-                             float4 const& time) const {
+LastView LastFrame::seenFrom(ViewSpace const& space, ViewInput const& view, float4 const& time) const {
     const Seen last = mSeen.value_or(Seen{ view, 0, space.clipFromWorld, space.cameraWorld, space.forward, time });
     const double3 moved = space.cameraWorld - last.cameraWorld;
     const double along = dot(double3(last.forward), moved);

@@ -30,8 +30,7 @@ public:
     bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
 
     /// As this frame sees the last one; itself, if there was none.
-    LastView seenFrom(scene::SceneData const& scene, ViewSpace const& space, ViewInput const& view,
-                      float4 const& time) const;
+    LastView seenFrom(ViewSpace const& space, ViewInput const& view, float4 const& time) const;
     /// Of a frame that gathers: another place in the pixels for each.
     float2 jitterPixels(scene::SceneData const& scene, ViewInput const& view) const;
     /// The mean of all frames since something changed.

@@ -153,7 +153,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.size = main.size;
     packet.shownSize = main.shown();
     packet.band = main.band;
-    packet.last = last.seenFrom(scene, makeViewSpace(main), main, packet.mainView().uniforms.time);
+    packet.last = last.seenFrom(makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (readsMotion(packet.mainView().counts, main.quality, main.effects, main.debugView))
         addMotion(arena, scene, last, packet);
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);

@@ -59,7 +59,7 @@ private:
     /// A bias is the first of what a mask stands for.
     void addLevels(std::vector<uint32_t>& operands) {
         SpirvId levels = call(mFunctions.levels);
-        if (operands.size() == kMask) operands.push_back(spv::ImageOperandsMaskNone);
+        if (operands.size() == kMask) operands.resize(kMask + 1, spv::ImageOperandsMaskNone);
         uint32_t& mask = operands[kMask];
         if ((mask & spv::ImageOperandsBiasMask) != 0) {
             operands[kMask + 1] = mEditor.emit(spv::OpFAdd, mEditor.typeOf(levels), { operands[kMask + 1], levels });

@@ -94,7 +94,7 @@ void drawBefore(TwoRooms& rooms, Renderer& renderer, Scene const& scene, Backwar
     for (const double steps : { -3.0, -2.0, 1.0 }) rooms.draw(renderer, scene, TwoRooms::view(look, steps, size));
 }
 
-constexpr uint2 kSize{ 64, 48 }, kOtherSize{ 40, 56 };
+constexpr uint2 kRoomSize{ 64, 48 }, kOtherSize{ 40, 56 };
 
 TEST(BeginAnew, WithAnotherSceneAndWithAnotherSize) {
     for (const Backend backend : test::kBothApis) {
@@ -106,11 +106,13 @@ TEST(BeginAnew, WithAnotherSceneAndWithAnotherSize) {
                 if (scene) drawBefore(rooms, renderer, *scene, look, size);
                 return rooms.draw(renderer, rooms.here, view);
             };
-            const Image first = after(nullptr, kSize);
-            EXPECT_EQ(test::differingPixels(first, after(&rooms.there, kSize)), 0u) << look.name << ": another scene";
+            const Image first = after(nullptr, kRoomSize);
+            EXPECT_EQ(test::differingPixels(first, after(&rooms.there, kRoomSize)), 0u)
+                    << look.name << ": another scene";
             EXPECT_EQ(test::differingPixels(first, after(&rooms.here, kOtherSize)), 0u) << look.name << ": other size";
-            if (look.showsCamera)
-                EXPECT_GT(test::differingPixels(first, after(&rooms.here, kSize)), 0u) << look.name << ": goes on";
+            if (look.showsCamera) {
+                EXPECT_GT(test::differingPixels(first, after(&rooms.here, kRoomSize)), 0u) << look.name << ": goes on";
+            }
         }
     }
 }
@@ -124,7 +126,7 @@ TEST(BeginAnew, FramesThatAreOnlyExpectedLeaveNothing) {
         for (BackwardLook const& look : kBackwardLooks) {
             const auto drawn = [&](bool expects) {
                 Renderer renderer(rooms.engine);
-                drawBefore(rooms, renderer, rooms.there, look, kSize);
+                drawBefore(rooms, renderer, rooms.there, look, kRoomSize);
                 if (expects) renderer.expect(rooms.here, TwoRooms::view(look, 2, kOtherSize), other);
                 return rooms.draw(renderer, rooms.there, TwoRooms::view(look, 0));
             };

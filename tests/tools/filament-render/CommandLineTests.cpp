@@ -45,7 +45,7 @@ std::string triangleGltf() {
            R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 }
 
-class CommandLine : public ::testing::Test {
+class RenderProgram : public ::testing::Test {
 protected:
     struct Outcome {
         int status = -1; ///< 128 and more: ended by a signal; 124: took too long
@@ -89,7 +89,7 @@ protected:
     static inline std::filesystem::path sFolder;
 };
 
-TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
+TEST_F(RenderProgram, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     const Outcome outcome =
             run("triangle.gltf --size 160x90 --sun 100000 0 -1 -1 --frames 30 --out ok --timing --explain");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
@@ -112,7 +112,7 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     }
 }
 
-TEST_F(CommandLine, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
+TEST_F(RenderProgram, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
     const Outcome outcome =
             run("triangle.gltf --size 80x45 --sun 100000 0 -1 -1 --backend gles --out saved --save-frame saved/frame");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
@@ -129,7 +129,7 @@ TEST_F(CommandLine, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
     expectRefused("triangle.gltf --size 80x45 --out saved --save-frame triangle.gltf", { "triangle.gltf" });
 }
 
-TEST_F(CommandLine, AFullStandardOutputIsAnError) {
+TEST_F(RenderProgram, AFullStandardOutputIsAnError) {
     for (const char* arguments : { "--list-devices", "--help" }) {
         const std::string command = (tools::buildDir() / "bin/filament-render ").string() + arguments +
                                     " >/dev/full 2>" + (sFolder / "errors").string();
@@ -147,7 +147,7 @@ nlohmann::json decisionOf(nlohmann::json const& decisions, std::string_view name
     return {};
 }
 
-TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
+TEST_F(RenderProgram, SteadyFramesWithASkyTakeNothingFromTheHeap) {
     for (const char* more : { "", " --set toneMapping=table32 --set textureFilter=trilinear" }) {
         const Outcome outcome = run("triangle.gltf --size 96x54 --environment showcase.hdr --frames 30 --out sky "
                                     "--timing --explain" +
@@ -167,7 +167,7 @@ TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
     }
 }
 
-TEST_F(CommandLine, TimesOfPassesSumUpToThatOfTheFrame) {
+TEST_F(RenderProgram, TimesOfPassesSumUpToThatOfTheFrame) {
     const Outcome outcome = run("triangle.gltf --size 96x54 --frames 2 --out timed --timing --set bloom=on");
     ASSERT_EQ(outcome.status, 0) << outcome.errors;
     const auto report = nlohmann::json::parse(textOf(sFolder / "timed" / "report.json"));
@@ -180,7 +180,7 @@ TEST_F(CommandLine, TimesOfPassesSumUpToThatOfTheFrame) {
     }
 }
 
-TEST_F(CommandLine, SteadyFramesWithShadowsTakeNothingFromTheHeap) {
+TEST_F(RenderProgram, SteadyFramesWithShadowsTakeNothingFromTheHeap) {
     for (const std::string more : { "shadows=pcf3", "shadows=pcss --set shadowCascades=4", "shadows=vsm",
                                     "shadows=evsm --set sun.showsDisc=on", "debugView=atlas" }) {
         const Outcome outcome = run("triangle.gltf --size 96x54 --sun 100000 0.2 -1 -1 --frames 30 --out shadowed "
@@ -200,7 +200,7 @@ TEST_F(CommandLine, SteadyFramesWithShadowsTakeNothingFromTheHeap) {
     }
 }
 
-TEST_F(CommandLine, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
+TEST_F(RenderProgram, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
     writeText(sFolder / "tint.mat", R"(// show: tint=0.5,0.5,0.5 gloss=0.2
         material { parameters : [ { name : tint, type : float3 }, { name : gloss, type : float } ] }
         fragment { void material(inout MaterialInputs m) {
@@ -215,37 +215,37 @@ TEST_F(CommandLine, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
     expectRefused("broken.mat", { "broken.mat:2", "material(" });
 }
 
-TEST_F(CommandLine, AModelThatIsNotThereIsNamed) { expectRefused("missing.glb --size 32x32", { "missing.glb" }); }
+TEST_F(RenderProgram, AModelThatIsNotThereIsNamed) { expectRefused("missing.glb --size 32x32", { "missing.glb" }); }
 
-TEST_F(CommandLine, AVariantThatTheModelDoesNotHaveIsNamed) {
+TEST_F(RenderProgram, AVariantThatTheModelDoesNotHaveIsNamed) {
     expectRefused("triangle.gltf --variant red --size 32x32", { "triangle.gltf", "no variants", "'red'" });
 }
 
-TEST_F(CommandLine, AFolderIsNotAModel) {
+TEST_F(RenderProgram, AFolderIsNotAModel) {
     std::filesystem::create_directories(sFolder / "folder.glb");
     expectRefused("folder.glb --size 32x32", { "folder.glb" });
 }
 
-TEST_F(CommandLine, ATruncatedModelIsNamed) {
+TEST_F(RenderProgram, ATruncatedModelIsNamed) {
     for (const double part : { 0.0, 0.000002, 0.001, 0.3, 0.99 }) {
         truncate("showcase.glb", "cut.glb", part);
         expectRefused("cut.glb --backend gles --size 32x32", { "cut.glb" });
     }
 }
 
-TEST_F(CommandLine, AnEnvironmentThatIsNotThereIsNamed) {
+TEST_F(RenderProgram, AnEnvironmentThatIsNotThereIsNamed) {
     expectRefused("triangle.gltf --size 32x32 --environment missing.hdr", { "missing.hdr" });
     expectRefused("triangle.gltf --size 32x32 --environment .", { "." });
 }
 
-TEST_F(CommandLine, ATruncatedEnvironmentIsNamed) {
+TEST_F(RenderProgram, ATruncatedEnvironmentIsNamed) {
     for (const double part : { 0.0, 0.0001, 0.5 }) {
         truncate("showcase.hdr", "cut.hdr", part);
         expectRefused("triangle.gltf --backend gles --size 32x32 --environment cut.hdr", { "cut.hdr" });
     }
 }
 
-TEST_F(CommandLine, NotANumberInsideAModelIsNoCrash) {
+TEST_F(RenderProgram, NotANumberInsideAModelIsNoCrash) {
     std::string text = triangleGltf();
     const std::string positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
     text.replace(text.find(positions), 8, "AADAfwAA"); // the first float is a NaN
@@ -255,7 +255,7 @@ TEST_F(CommandLine, NotANumberInsideAModelIsNoCrash) {
     EXPECT_NE(outcome.errors, "");
 }
 
-TEST_F(CommandLine, AModelThatCannotBeDrawnAsItSaysEndsWithAStatus) {
+TEST_F(RenderProgram, AModelThatCannotBeDrawnAsItSaysEndsWithAStatus) {
     const auto expectStatus = [](const char* added, const char* reason) {
         std::string text = triangleGltf();
         text.insert(text.find(R"("attributes")"), R"("material":0,)");
@@ -273,7 +273,7 @@ TEST_F(CommandLine, AModelThatCannotBeDrawnAsItSaysEndsWithAStatus) {
 }
 
 // KHR_animation_pointer: the triangle begins to shine. Its keys are numbers of its positions.
-TEST_F(CommandLine, TimeMovesWhatAnimationsPointTo) {
+TEST_F(RenderProgram, TimeMovesWhatAnimationsPointTo) {
     auto file = nlohmann::json::parse(triangleGltf());
     file["materials"] = nlohmann::json::parse(
             R"([ { "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 100000 } } } ])");
@@ -300,29 +300,29 @@ TEST_F(CommandLine, TimeMovesWhatAnimationsPointTo) {
     EXPECT_NE(textOf(sFolder / "at0" / "gles.png"), textOf(sFolder / "at1" / "gles.png"));
 }
 
-TEST_F(CommandLine, AZeroSizeIsRefused) { expectRefused("triangle.gltf --size 0x0", { "--size", "0x0" }); }
+TEST_F(RenderProgram, AZeroSizeIsRefused) { expectRefused("triangle.gltf --size 0x0", { "--size", "0x0" }); }
 
-TEST_F(CommandLine, AnUnknownBackendIsRefused) {
+TEST_F(RenderProgram, AnUnknownBackendIsRefused) {
     expectRefused("triangle.gltf --backend metal", { "--backend", "metal", "vulkan, gles or both" });
 }
 
-TEST_F(CommandLine, AnUnknownDeviceIsRefusedOnce) {
+TEST_F(RenderProgram, AnUnknownDeviceIsRefusedOnce) {
     expectRefused("triangle.gltf --size 32x32 --require-device 'no such card'", { "no such card" });
     expectRefused("triangle.gltf --size 32x32 --backend gles --require-device 'no such card'", { "no such card" });
 }
 
-TEST_F(CommandLine, NotANumberOnTheCommandLineIsRefused) {
+TEST_F(RenderProgram, NotANumberOnTheCommandLineIsRefused) {
     expectRefused("triangle.gltf --eye nan 0 0", { "--eye", "nan" });
     expectRefused("triangle.gltf --exposure 16 nan 100", { "--exposure", "nan" });
 }
 
-TEST_F(CommandLine, AFolderThatCannotBeWrittenIsNamed) {
+TEST_F(RenderProgram, AFolderThatCannotBeWrittenIsNamed) {
     writeText(sFolder / "file", "");
     expectRefused("triangle.gltf --backend gles --size 32x32 --out file", { "--out", "file" });
     expectRefused("triangle.gltf --backend gles --size 32x32 --out /proc/here", { "--out", "/proc/here" });
 }
 
-TEST_F(CommandLine, WithoutAVulkanDriverVulkanIsRefusedAndOpenGlEsStillDrawn) {
+TEST_F(RenderProgram, WithoutAVulkanDriverVulkanIsRefusedAndOpenGlEsStillDrawn) {
     const std::string none = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
     expectRefused("triangle.gltf --size 32x32 --backend vulkan --out vk", { "Vulkan" }, none);
     expectRefused("triangle.gltf --size 32x32 --out only_gles", { "Vulkan" }, none);
@@ -336,21 +336,21 @@ TEST_F(CommandLine, WithoutAVulkanDriverVulkanIsRefusedAndOpenGlEsStillDrawn) {
     EXPECT_THAT(devices.output, StartsWith("gles"));
 }
 
-TEST_F(CommandLine, WithoutAnEglVendorOpenGlEsIsRefusedAndVulkanStillDrawn) {
+TEST_F(RenderProgram, WithoutAnEglVendorOpenGlEsIsRefusedAndVulkanStillDrawn) {
     const std::string none = "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
     expectRefused("triangle.gltf --size 32x32 --out only_vulkan", { "EGL" }, none);
     EXPECT_TRUE(std::filesystem::exists(sFolder / "only_vulkan" / "vulkan.png"));
     EXPECT_FALSE(std::filesystem::exists(sFolder / "only_vulkan" / "gles.png"));
 }
 
-TEST_F(CommandLine, WithoutAnyDriverTheOneLineNamesBoth) {
+TEST_F(RenderProgram, WithoutAnyDriverTheOneLineNamesBoth) {
     const std::string none =
             "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
     expectRefused("triangle.gltf --size 32x32", { "Vulkan", "EGL" }, none);
     expectRefused("--list-devices", { "no device" }, none);
 }
 
-TEST_F(CommandLine, PicturesOfTenBitsArePngsOf16WithTheSameBitsAsWell) {
+TEST_F(RenderProgram, PicturesOfTenBitsArePngsOf16WithTheSameBitsAsWell) {
     const Outcome outcome = run("triangle.gltf --size 64x64 --sun 100000 0 -1 -1 --format png16 --set "
                                 "outputSpace=rec2020Pq --tone-mapper linear --out ten");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
@@ -362,7 +362,7 @@ TEST_F(CommandLine, PicturesOfTenBitsArePngsOf16WithTheSameBitsAsWell) {
     }
 }
 
-TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
+TEST_F(RenderProgram, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
     const Outcome outcome = run("triangle.gltf --size 64x64 --sun 100000 0 -1 -1 --format exr --out exr");
     EXPECT_EQ(outcome.status, 0) << outcome.errors;
     EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 %"));
@@ -370,7 +370,7 @@ TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
     EXPECT_TRUE(std::filesystem::exists(sFolder / "exr" / "gles.exr"));
 }
 
-TEST_F(CommandLine, AModelThatNothingLightsStandsUnderTheShowcasesSkyUnlessNoneIsAskedFor) {
+TEST_F(RenderProgram, AModelThatNothingLightsStandsUnderTheShowcasesSkyUnlessNoneIsAskedFor) {
     const auto brightest = [](const char* environment) {
         EXPECT_EQ(run(std::string("triangle.gltf --backend gles --size 32x32 --format exr --out sky ") + environment)
                           .status,
@@ -402,7 +402,7 @@ std::vector<std::byte> triangleWithLight() {
     return *assets::writeGlb(scene);
 }
 
-TEST_F(CommandLine, AModelStandsUnderItsOwnSkyUnlessAnotherIsNamed) {
+TEST_F(RenderProgram, AModelStandsUnderItsOwnSkyUnlessAnotherIsNamed) {
     ASSERT_TRUE(assets::replaceFile(sFolder / "light.glb", triangleWithLight()).ok());
     const auto corner = [](std::string const& more) {
         const Outcome outcome = run("light.glb --size 32x32 --format exr --out own " + more);
@@ -428,7 +428,7 @@ TEST_F(CommandLine, AModelStandsUnderItsOwnSkyUnlessAnotherIsNamed) {
     EXPECT_EQ(corner("--skybox off"), float3(0)) << "only the triangle is lit";
 }
 
-TEST_F(CommandLine, HelpListsTheOptionsAndSucceeds) {
+TEST_F(RenderProgram, HelpListsTheOptionsAndSucceeds) {
     const Outcome outcome = run("--help");
     EXPECT_EQ(outcome.status, 0);
     for (const char* option : { "--variant",
