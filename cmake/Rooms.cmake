@@ -79,6 +79,14 @@ function(filament_unity target)
     endif()
 endfunction()
 
+# What runs once or waits for a device: text of options, files of the tools, checks. -O1 compiles in two thirds of the time, and
+# gives the same bits. Precompiled headers do not mind.
+function(filament_cold)
+    foreach(target IN LISTS ARGN)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endforeach()
+endfunction()
+
 # filament_core/scene -> scene, backend/vulkan -> backend_vulkan
 function(filament_room_name folder result)
     string(REGEX REPLACE "^filament_core/" "" name ${folder})
