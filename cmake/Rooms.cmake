@@ -149,6 +149,9 @@ set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 # the same bits.
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 
+# Kept in the build folder for all tests and later runs (tools/packages/PackageCache.h).
+set(FILAMENT_SHARED_WORK FILAMENT_PACKAGE_CACHE=${CMAKE_BINARY_DIR}/cache/packages)
+
 # One test program per mirrored folder: tests/<folder>/*.cpp. SHARDS n: ctest runs it n times, each with a part of its tests,
 # so that no core waits for the longest program; <name>_shards lists them.
 function(filament_tests folder)

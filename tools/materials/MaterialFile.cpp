@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/PathInside.h"
-#include "shaders/compiler/MaterialCompiler.h"
+#include "tools/packages/PackageCache.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::atomic<uint64_t> gCompiled{ 0 };
+std::atomic<bool> gAsksPackageCache{ true };
 
 Result<std::string> readText(fs::path const& path) {
     Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
@@ -100,13 +101,13 @@ Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const&
     if (auto bytes = compilations().find(key, beside)) return std::move(*bytes);
     std::map<std::string, std::optional<std::string>> included;
     const auto noted = [&](std::string_view name) { return included[std::string(name)] = beside(name); };
-    const Result<shader::MaterialPackage> package = shader::compileMaterial(
-            text, path.filename().string(), { .filteredVariants = filteredVariants, .includes = noted });
+    Result<CompiledPackage> package =
+            compilePackage(text, path.filename().string(), { .filteredVariants = filteredVariants, .includes = noted },
+                           gAsksPackageCache ? packageCacheOfEnvironment() : std::nullopt);
     if (!package) return package.error();
-    gCompiled.fetch_add(1, std::memory_order_relaxed);
-    std::vector<std::byte> bytes = shader::writePackage(*package);
-    compilations().add(std::move(key), std::move(included), bytes);
-    return bytes;
+    if (!package->isKept) gCompiled.fetch_add(1, std::memory_order_relaxed);
+    compilations().add(std::move(key), std::move(included), package->bytes);
+    return std::move(package->bytes);
 }
 
 std::string keyOf(fs::path const& path, std::vector<TextEdit> const& edits, uint16_t filteredVariants) {
@@ -143,7 +144,10 @@ Result<MaterialFile> compileMaterialFile(fs::path const& path, std::vector<TextE
 
 uint64_t compiledMaterialFiles() { return gCompiled.load(std::memory_order_relaxed); }
 
-void forgetCompiledMaterialFiles() { compilations().clear(); }
+void forgetCompiledMaterialFiles() {
+    compilations().clear();
+    gAsksPackageCache = false;
+}
 
 bool isMaterialFile(fs::path const& path) { return path.extension() == ".mat" || path.extension() == ".fmat"; }
 

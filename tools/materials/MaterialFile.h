@@ -8,7 +8,7 @@
 ///           elements one after the other.
 ///   Thread  any.
 ///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the
-///           latest eight packages.
+///           latest eight packages. Both ask the package cache of the environment first (PackageCache.h).
 ///   Fails   errors of the compiler, or Unreadable with the path.
 #pragma once
 
@@ -55,7 +55,8 @@ Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std:
 /// How many texts this process has compiled.
 uint64_t compiledMaterialFiles();
 
-/// Forgets the latest compilations, for tests of what goes on beside one.
+/// Forgets the latest compilations, for tests of what goes on beside one: from now on this process also compiles what
+/// the package cache has.
 void forgetCompiledMaterialFiles();
 
 /// Whether the path names a material, judged by its extension.

@@ -3,14 +3,15 @@
 
 #include "base/Assert.h"
 #include "base/Log.h"
-#include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
+#include "tools/packages/PackageCache.h"
 
 #include <fmt/core.h>
 
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace filament::tools {
 namespace {
@@ -18,10 +19,10 @@ namespace {
 std::span<const std::byte> compilePlain(std::string_view name) {
     const std::string_view text = engineMaterialText(name);
     if (text.empty()) return {};
-    const auto package = shader::compileMaterial(text, fmt::format("{}.mat", name), { .exact = false });
+    auto package = compilePackage(text, fmt::format("{}.mat", name), { .exact = false });
     if (!package) log(Severity::Error, "{}", package.error().message);
     FILAMENT_ASSERT(package.ok(), "the engine's own materials compile, as the build showed");
-    return shader::keepEnginePackage(shader::writePackage(*package));
+    return shader::keepEnginePackage(std::move(package->bytes));
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 ///   Thread  one.   Memory: the packages are kept.   Fails: by failing the running test.
 #pragma once
 
-#include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/Package.h"
+#include "tools/packages/PackageCache.h"
 
 #include <gtest/gtest.h>
 
@@ -30,10 +30,10 @@ inline std::span<const std::byte> compiledPackage(std::string_view text, uint16_
     static std::map<std::pair<std::string, uint16_t>, std::vector<std::byte>> known;
     std::vector<std::byte>& bytes = known[{ std::string(text), filteredVariants }];
     if (!bytes.empty()) return bytes;
-    const Result<shader::MaterialPackage> package =
-            shader::compileMaterial(text, "test.mat", { .filteredVariants = filteredVariants });
+    Result<tools::CompiledPackage> package =
+            tools::compilePackage(text, "test.mat", { .filteredVariants = filteredVariants });
     if (package)
-        bytes = shader::writePackage(*package);
+        bytes = std::move(package->bytes);
     else
         ADD_FAILURE() << package.error().message;
     return bytes;

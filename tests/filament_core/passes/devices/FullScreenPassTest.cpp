@@ -7,7 +7,7 @@
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
-#include "shaders/compiler/MaterialCompiler.h"
+#include "tools/packages/PackageCache.h"
 #include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
@@ -54,17 +54,17 @@ public:
 
     /// A material from the text between "material {" and the end of the fragment block.
     scene::Material& material(std::string const& properties, std::string const& code) {
-        return keep(shader::compileMaterial(
-                "material { name : effect, domain : postprocess,\n" + properties +
-                        "}\nfragment { void postProcess(inout PostProcessInputs inputs) {\n" + code + "\n} }",
-                "effect.mat"));
+        return keep(tools::compilePackage("material { name : effect, domain : postprocess,\n" + properties +
+                                                  "}\nfragment { void postProcess(inout PostProcessInputs inputs) {\n" +
+                                                  code + "\n} }",
+                                          "effect.mat"));
     }
 
     /// One of the engine's.
     scene::Material& materialOfFile(std::string const& path) {
         std::ifstream file(tools::sourceDir() / path);
         const std::string text{ std::istreambuf_iterator<char>(file), {} };
-        return keep(shader::compileMaterial(text, path));
+        return keep(tools::compilePackage(text, path));
     }
 
     /// describe(graph, context, target) declares the passes; returns the RGBA values of the target, top row first.
@@ -103,12 +103,12 @@ public:
     }
 
 private:
-    scene::Material& keep(Result<shader::MaterialPackage> const& package) {
-        EXPECT_TRUE(package) << (package ? "" : package.error().message);
+    scene::Material& keep(Result<tools::CompiledPackage> const& compiled) {
+        EXPECT_TRUE(compiled) << (compiled ? "" : compiled.error().message);
         scene::Material& made = mMaterials.emplace_back();
         made.id = static_cast<uint32_t>(mMaterials.size());
         made.name = "effect";
-        if (package) made.package = *package;
+        if (compiled) made.package = *shader::readPackage(compiled->bytes);
         return made;
     }
 
