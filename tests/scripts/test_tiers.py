@@ -236,6 +236,17 @@ class Table(unittest.TestCase):
         seconds = {"engine_0": 2, "engine_1": 3.5, "sample_a": 1, "sample_b": 2}
         self.assertEqual([test_table.seconds_of(name, seconds, SENTENCES) for name, _ in SENTENCES], ["-", "5.5", "3.0"])
 
+    def test_the_fate_of_each_mutant_is_counted_once(self):
+        suites = {"room": {"label": "unit", "cases": 5, "part": 1}, "device": {"label": "gpu", "cases": 7, "part": 0.25}}
+        notices = [notice("A:1", "room", "B.One", 1), notice("A:2", "device", "C.Two", 1), notice("A:3", "device", "C.Slow", 50),
+                   {"mutant": "A:4", "cases": 0}, {"mutant": "A:5", "cases": 3}, {"mutant": "A:6", "cases": 3, "untried": 1}]
+        text = test_table.fate_of_mutants({"commit": "c0ffee", "count": 6, "suites": suites, "notices": notices},
+                                          {"tests": ["room"], "missed": [{"mutant": "A:3"}]}).replace("\n", " ")
+        for part in ("6 mutants of commit c0ffee, asked of 12 cases of 2 suites", "the fast tier notices 2, 1 of them by unit tests",
+                     "1 are noticed by `--full` alone", "asked noticed 3: 1 although", "1 of which some cases", "1 that no measured",
+                     "`device` (25% of its cases)"):
+            self.assertIn(part, text)
+
     def test_only_the_part_between_the_marks_is_written(self):
         text = f"a\n{test_table.BEGIN}old\n{test_table.END}b\n"
         self.assertEqual(test_table.with_table(text, "new\n"), f"a\n{test_table.BEGIN}new\n{test_table.END}b\n")
