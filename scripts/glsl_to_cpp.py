@@ -37,7 +37,7 @@ def without_layout(text):
     text = re.sub(r"\b(?:uniform|readonly\s+buffer)\s+(\w+)\s*\{", r"struct \1Block {", text)
     text = re.sub(r"\[\s*\]\s*;", "[1];", text)  # the last member of a storage buffer
     text = re.sub(r"\buniform\s+", "", text)
-    return re.sub(r"\bconst\s+(\w+\s+(?:quality_|materialConstants_)\w+\s*=)", r"\1", text)
+    return re.sub(r"\bconst\s+(\w+\s+(?:quality_|variant_|materialConstants_)\w+\s*=)", r"\1", text)
 
 
 def with_cpp_types(text):
