@@ -11,7 +11,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr size_t kHeaderWords = 5, kBound = 3;
+constexpr size_t kModuleHeader = 5, kBound = 3;
 
 enum Op : uint32_t {
     OpExtInst = 12,
@@ -52,7 +52,7 @@ constexpr uint32_t kDecorationBuiltIn = 11, kFragCoord = 15, kVertexIndex = 42;
 // Of gl_FragCoord. Its w may be negative: with several samples it is that of the pixel's middle, where the plane of the
 // triangle may lie behind the camera.
 constexpr uint32_t kX = 0;
-constexpr uint32_t kStorageInput = 1, kStorageUniform = 2, kStorageFunction = 7, kStoragePushConstant = 9;
+constexpr uint32_t kStorageOfInput = 1, kStorageUniform = 2, kStorageFunction = 7, kStoragePushConstant = 9;
 
 bool isIn(uint32_t op, uint32_t first, uint32_t last) { return op >= first && op <= last; }
 
@@ -89,7 +89,7 @@ class Rewriter {
 public:
     Rewriter(std::vector<uint32_t> words, ShaderStage stage)
             : mWords(std::move(words)), mIsVertex(stage == ShaderStage::Vertex), mBound(mWords[kBound]), mById(mBound) {
-        for (size_t at = kHeaderWords; at < mWords.size();) {
+        for (size_t at = kModuleHeader; at < mWords.size();) {
             const size_t count = std::max(mWords[at] >> 16, 1u);
             note({ mWords[at] & 0xffff, at, std::span(mWords).subspan(at, std::min(count, mWords.size() - at)) });
             at += count;
@@ -180,7 +180,7 @@ private:
         if (it.op == OpTypeInt && it.word(2) == 32 && it.word(3) == 1) mInt = it.word(1);
         if (it.op == OpTypeFloat && it.word(2) == 32) mFloat = it.word(1);
         if (it.op == OpTypeVector && it.word(2) == mFloat && it.word(3) == 4) mFloat4 = it.word(1);
-        if (it.op == OpTypePointer && it.word(2) == kStorageInput) mInputPointers[it.word(3)] = it.word(1);
+        if (it.op == OpTypePointer && it.word(2) == kStorageOfInput) mInputPointers[it.word(3)] = it.word(1);
     }
 
     /// The variable behind access chains.
@@ -292,17 +292,17 @@ private:
     }
 
     void addBuiltIn(uint32_t type) {
-        const uint32_t pointer = typeOr(mInputPointers[type], OpTypePointer, { kStorageInput, type });
+        const uint32_t pointer = typeOr(mInputPointers[type], OpTypePointer, { kStorageOfInput, type });
         mBuiltIn = newId();
         insert(mTypesAt, OpDecorate, { mBuiltIn, kDecorationBuiltIn, builtIn() });
-        insert(mFunctionsAt, OpVariable, { pointer, mBuiltIn, kStorageInput });
+        insert(mFunctionsAt, OpVariable, { pointer, mBuiltIn, kStorageOfInput });
         const uint32_t size = mWords[mEntryPoint] >> 16;
         mWords[mEntryPoint] = (size + 1) << 16 | OpEntryPoint;
         mInserted[mEntryPoint + size] = { mBuiltIn }; // one more word of the entry point
     }
 
     size_t functionsAt() const {
-        for (size_t at = kHeaderWords; at < mWords.size(); at += std::max(mWords[at] >> 16, 1u)) {
+        for (size_t at = kModuleHeader; at < mWords.size(); at += std::max(mWords[at] >> 16, 1u)) {
             if ((mWords[at] & 0xffff) == OpFunction) return at;
         }
         return mWords.size();
@@ -351,7 +351,7 @@ private:
 } // namespace
 
 std::vector<uint32_t> hideUniformConditions(std::vector<uint32_t> words, ShaderStage stage) {
-    if (stage == ShaderStage::Compute || words.size() <= kHeaderWords) return words;
+    if (stage == ShaderStage::Compute || words.size() <= kModuleHeader) return words;
     return Rewriter(std::move(words), stage).result();
 }
 

@@ -19,9 +19,11 @@ constexpr FullScreenParameter kHalfValues[] = { { "focus", ParameterType::Float3
 constexpr FullScreenInterface kHalf{ .pass = "focus half", .inputs = kHalfInputs, .values = kHalfValues };
 constexpr std::string_view kTileInputs[] = { "source" };
 constexpr FullScreenInterface kTiles{ .pass = "focus tiles", .inputs = kTileInputs };
-constexpr std::string_view kBlurInputs[] = { "blurs", "tiles" };
-constexpr FullScreenParameter kBlurValues[] = { { "blades", ParameterType::Float } };
-constexpr FullScreenInterface kBlur{ .pass = "focus blur", .inputs = kBlurInputs, .values = kBlurValues };
+constexpr std::string_view kFocusBlurInputs[] = { "blurs", "tiles" };
+constexpr FullScreenParameter kFocusBlurValues[] = { { "blades", ParameterType::Float } };
+constexpr FullScreenInterface kFocusBlur{ .pass = "focus blur",
+                                          .inputs = kFocusBlurInputs,
+                                          .values = kFocusBlurValues };
 constexpr std::string_view kMixInputs[] = { "color", "depth", "blurred" };
 constexpr FullScreenParameter kMixValues[] = { { "focus", ParameterType::Float3 },
                                                { "perTexel", ParameterType::Float2 } };
@@ -95,7 +97,7 @@ private:
         const std::array constants{ EffectConstant{ "tile", mTile } };
         addFullScreenPass(mGraph, mContext,
                           { .name = "focus blur",
-                            .material = material("focus_blur", constants, kBlur),
+                            .material = material("focus_blur", constants, kFocusBlur),
                             .inputs = inputs,
                             .values = values,
                             .target = blurred });

@@ -26,10 +26,10 @@ constexpr FullScreenParameter kReprojectionValues[] = { { "lastFromPixel", Param
 constexpr FullScreenInterface kReprojection{ .pass = "reprojection",
                                              .inputs = kReprojectionInputs,
                                              .values = kReprojectionValues };
-constexpr std::string_view kLevelInputs[] = { "level" };
+constexpr std::string_view kPictureLevelInputs[] = { "level" };
 constexpr FullScreenParameter kLevelValues[] = { { "texels", ParameterType::Float4 },
                                                  { "perTexel", ParameterType::Float2 } };
-constexpr FullScreenInterface kLevel{ .pass = "picture blur", .inputs = kLevelInputs, .values = kLevelValues };
+constexpr FullScreenInterface kLevel{ .pass = "picture blur", .inputs = kPictureLevelInputs, .values = kLevelValues };
 
 // Off the centre of an outer texel, so that no rounding lets the sampler read the one beyond it, even with weight 0.
 constexpr float kInset = 0.5f + 1.0f / 64;

@@ -17,11 +17,13 @@ using prepare::ShadowMoments;
 using prepare::ShadowPacket;
 using prepare::ShadowTile;
 
-constexpr std::string_view kBlurInputs[] = { "depths", "moments" };
-constexpr FullScreenParameter kBlurValues[] = { { "tile", ParameterType::Float4 },
-                                                { "radius", ParameterType::Float },
-                                                { "nearOverFar", ParameterType::Float } };
-constexpr FullScreenInterface kBlur{ .pass = "shadow moments", .inputs = kBlurInputs, .values = kBlurValues };
+constexpr std::string_view kMomentBlurInputs[] = { "depths", "moments" };
+constexpr FullScreenParameter kMomentBlurValues[] = { { "tile", ParameterType::Float4 },
+                                                      { "radius", ParameterType::Float },
+                                                      { "nearOverFar", ParameterType::Float } };
+constexpr FullScreenInterface kMomentBlur{ .pass = "shadow moments",
+                                           .inputs = kMomentBlurInputs,
+                                           .values = kMomentBlurValues };
 constexpr std::string_view kMipInputs[] = { "moments" };
 constexpr FullScreenInterface kMip{ .pass = "shadow mips", .inputs = kMipInputs };
 
@@ -60,7 +62,7 @@ scene::Material const& blurMaterial(FrameContext const& context, bool fromDepths
     const std::array constants{ EffectConstant{ "fromDepths", fromDepths },
                                 EffectConstant{ "fromMoments", !fromDepths },
                                 EffectConstant{ "warped", context.packet.shadows.moments == ShadowMoments::Four } };
-    return context.resources.effects->get("shadow_moments", constants, kBlur);
+    return context.resources.effects->get("shadow_moments", constants, kMomentBlur);
 }
 
 void addBlur(FrameGraph& graph, FrameContext const& context, TextureId depths, TextureId moments) {

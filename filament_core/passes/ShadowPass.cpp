@@ -25,7 +25,7 @@ struct DrawnMap {
     std::span<const PipelineHandle> pipelines;
 };
 
-struct Chosen {
+struct ChosenShadow {
     PipelineHandle farDepth; ///< empties a tile; none: all of the atlas is cleared
 };
 
@@ -45,7 +45,7 @@ std::span<DrawnMap> drawnMaps(FrameContext const& context) {
     return drawn;
 }
 
-Chosen choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap> maps) {
+ChosenShadow choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap> maps) {
     PipelineSource const& pipelines = context.resources.pipelines;
     const PassSlot at = shadowSlot(context.view->quality);
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "shadow maps are a pass of their own");
@@ -55,7 +55,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap
         map.pipelines =
                 choosePipelines(pass, *context.arena, pipelines, slot, context.packet.views[map.view].opaque, 0);
     }
-    Chosen chosen;
+    ChosenShadow chosen;
     if (context.packet.shadows.keepsAtlas)
         chosen.farDepth = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.farDepth);
     return chosen;
@@ -67,7 +67,8 @@ void enterTile(CommandBuffer& commands, ShadowTile tile) {
     commands.record(CmdSetScissor{ { tile.x, tile.y, tile.size, tile.size } });
 }
 
-void recordMaps(PassContext& pass, FrameContext const& context, std::span<const DrawnMap> maps, Chosen const& chosen) {
+void recordMaps(PassContext& pass, FrameContext const& context, std::span<const DrawnMap> maps,
+                ChosenShadow const& chosen) {
     for (DrawnMap const& map : maps) {
         const FrameView view = viewOf(context, map.view);
         enterTile(pass.commands(), map.tile);
@@ -91,7 +92,9 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, framegraph::Te
                 pass.writeDepth(atlas, target);
             },
             [of = &context, maps](PassContext& pass) { return choose(pass, *of, maps); },
-            [of = &context, maps](PassContext& pass, Chosen const& chosen) { recordMaps(pass, *of, maps, chosen); });
+            [of = &context, maps](PassContext& pass, ChosenShadow const& chosen) {
+                recordMaps(pass, *of, maps, chosen);
+            });
 }
 
 } // namespace

@@ -23,11 +23,11 @@ Tiles tilesBetween(float low, float high, float count) {
     return tiles;
 }
 
-struct Interval {
+struct SliceInterval {
     float low, high;
 };
 
-Interval around(std::array<float, 4> const& values) {
+SliceInterval around(std::array<float, 4> const& values) {
     const auto [low, high] = std::ranges::minmax(values);
     return { low, high };
 }
@@ -98,14 +98,14 @@ private:
     /// The tiles that a disc of this radius around (x, depth) reaches within the slab.
     static Tiles tilesOf(TileAxis const& axis, float x, float radius, Slab slab, float margin) {
         const float nearest = axis.weight(slab.nearest), farthest = axis.weight(slab.farthest);
-        const Interval at = around(
+        const SliceInterval at = around(
                 { axis.tileOf(x - radius, slab.nearest, nearest), axis.tileOf(x + radius, slab.nearest, nearest),
                   axis.tileOf(x - radius, slab.farthest, farthest), axis.tileOf(x + radius, slab.farthest, farthest) });
         return tilesBetween(at.low - margin, at.high + margin, axis.tiles);
     }
 
     /// What a tile covers of its axis, within the slab.
-    static Interval coverOf(TileAxis const& axis, uint32_t tile, Slab slab, float margin) {
+    static SliceInterval coverOf(TileAxis const& axis, uint32_t tile, Slab slab, float margin) {
         const float low = static_cast<float>(tile) - margin, high = static_cast<float>(tile) + 1 + margin;
         return around({ axis.borderOf(low, slab.nearest), axis.borderOf(high, slab.nearest),
                         axis.borderOf(low, slab.farthest), axis.borderOf(high, slab.farthest) });
@@ -116,7 +116,7 @@ private:
         const float3 center = bounds.sphere.center;
         const Tiles rows = tilesOf(mY, center.y, std::sqrt(squaredRadius), slab, mMarginY);
         for (uint32_t row = rows.begin; row < rows.end; ++row) {
-            const Interval cover = coverOf(mY, row, slab, mMarginY);
+            const SliceInterval cover = coverOf(mY, row, slab, mMarginY);
             const float gap = std::max({ cover.low - center.y, center.y - cover.high, 0.0f });
             const float squared = squaredRadius - gap * gap;
             if (squared < 0) continue;
@@ -130,9 +130,9 @@ private:
 
     void addCone(uint32_t light, LightCone const& cone, Tiles columns, uint32_t row) {
         findBoxes();
-        const Interval y = mBoxesY[row];
+        const SliceInterval y = mBoxesY[row];
         for (uint32_t column = columns.begin; column < columns.end; ++column) {
-            const Interval x = mBoxesX[column];
+            const SliceInterval x = mBoxesX[column];
             const float3 low(x.low, y.low, mSlab.nearest), high(x.high, y.high, mSlab.farthest);
             if (intersects(cone, (low + high) * 0.5f, glm::length(high - low) * 0.5f)) append(light, column, row);
         }
@@ -164,7 +164,7 @@ private:
     const Slab mSlab;
     float mMarginX = 0, mMarginY = 0;
     bool mHasBoxes = false;
-    std::array<Interval, kMaxTilesOfAxis> mBoxesX, mBoxesY;
+    std::array<SliceInterval, kMaxTilesOfAxis> mBoxesX, mBoxesY;
 };
 
 } // namespace

@@ -10,10 +10,10 @@
 namespace filament::assets {
 namespace {
 
-constexpr float kLargestMeters = 1e30f;
+constexpr float kLargestCameraMeters = 1e30f;
 
 /// Whether a float holds it, and what is computed from it.
-bool isSize(double value) { return value >= 1e-30 && value <= static_cast<double>(kLargestMeters); }
+bool isSize(double value) { return value >= 1e-30 && value <= static_cast<double>(kLargestCameraMeters); }
 
 /// A number above 0; another one is `fallback`, with a warning.
 float positive(JsonNode const& node, float fallback) {
@@ -42,8 +42,8 @@ void parseParallel(JsonNode const& node, CameraData& camera) {
     if (!isUsable) node.diagnostics().warn("{}: {} x {} is no size of a picture; it became 1 x 1", node.path(), x, y);
     camera.halfHeightMeters = isUsable ? static_cast<float>(y) : 1.0f;
     camera.aspect = isUsable ? static_cast<float>(x / y) : 1.0f;
-    camera.nearMeters = node["znear"].numberInRange(0, 0, kLargestMeters);
-    camera.farMeters = node["zfar"].numberInRange(1000, 0, kLargestMeters);
+    camera.nearMeters = node["znear"].numberInRange(0, 0, kLargestCameraMeters);
+    camera.farMeters = node["zfar"].numberInRange(1000, 0, kLargestCameraMeters);
     if (camera.farMeters > camera.nearMeters) return;
     const float far = std::max(camera.nearMeters + 1000, camera.nearMeters * 2);
     node.diagnostics().warn("{}: zfar {} is not behind znear {}; it became {}", node.path(), camera.farMeters,

@@ -9,7 +9,7 @@
 namespace filament::assets {
 namespace {
 
-constexpr uint64_t kMaxFileBytes = uint64_t{ 2 } << 30;
+constexpr uint64_t kMaxUriFileBytes = uint64_t{ 2 } << 30;
 
 int hexDigit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -83,7 +83,7 @@ Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {
     if (!std::filesystem::is_regular_file(path, code))
         return fail(ErrorCode::Unreadable, "'{}' is not a regular file", shown);
     const uint64_t size = std::filesystem::file_size(path, code);
-    if (code || size > kMaxFileBytes)
+    if (code || size > kMaxUriFileBytes)
         return fail(ErrorCode::Unreadable, "'{}' is larger than 2 GiB or has no size", shown);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     std::vector<std::byte> bytes(size);

@@ -10,19 +10,19 @@
 namespace filament::assets {
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using FileSpan = std::span<const std::byte>;
 
-uint32_t number(Bytes bytes, size_t at, size_t count) { // big-endian
+uint32_t number(FileSpan bytes, size_t at, size_t count) { // big-endian
     uint32_t value = 0;
     for (size_t i = 0; i < count; ++i) value = value << 8 | static_cast<uint32_t>(bytes[at + i]);
     return value;
 }
 
-bool isPng(Bytes bytes) { return bytes.size() >= 8 && number(bytes, 0, 4) == 0x89504E47; }
+bool isPng(FileSpan bytes) { return bytes.size() >= 8 && number(bytes, 0, 4) == 0x89504E47; }
 
 /// Calls visit(type, first byte of the contents, length) for every chunk whose header is there, until it returns false.
 template <class Visit>
-void forEachChunk(Bytes bytes, Visit&& visit) {
+void forEachChunk(FileSpan bytes, Visit&& visit) {
     for (size_t at = 8; at + 8 <= bytes.size();) {
         const uint64_t length = number(bytes, at, 4);
         if (!visit(number(bytes, at + 4, 4), at + 8, length)) return;
@@ -33,7 +33,7 @@ void forEachChunk(Bytes bytes, Visit&& visit) {
 constexpr uint32_t kHeaderChunk = 0x49484452, kTransparentChunk = 0x74524E53, kDataChunk = 0x49444154,
                    kEndChunk = 0x49454E44; // "IHDR", "tRNS", "IDAT", "IEND"
 
-uint2 pngSize(Bytes bytes) {
+uint2 pngSize(FileSpan bytes) {
     uint2 size(0);
     forEachChunk(bytes, [&](uint32_t type, size_t at, uint64_t) {
         if (type != kHeaderChunk) return true;
@@ -44,7 +44,7 @@ uint2 pngSize(Bytes bytes) {
 }
 
 /// ITU T.81, annex B: frames are C0 to CF, without the tables C4, C8 and CC; the largest counts.
-uint2 jpegSize(Bytes bytes) {
+uint2 jpegSize(FileSpan bytes) {
     uint2 size(0);
     for (size_t at = 2; at + 4 <= bytes.size();) {
         const uint32_t marker = number(bytes, at + 1, 1);

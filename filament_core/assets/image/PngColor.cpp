@@ -17,7 +17,7 @@ using PngBytes = std::vector<std::byte>;
 
 constexpr size_t kSignature = 8, kFrame = 12; // a chunk's length, name and checksum
 
-uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
+uint32_t pngWordAt(std::span<const std::byte> bytes, size_t at) {
     uint32_t value = 0;
     for (size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<uint32_t>(bytes[at + i]);
     return value;
@@ -71,7 +71,7 @@ std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace sp
     constexpr std::array<std::string_view, 5> kReplaced{ "sRGB", "gAMA", "cHRM", "iCCP", "cICP" };
     PngBytes result(png.begin(), png.begin() + kSignature);
     for (size_t at = kSignature; at + kFrame <= png.size();) {
-        const size_t size = wordAt(png, at) + kFrame;
+        const size_t size = pngWordAt(png, at) + kFrame;
         const std::string_view name(reinterpret_cast<const char*>(png.data() + at + 4), 4);
         if (std::ranges::find(kReplaced, name) == kReplaced.end()) {
             const auto first = png.begin() + static_cast<std::ptrdiff_t>(at);

@@ -13,9 +13,9 @@
 namespace filament::assets {
 namespace {
 
-constexpr size_t kMaxBytes = size_t{ 16 } << 20, kMaxAngles = 8192, kMaxCandelas = size_t{ 1 } << 20;
+constexpr size_t kMaxIesBytes = size_t{ 16 } << 20, kMaxAngles = 8192, kMaxCandelas = size_t{ 1 } << 20;
 constexpr double kMaxCandela = 1e9, kAngleSlack = 1e-3;
-constexpr std::string_view kBlank = " \t,\f\v";
+constexpr std::string_view kIesBlank = " \t,\f\v";
 
 /// Lines and numbers of a file, and the first error.
 class IesText {
@@ -86,7 +86,7 @@ public:
 private:
     std::string_view nextWord() {
         for (;;) {
-            mAt = std::min(mText.find_first_not_of(kBlank, mAt), mText.size());
+            mAt = std::min(mText.find_first_not_of(kIesBlank, mAt), mText.size());
             if (mAt == mText.size() || (mText[mAt] != '\r' && mText[mAt] != '\n')) break;
             skipLineEnd();
         }
@@ -285,8 +285,9 @@ double IesFile::candelasAt(double3 const& direction) const {
 }
 
 Result<IesFile> readIes(std::span<const std::byte> bytes, std::string_view name) {
-    if (bytes.size() > kMaxBytes)
-        return fail(ErrorCode::Unsupported, "{}: {} bytes are more than {} MiB", name, bytes.size(), kMaxBytes >> 20);
+    if (bytes.size() > kMaxIesBytes)
+        return fail(ErrorCode::Unsupported, "{}: {} bytes are more than {} MiB", name, bytes.size(),
+                    kMaxIesBytes >> 20);
     IesText text({ reinterpret_cast<const char*>(bytes.data()), bytes.size() }, name);
     IesFile file;
     bool isOld = false;

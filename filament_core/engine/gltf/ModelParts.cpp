@@ -81,7 +81,7 @@ constexpr std::array kMaps{
     MapRow{ MapName::DiffuseTransmission, "diffuseTransmission", "diffuseTransmissionUvMatrix" },
 };
 
-void require(Result<void> const& result) {
+void requireDone(Result<void> const& result) {
     if (!result) log(Severity::Error, "{}", result.error().message);
     FILAMENT_ASSERT(result.ok(), "the materials of a model have the parameters that animations of the model change");
 }
@@ -93,12 +93,12 @@ void setParameter(Engine::Impl& engine, MaterialInstance instance, assets::Mater
                   GltfParameters const& parameters, AnimatedProperty const& property) {
     if (property.map != MapName::None) {
         const float3x3 matrix = mapOf(material, property.map).uvTransform;
-        return require(engine.set(instance, rowOf(property.map).matrix, matrix));
+        return requireDone(engine.set(instance, rowOf(property.map).matrix, matrix));
     }
     auto const* row = std::ranges::find(kParameters, property.name, &ParameterRow::property);
     FILAMENT_ASSERT(row != kParameters.end(), "every animated property of a material is a parameter");
     for (auto const& [name, value] : parameters) {
-        if (std::string_view(name) == row->parameter) require(engine.set(instance, name, value));
+        if (std::string_view(name) == row->parameter) requireDone(engine.set(instance, name, value));
     }
 }
 
