@@ -63,8 +63,8 @@ set(FILAMENT_PRECOMPILED_TESTS ${FILAMENT_PRECOMPILED}
     <thread>)
 
 # ---- unity builds: several files of a target at once halve what it costs to build everything, but an edit then compiles
-# eight files. Therefore ./run and ./check use them and a preset by itself does not; there, too, each file shows whether it
-# includes what it needs. Names in anonymous namespaces are unique in their target.
+# eight or sixteen files. Therefore ./run and ./check use them and a preset by itself does not; there, too, each file shows
+# whether it includes what it needs. Names in anonymous namespaces are unique in their target.
 option(FILAMENT_UNITY "Compile the files of a target in batches: for those who build everything once" OFF)
 if(FILAMENT_UNITY)
     # gcc takes a file of a batch for a header, whose classes must not have members of local types. It compiles a batch in a
@@ -73,9 +73,17 @@ if(FILAMENT_UNITY)
         $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
 endif()
 
+# Batches of sixteen save a quarter, where there are enough of them for every core: LARGE, for rooms and test programs.
 function(filament_unity target)
+    cmake_parse_arguments(ARG "LARGE" "" "" ${ARGN})
     if(FILAMENT_UNITY)
-        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+        get_target_property(sources ${target} SOURCES)
+        list(LENGTH sources count)
+        set(batch 8)
+        if(ARG_LARGE AND count GREATER 24)
+            set(batch 16)
+        endif()
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     endif()
 endfunction()
 
@@ -113,7 +121,7 @@ function(filament_room folder)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC filament_options ${ARG_LINK})
         filament_use_precompiled(${name} precompiled_rooms)
-        filament_unity(${name})
+        filament_unity(${name} LARGE)
     else()
         add_library(${name} INTERFACE)
         target_link_libraries(${name} INTERFACE filament_options ${ARG_LINK})
@@ -162,10 +170,7 @@ function(filament_tests folder)
         return()
     endif()
     filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} tool_paths GTest::gmock GTest::gtest_main)
-    list(LENGTH sources count)
-    if(FILAMENT_UNITY AND count GREATER 24) # batches of sixteen save a sixth, where there are enough for every core
-        set_target_properties(${name}_tests PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
-    endif()
+    filament_unity(${name}_tests LARGE)
     if(ARG_OPTIMIZED)
         target_compile_options(${name}_tests PRIVATE ${FILAMENT_OPTIMIZED_TEST_OPTIONS})
         filament_use_precompiled(${name}_tests precompiled_optimized_tests)
