@@ -2,6 +2,7 @@
 #include "shaders/package/EngineMaterials.h"
 
 #include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/interface/SamplerBudget.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/Package.h"
@@ -142,18 +143,19 @@ TEST(EngineMaterials, OfLevelThreeFitEveryDeviceWithAnyOfTheirTexturesThatTheBud
         if (whole.featureLevel < 3) continue;
         whole.variants.clear(); // their layouts follow from the package's
         const uint32_t all = samplerCount(whole.layout[kGroupMaterial]);
-        const uint32_t most = passKind(whole) == PassKind::LitScreen ? 8 : 9;
-        EXPECT_EQ(all, 13u) << name << ": all of them need a device with " << all + engineShare(whole);
+        const uint32_t engines = samplerCount(whole.layout[kGroupPass]);
+        const uint32_t most = samplersOfMaterial(passKind(whole));
+        EXPECT_GT(all, most) << name << " does not need level 3";
         for (uint32_t used = 0; used < 1u << all; ++used) {
             MaterialPackage package = whole;
             removeUnusedTextures(package, constantsFor(whole, used));
             const uint32_t left = samplerCount(package.layout[kGroupMaterial]);
             ASSERT_EQ(left, std::max(1, std::popcount(used))) << name << " " << used;
-            ASSERT_EQ(left + engineShare(whole) <= kSamplersOfEveryDevice, left <= most) << name << " " << used;
+            ASSERT_EQ(left + engines <= kSamplersOfEveryDevice, left <= most) << name << " " << used;
         }
         ++materials;
     }
-    EXPECT_EQ(materials, 9u);
+    EXPECT_GT(materials, 0u);
 }
 
 TEST(EngineMaterials, AreAnEmptySpanForAnUnknownName) { EXPECT_TRUE(engineMaterial("gltf_lit").empty()); }
