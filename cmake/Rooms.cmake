@@ -157,8 +157,10 @@ set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 # the same bits.
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 
-# Kept in the build folder for all tests and later runs (tools/packages/PackageCache.h).
-set(FILAMENT_SHARED_WORK FILAMENT_PACKAGE_CACHE=${CMAKE_BINARY_DIR}/cache/packages)
+# Kept in the build folder for all tests and later runs: compiled materials (tools/packages/PackageCache.h), and the shaders
+# of Mesa's drivers.
+set(FILAMENT_SHARED_WORK FILAMENT_PACKAGE_CACHE=${CMAKE_BINARY_DIR}/cache/packages
+    MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/cache)
 
 # One test program per mirrored folder: tests/<folder>/*.cpp. SHARDS n: ctest runs it n times, each with a part of its tests,
 # so that no core waits for the longest program; <name>_shards lists them.
