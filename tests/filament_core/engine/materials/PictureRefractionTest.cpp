@@ -368,7 +368,6 @@ TEST(PictureRefraction, EveryBlurredLevelHasATimeOfItsOwn) {
     }
     ASSERT_GE(times.size(), 5u);
     for (const double time : times) EXPECT_GT(time, 0);
-    EXPECT_GT(times.front(), times.back()) << "a quarter of the pixels, again and again";
     test::expectNoErrors(*engine);
 }
 

@@ -466,10 +466,10 @@ TEST(StageFilesTest, AreLoadedAgainWhenTheyChange) {
     EXPECT_THAT(stage->takeMessages(), IsEmpty());
 }
 
-/// Of this thread, in milliseconds of its own time: that of others on the machine does not count.
-double threadMilliseconds() {
+/// Processor time of this thread or of the process: that of other programs does not count.
+double processorMilliseconds(clockid_t clock) {
     timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    clock_gettime(clock, &time);
     return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
 }
 
@@ -483,10 +483,11 @@ TEST(StageLoads, LeaveTheAppThreadItsTime) {
     document.model.file = model;
     std::vector<double> slices;
     const auto timed = [&](auto const& work) {
-        const double begin = threadMilliseconds();
+        const double begin = processorMilliseconds(CLOCK_THREAD_CPUTIME_ID);
         work();
-        slices.push_back(threadMilliseconds() - begin);
+        slices.push_back(processorMilliseconds(CLOCK_THREAD_CPUTIME_ID) - begin);
     };
+    const double before = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID);
     timed([&] { stage->apply(document); });
     while (stage->progress().isLoading) {
         timed([&] { stage->poll(); });
@@ -494,8 +495,10 @@ TEST(StageLoads, LeaveTheAppThreadItsTime) {
     }
     EXPECT_EQ(stage->shownFile(), model);
     std::ranges::sort(slices, std::greater<>());
-    std::printf("%zu slices; the longest took %.2f, %.2f, %.2f ms\n", slices.size(), slices[0], slices[1], slices[2]);
-    EXPECT_LT(slices[0], 16);
+    const double whole = processorMilliseconds(CLOCK_PROCESS_CPUTIME_ID) - before;
+    std::printf("%zu slices; the longest took %.2f, %.2f, %.2f of %.2f ms\n", slices.size(), slices[0], slices[1],
+                slices[2], whole);
+    EXPECT_LT(slices[0], whole / 40) << "one of the fifteen textures alone is more of the work";
 }
 
 } // namespace
