@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace filament::conformance {
 namespace {
 
@@ -28,34 +26,9 @@ Result<Drawn> drawBeside(Image const& reference, Stage& stage, SceneSpec const& 
     return Drawn{ std::move(*shot), std::move(*compared) };
 }
 
-} // namespace
-
-std::string whyUndrawn(Mutation const& mutation, DefectReach const& reach) {
-    if (reach.changed.empty())
-        return fmt::format("{} proves nothing: no command has what it changes; {}", titleOf(mutation), kCure);
-    if (!reach.isDrawn)
-        return fmt::format("{} proves nothing: no draw has what it changes, {}; {}", titleOf(mutation), reach.changed,
-                           kCure);
-    return {};
-}
-
-Result<Stage*> MutantRun::stageOf(Mutation const& mutation, StageOptions const& options) {
-    const auto known = std::ranges::find(mMutants, mutation.name, &Mutant::mutation);
-    if (known != mMutants.end()) {
-        mMutants.splice(mMutants.begin(), mMutants, known);
-        return mMutants.front().stage.get();
-    }
-    if (mMutants.size() == kEngines) mMutants.pop_back();
-    auto stage = Stage::open(options, mutation.make());
-    if (!stage) return stage.error();
-    mMutants.push_front({ mutation.name, std::move(*stage) });
-    return mMutants.front().stage.get();
-}
-
 /// Whether draws read it: if so, they show it where it is exaggerated.
-Result<std::string> MutantRun::faultOfUnnoticed(Mutation const& mutation, StageOptions const& options,
-                                                SceneSpec const& spec, Image const& reference,
-                                                DefectReach const& reach) {
+Result<std::string> faultOfUnnoticed(Mutation const& mutation, StageOptions const& options, SceneSpec const& spec,
+                                     Image const& reference, DefectReach const& reach) {
     if (std::string why = whyUndrawn(mutation, reach); !why.empty()) return why;
     if (!reach.hasNumbers)
         return fmt::format("{} was not noticed, though draws have {}", titleOf(mutation), reach.changed);
@@ -69,9 +42,20 @@ Result<std::string> MutantRun::faultOfUnnoticed(Mutation const& mutation, StageO
     return fmt::format("{} was not noticed, though draws read what it changes in {}", titleOf(mutation), reach.changed);
 }
 
-Result<MutantVerdict> MutantRun::run(Mutation const& mutation, StageOptions const& options, SceneSpec const& spec,
-                                     Image const& reference) {
-    const Result<Stage*> stage = stageOf(mutation, options);
+} // namespace
+
+std::string whyUndrawn(Mutation const& mutation, DefectReach const& reach) {
+    if (reach.changed.empty())
+        return fmt::format("{} proves nothing: no command has what it changes; {}", titleOf(mutation), kCure);
+    if (!reach.isDrawn)
+        return fmt::format("{} proves nothing: no draw has what it changes, {}; {}", titleOf(mutation), reach.changed,
+                           kCure);
+    return {};
+}
+
+Result<MutantVerdict> runMutant(Mutation const& mutation, StageOptions const& options, SceneSpec const& spec,
+                                Image const& reference) {
+    const auto stage = Stage::open(options, mutation.make());
     if (!stage) return stage.error();
     Result<Drawn> drawn = drawBeside(reference, **stage, spec);
     if (!drawn) return drawn.error();

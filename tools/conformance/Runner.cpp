@@ -34,8 +34,8 @@ struct Actor {
 /// Draws one case in all configurations and fills in its result.
 class CaseRun {
 public:
-    CaseRun(Options const& options, std::vector<Actor>& actors, MutantRun& mutants, SceneSpec const& spec)
-            : mOptions(options), mActors(actors), mMutants(mutants), mSpec(spec) {
+    CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec)
+            : mOptions(options), mActors(actors), mSpec(spec) {
         mResult.name = spec.name;
     }
 
@@ -143,7 +143,7 @@ private:
         const auto actor = std::ranges::find_if(
                 mActors, [&](Actor const& each) { return mutation->fits(each.configuration.stage.backend); });
         if (actor == mActors.end()) return; // a run without that API
-        Result<MutantVerdict> verdict = mMutants.run(*mutation, actor->configuration.stage, mSpec, mReference.image);
+        Result<MutantVerdict> verdict = runMutant(*mutation, actor->configuration.stage, mSpec, mReference.image);
         if (!verdict) return blame("mutant " + name, verdict.error().message);
         for (std::string const& error : verdict->errors) blame("mutant " + name, error);
         if (!verdict->fault.empty()) blame("mutations", verdict->fault);
@@ -166,7 +166,6 @@ private:
 
     Options const& mOptions;
     std::vector<Actor>& mActors;
-    MutantRun& mMutants;
     SceneSpec const& mSpec;
     Shot mReference;
     CaseResult mResult;
@@ -217,14 +216,13 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
     for (Actor const& actor : *actors)
         results.devices[toString(actor.stage->device().backend)] =
                 actor.stage->device().device + ", " + actor.stage->device().driver;
-    MutantRun mutants;
     Journal journal(options.journal);
     journal.devices(results.devices);
     for (size_t i = 0; i < cases.size() && !tools::isInterrupted(); ++i) {
         showCase(i, cases.size(), cases[i].name);
         journal.begins(cases[i].name);
         const auto start = std::chrono::steady_clock::now();
-        results.cases.push_back(CaseRun(options, *actors, mutants, cases[i]).run(*baselines));
+        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
         results.seconds[cases[i].name] =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         journal.ends(results.cases.back());
