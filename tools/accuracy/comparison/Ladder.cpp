@@ -14,7 +14,6 @@ namespace {
 using reference::BsdfModel;
 using reference::CoatTerm;
 using reference::CouplingTerm;
-using reference::DiffuseLight;
 using reference::EnergyTerm;
 using reference::Integrator;
 using reference::SheenTerm;
