@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Two tiers: `ctest` by itself runs everything; `ctest -C fast -L fast`, which is ./check, runs what tests/tiers/fast.json lists. The
 # target `fast_tests` builds what that needs. scripts/choose_tiers writes the list from measured data.
 #   tests        run whole

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// editable: a copy of the code of one variant's stage, for tests that change it. The variant gets the copy; others that
-/// shared the stage keep it as it was.
+/// editable: a copy of the code of one variant's stage, for tests that change it. The variant gets the copy; others
+/// that shared the stage keep it as it was.
 #pragma once
 
 #include "shaders/package/Package.h"

@@ -3,6 +3,7 @@
 
 #include "base/Suggest.h"
 #include "tools/common/CommandLine.h"
+#include "tools/materials/PlainMaterials.h"
 
 #include <filament/QualityBudget.h>
 
@@ -104,6 +105,7 @@ constexpr auto setTangents = setByName<tangentStorageFromName, &Settings::model,
 bool setExact(Settings& settings, std::string const& value) {
     if (value != "on" && value != "off") return false;
     settings.engine.exactShaders = value == "on";
+    settings.engine.debug.plainMaterials = &tools::plainMaterial;
     settings.engineKey = value == "on" ? "" : "exact=off"; // the default needs no separate engine
     return true;
 }

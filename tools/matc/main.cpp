@@ -190,7 +190,8 @@ bool compileOne(Options const& options, jobs::JobSystem* jobs) {
     return false;
 }
 
-/// One material: its stages side by side. Several: themselves, because the longest stage of each takes most of its time.
+/// One material: its stages side by side. Several: themselves, because the longest stage of each takes most of its
+/// time.
 int runProgram(int argc, char** argv) {
     const Parsed parsed = parseOptions(argc, argv);
     std::vector<Options> const& materials = parsed.materials;

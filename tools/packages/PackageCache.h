@@ -7,7 +7,8 @@
 ///           material is mistaken for another.
 ///   Limits  the entries that were used longest ago are deleted until the rest fits.
 ///   Thread  any, and several processes: entries are written under another name and renamed.
-///   Fails   as compileMaterial(), whose errors are not kept. An entry that cannot be read or written counts as missing.
+///   Fails   as compileMaterial(), whose errors are not kept. An entry that cannot be read or written counts as
+///           missing.
 ///   Cost    a hit: reading the entry and what it includes, less than a millisecond.
 #pragma once
 
