@@ -5,8 +5,7 @@
 
 #include "base/math/Half.h"
 #include "filament_core/assets/image/HdrDecoders.h"
-
-#include <zlib.h>
+#include "filament_core/assets/image/Zlib.h"
 
 #include <algorithm>
 #include <array>
@@ -149,13 +148,6 @@ bool expandRuns(std::span<const std::byte> packed, std::span<std::byte> out) {
         out = out.subspan(count);
     }
     return true;
-}
-
-bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out) {
-    uLongf size = out.size();
-    return uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                      packed.size()) == Z_OK &&
-           size == out.size();
 }
 
 void undoPredictor(std::span<std::byte> bytes) {

@@ -46,8 +46,7 @@ bool expandDwa(ExrBlock const& block, std::span<const std::byte> packed, std::sp
 
 /// Huffman-coded words, of which there must be exactly so many.
 bool expandHuffman(std::span<const std::byte> packed, std::span<uint16_t> words);
-/// The same for zlib streams, and for run lengths.
-bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out);
+/// The same for run lengths.
 bool expandRuns(std::span<const std::byte> packed, std::span<std::byte> out);
 /// RLE and ZIP store differences between neighbours, even bytes before odd ones.
 void undoPredictor(std::span<std::byte> bytes);

@@ -10,6 +10,7 @@
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrDecoders.h"
+#include "filament_core/assets/image/Zlib.h"
 
 #include <algorithm>
 #include <array>

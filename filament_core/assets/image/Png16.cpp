@@ -2,12 +2,10 @@
 #include "filament_core/assets/image/Png16.h"
 
 #include "filament_core/assets/image/PngChunks.h"
-
-#include <zlib.h>
+#include "filament_core/assets/image/Zlib.h"
 
 #include <array>
 #include <cstring>
-#include <new>
 #include <string_view>
 
 namespace filament::assets {
@@ -16,6 +14,7 @@ namespace {
 using PngBytes = std::vector<std::byte>;
 
 constexpr size_t kPixelBytes = 6;
+constexpr int kPngZlibLevel = 1; // the fastest
 
 /// The three channels of a pixel, highest byte first.
 void storePixel(uint32_t pixel, std::byte* to) {
@@ -47,16 +46,6 @@ PngBytes filteredRows(uint32_t width, uint32_t height, std::span<const std::byte
     return rows;
 }
 
-PngBytes compressed(PngBytes const& bytes) {
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    PngBytes out(size);
-    auto* const to = reinterpret_cast<Bytef*>(out.data());
-    const auto* const from = reinterpret_cast<const Bytef*>(bytes.data());
-    if (compress2(to, &size, from, static_cast<uLong>(bytes.size()), Z_BEST_SPEED) != Z_OK) throw std::bad_alloc();
-    out.resize(size);
-    return out;
-}
-
 } // namespace
 
 std::vector<std::byte> encodePng16(uint32_t width, uint32_t height, std::span<const std::byte> rgb10a2) {
@@ -73,7 +62,7 @@ std::vector<std::byte> encodePng16(uint32_t width, uint32_t height, std::span<co
     appendPngChunk(png, "IHDR", header);
     appendPngChunk(png, "sRGB", kPerceptual);
     appendPngChunk(png, "sBIT", kSignificant);
-    appendPngChunk(png, "IDAT", compressed(filteredRows(width, height, rgb10a2)));
+    appendPngChunk(png, "IDAT", deflateZlib(filteredRows(width, height, rgb10a2), kPngZlibLevel));
     appendPngChunk(png, "IEND", {});
     return png;
 }
