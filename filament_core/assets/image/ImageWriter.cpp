@@ -4,18 +4,16 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ExrWriter.h"
 #include "filament_core/assets/image/Png16.h"
 #include "filament_core/assets/image/PngColor.h"
 
 #include <glm/common.hpp>
 #include <png.h>
-#include <tinyexr.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 
 namespace filament::assets {
@@ -35,55 +33,13 @@ Error pngFailure(std::filesystem::path const& path, const char* verb, PngImage c
                 static_cast<const char*>(png.value.message));
 }
 
-// A named plane of tightly packed samples.
-struct Plane {
-    char name;
-    std::vector<std::byte> samples;
-};
-
-// Red, green, blue, white: ITU-R BT.709-6, item 1.
-constexpr std::array kRec709{ 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f };
-
-// OpenEXR requires planes in alphabetical order; `planes` is sorted.
-Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<Plane> planes,
-                         int pixelType) {
-    EXRHeader header;
-    InitEXRHeader(&header);
-    EXRImage image;
-    InitEXRImage(&image);
-    const auto count = static_cast<int>(planes.size());
-    std::vector<EXRChannelInfo> channels(planes.size());
-    std::vector<int> types(planes.size(), pixelType);
-    std::vector<unsigned char*> samples;
-    for (size_t i = 0; i < planes.size(); ++i) {
-        channels[i].name[0] = planes[i].name;
-        samples.push_back(reinterpret_cast<unsigned char*>(planes[i].samples.data()));
+Result<void> saveEncodedExr(std::filesystem::path const& path, ExrPixels const& pixels) {
+    if (std::max(pixels.width, pixels.height) > kMaxExrSide) {
+        return fail(ErrorCode::Unreadable,
+                    "cannot encode '{}': {} x {} pixels are more than {} per side; make it smaller", path.string(),
+                    pixels.width, pixels.height, kMaxExrSide);
     }
-    header.num_channels = image.num_channels = count;
-    header.channels = channels.data();
-    header.pixel_types = types.data();
-    header.requested_pixel_types = types.data();
-    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
-    std::array<float, 8> chromaticities = kRec709;
-    EXRAttribute attribute{ "chromaticities", "chromaticities", reinterpret_cast<unsigned char*>(&chromaticities),
-                            sizeof(chromaticities), 0 };
-    header.custom_attributes = &attribute;
-    header.num_custom_attributes = 1;
-    image.images = samples.data();
-    image.width = static_cast<int>(width);
-    image.height = static_cast<int>(height);
-
-    unsigned char* memory = nullptr;
-    const char* reason = nullptr;
-    const size_t size = SaveEXRImageToMemory(&image, &header, &memory, &reason);
-    if (size == 0) {
-        const std::string text = reason ? reason : "unknown reason";
-        if (reason) FreeEXRErrorMessage(reason);
-        return fail(ErrorCode::Unreadable, "cannot encode '{}': {}; use another format", path.string(), text);
-    }
-    Result<void> written = replaceFile(path, std::as_bytes(std::span(memory, size)));
-    std::free(memory);
-    return written;
+    return replaceFile(path, encodeExr(pixels));
 }
 
 template <class T>
@@ -195,33 +151,20 @@ Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_
                       std::span<const float3> pixels, ExrPrecision precision) {
     FILAMENT_ASSERT(width > 0 && height > 0 && pixels.size() == size_t(width) * height,
                     "writeExr takes width * height pixels, more than none");
-    std::array<Plane, 3> planes{ { { 'B', {} }, { 'G', {} }, { 'R', {} } } };
-    for (int c = 0; c < 3; ++c) {
-        std::vector<std::byte>& samples = planes[static_cast<size_t>(2 - c)].samples;
-        samples.reserve(pixels.size() * 4);
-        for (float3 const& pixel : pixels) {
-            if (precision == ExrPrecision::Half)
-                append(samples, halfFromFloat(pixel[c]));
-            else
-                append(samples, pixel[c]);
-        }
-    }
-    return writePlanes(path, width, height, planes,
-                       precision == ExrPrecision::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT);
+    if (precision == ExrPrecision::Float)
+        return saveEncodedExr(path, { width, height, "RGB", ExrType::Float, std::as_bytes(pixels) });
+    std::vector<uint16_t> halves;
+    halves.reserve(pixels.size() * 3);
+    for (float3 const& pixel : pixels)
+        for (int c = 0; c < 3; ++c) halves.push_back(halfFromFloat(pixel[c]));
+    return saveEncodedExr(path, { width, height, "RGB", ExrType::Half, std::as_bytes(std::span(halves)) });
 }
 
 Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba16f) {
     FILAMENT_ASSERT(width > 0 && height > 0 && rgba16f.size() == size_t(width) * height * 8,
                     "writeExr takes width * height * 8 bytes, more than none");
-    std::array<Plane, 4> planes{ { { 'A', {} }, { 'B', {} }, { 'G', {} }, { 'R', {} } } };
-    for (size_t i = 0; i < rgba16f.size(); i += 8) {
-        for (size_t c = 0; c < 4; ++c) {
-            const auto sample = rgba16f.subspan(i + (3 - c) * 2, 2);
-            planes[c].samples.insert(planes[c].samples.end(), sample.begin(), sample.end());
-        }
-    }
-    return writePlanes(path, width, height, planes, TINYEXR_PIXELTYPE_HALF);
+    return saveEncodedExr(path, { width, height, "RGBA", ExrType::Half, rgba16f });
 }
 
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image) {
