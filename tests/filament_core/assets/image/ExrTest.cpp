@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenEXR files that OpenEXR itself wrote (tests/fuzz/corpus/exr): lossy compressions, tiles, layers.
+// OpenEXR files that OpenEXR itself wrote (tests/fuzz/corpus/exr): every compression, tiles, layers.
+#include "base/math/Half.h"
 #include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 #include "tests/filament_core/assets/image/ImageFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "tests/filament_core/assets/image/StoredExr.h"
 
 #include <gmock/gmock.h>
 #include <zlib.h>
 
 #include <bit>
+#include <random>
+#include <set>
 #include <string>
 
 namespace filament::assets {
@@ -17,14 +20,8 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::byte> exrBytes(std::string const& name) {
-    const auto bytes = readFileBytes(tools::sourceDir() / "tests/fuzz/corpus/exr" / (name + ".exr"));
-    EXPECT_TRUE(bytes) << name;
-    return bytes ? *bytes : std::vector<std::byte>{};
-}
-
 HdrImage exrPicture(std::string const& name) {
-    const Result<HdrImage> picture = decodeHdrImage(exrBytes(name), name);
+    const Result<HdrImage> picture = decodeHdrImage(storedExr(name), name);
     EXPECT_TRUE(picture) << picture.error().message;
     return picture ? *picture : HdrImage{};
 }
@@ -33,8 +30,46 @@ TEST(Exr, WhatLosesNothingHasThePixelsThatWereWritten) {
     const HdrImage plain = exrPicture("plain");
     EXPECT_EQ(plain.width, 13u);
     EXPECT_EQ(plain.at(12, 0), float3(0.25f)) << "the even corner";
-    for (const char* name : { "pxr24_half", "tiled_zip", "tiled_piz_mips" })
+    for (const char* name :
+         { "rle_half", "zips_half", "zip_half", "piz_half", "pxr24_half", "tiled_zip", "tiled_piz_mips" })
         EXPECT_EQ(exrPicture(name).pixels, plain.pixels) << name;
+    const HdrImage plainFloat = exrPicture("plain_float");
+    for (size_t i = 0; i < plain.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            ASSERT_EQ(halfFromFloat(plainFloat.pixels[i][c]), halfFromFloat(plain.pixels[i][c])) << i;
+    for (const char* name : { "rle_float", "zips_float", "zip_float", "piz_float" })
+        EXPECT_EQ(exrPicture(name).pixels, plainFloat.pixels) << name;
+}
+
+/// What writePiz() in write.cpp wrote.
+HdrImage pizPicture(uint32_t width, uint32_t height, bool isFloat) {
+    std::mt19937 random(5);
+    HdrImage image{ .width = width, .height = height, .pixels = {}, .repairs = {} };
+    const uint32_t first = isFloat ? 0x3F800000 : 0x0400;
+    const auto value = [&](uint32_t bits) {
+        return isFloat ? std::bit_cast<float>(bits) : floatFromHalf(static_cast<uint16_t>(bits));
+    };
+    for (uint32_t i = 0; i < width * height; ++i) {
+        const auto number = i % 32 == 0 ? static_cast<uint32_t>(random() % 12000) : i;
+        image.pixels.emplace_back(value(first + 2 * number), i % 11 == 0 ? 1.0f : 0.5f, value(first + 2 * number + 1));
+    }
+    return image;
+}
+
+// Sides that are no powers of two, one row, one column, blocks that end early, and words of more than 14 bits.
+TEST(Exr, PizGivesThePixelsOfEverySizeAndRange) {
+    for (const auto& [width, height] :
+         { std::pair(1u, 1u), { 1u, 40u }, { 200u, 1u }, { 64u, 64u }, { 131u, 70u }, { 300u, 40u } }) {
+        for (const bool isFloat : { false, true }) {
+            const std::string name = fmt::format("piz_{}x{}_{}", width, height, isFloat ? "float" : "half");
+            EXPECT_EQ(exrPicture(name).pixels, pizPicture(width, height, isFloat).pixels) << name;
+        }
+    }
+    std::set<uint16_t> words;
+    const HdrImage wide = pizPicture(300, 40, false);
+    for (float3 const& pixel : std::span(wide.pixels).first(size_t{ 300 } * 32))
+        for (int c = 0; c < 3; ++c) words.insert(halfFromFloat(pixel[c]));
+    EXPECT_GT(words.size(), 1u << 14) << "of the first block";
 }
 
 TEST(Exr, CodingsOfIntegersHaveThePixelsThatOpenExrReads) {
@@ -116,7 +151,7 @@ struct OneBlock {
 };
 
 TEST(Exr, WordsOfCosinesMayBeAZlibStream) {
-    const std::vector<std::byte> file = exrBytes("dwaa_one_block");
+    const std::vector<std::byte> file = storedExr("dwaa_one_block");
     OneBlock block(file);
     EXPECT_EQ(block.file(), file);
     ASSERT_EQ(block.sizes[OneBlock::kCoding], 0u);
@@ -136,7 +171,7 @@ TEST(Exr, WordsOfCosinesMayBeAZlibStream) {
 }
 
 TEST(Exr, TheFirstVersionOfCosinesHasNoRulesOfItsOwn) {
-    OneBlock block(exrBytes("dwaa_one_block"));
+    OneBlock block(storedExr("dwaa_one_block"));
     block.sizes[OneBlock::kVersion] = 1;
     block.rules.clear();
     const Result<HdrImage> picture = decodeHdrImage(block.file(), "version 1");
@@ -153,7 +188,7 @@ TEST(Exr, TheFirstVersionOfCosinesHasNoRulesOfItsOwn) {
 TEST(Exr, DamagedFilesAreRefusedOrReadWhole) {
     for (const char* name : { "pxr24_half", "pxr24_float", "b44", "b44a", "b44_perceptual", "dwaa", "dwaa_float",
                               "dwaa_one_block", "dwab", "tiled_zip", "tiled_piz_mips", "tiled_dwaa_rips" }) {
-        const std::vector<std::byte> file = exrBytes(name);
+        const std::vector<std::byte> file = storedExr(name);
         size_t pictures = 0;
         for (uint32_t seed = 0; seed < 300; ++seed) pictures += test::fuzzHdrImage(damaged(file, seed, 3));
         EXPECT_LT(pictures, 300u) << name;
@@ -161,7 +196,7 @@ TEST(Exr, DamagedFilesAreRefusedOrReadWhole) {
 }
 
 TEST(Exr, TilesOfNoSizeAndOtherKindsOfFilesAreRefused) {
-    std::vector<std::byte> file = exrBytes("tiled_zip");
+    std::vector<std::byte> file = storedExr("tiled_zip");
     constexpr std::string_view kTiles("tiles\0tiledesc\0\x09\0\0\0", 19);
     const auto* begin = reinterpret_cast<char const*>(file.data());
     const size_t at = std::string_view(begin, file.size()).find(kTiles);
@@ -180,7 +215,7 @@ TEST(Exr, TilesOfNoSizeAndOtherKindsOfFilesAreRefused) {
     setWords(kTiles, { 16384, 4096 });
     setWords(std::string_view("dataWindow\0box2i\0\x10\0\0\0", 21), { 0, 0, 16383, 4095 });
     EXPECT_THAT(refusal(), HasSubstr("its tiles have more than 512 MiB"));
-    file = exrBytes("plain");
+    file = storedExr("plain");
     file[5] = std::byte{ 0x08 }; // deep
     EXPECT_THAT(refusal(), HasSubstr("it is deep or has several parts"));
 }

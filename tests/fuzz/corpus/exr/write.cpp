@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the files of this folder by OpenEXR itself, which the engine does not link. Not part of the build:
 //   apt-get install libopenexr-dev && g++ write.cpp $(pkg-config --cflags --libs OpenEXR) -o write && ./write
-// NAME.decoded.exr has the pixels that OpenEXR reads from the lossy NAME.exr, uncompressed.
+// NAME.decoded.exr has the pixels that OpenEXR reads from the lossy NAME.exr, uncompressed. The test that reads
+// piz_WIDTHxHEIGHT_TYPE.exr computes the pixels again.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -11,7 +12,9 @@
 
 #include <cmath>
 #include <map>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace Imf;
@@ -98,9 +101,48 @@ void writeDecoded(File const& file) {
     out.writePixels(file.height);
 }
 
+/// PIZ numbers the words that occur in a block, and transforms 2^14 of them and more in another way: in blocks of 300
+/// columns there are so many. Pixels are bits that count up, one in 32 of them at random.
+void writePiz(int width, int height, PixelType type) {
+    std::mt19937 random(5);
+    const size_t bytes = type == FLOAT ? 4 : 2;
+    const unsigned one = type == FLOAT ? 0x3F800000 : 0x3C00, half = type == FLOAT ? 0x3F000000 : 0x3800,
+                   first = type == FLOAT ? one : 0x0400;
+    std::map<std::string, std::vector<char>> planes;
+    const auto add = [&](const char* name, unsigned bits) { // little-endian
+        for (size_t i = 0; i < bytes; ++i) planes[name].push_back(static_cast<char>(bits >> 8 * i));
+    };
+    for (unsigned i = 0; i < static_cast<unsigned>(width * height); ++i) {
+        const unsigned number = i % 32 == 0 ? static_cast<unsigned>(random() % 12000) : i;
+        add("R", first + 2 * number);
+        add("G", i % 11 == 0 ? one : half);
+        add("B", first + 2 * number + 1);
+    }
+    Header header(width, height);
+    header.compression() = PIZ_COMPRESSION;
+    FrameBuffer slices;
+    for (auto& [name, plane] : planes) {
+        header.channels().insert(name, Channel(type));
+        slices.insert(name, Slice(type, plane.data(), bytes, bytes * static_cast<size_t>(width)));
+    }
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    OutputFile out(("piz_" + size + (type == HALF ? "_half.exr" : "_float.exr")).c_str(), header);
+    out.setFrameBuffer(slices);
+    out.writePixels(height);
+}
+
 int main() {
     const File files[] = {
         { "plain", NO_COMPRESSION },
+        { "plain_float", NO_COMPRESSION, FLOAT },
+        { "rle_half", RLE_COMPRESSION },
+        { "rle_float", RLE_COMPRESSION, FLOAT },
+        { "zips_half", ZIPS_COMPRESSION },
+        { "zips_float", ZIPS_COMPRESSION, FLOAT },
+        { "zip_half", ZIP_COMPRESSION },
+        { "zip_float", ZIP_COMPRESSION, FLOAT },
+        { "piz_half", PIZ_COMPRESSION },
+        { "piz_float", PIZ_COMPRESSION, FLOAT },
         { "pxr24_half", PXR24_COMPRESSION, HALF, false, true },
         { "pxr24_float", PXR24_COMPRESSION, FLOAT, false, true, true },
         { "b44", B44_COMPRESSION, HALF, false, true, true },
@@ -118,4 +160,6 @@ int main() {
         write(file);
         if (file.isLossy) writeDecoded(file);
     }
+    for (const auto& [width, height] : { std::pair(1, 1), { 1, 40 }, { 200, 1 }, { 64, 64 }, { 131, 70 }, { 300, 40 } })
+        for (const PixelType type : { HALF, FLOAT }) writePiz(width, height, type);
 }
