@@ -14,7 +14,6 @@ find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
 find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
 find_package(nlohmann_json REQUIRED)
 find_package(meshoptimizer REQUIRED)
-find_package(tinyexr REQUIRED)
 find_package(draco REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
@@ -55,8 +54,8 @@ target_link_libraries(spirv_validator INTERFACE SPIRV-Tools-static)
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG JPEG::JPEG
-    ZLIB::ZLIB PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
+    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer draco::draco PNG::PNG JPEG::JPEG ZLIB::ZLIB
+    PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
 # The reference renderer's ray tracer. Its CMake package requires TBB's headers, which are not needed here.
 find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)

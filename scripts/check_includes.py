@@ -82,7 +82,7 @@ LIBRARIES = {
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
     r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "filament_core/engine", "tests"],
     r"draco/|meshoptimizer\.h": ["filament_core/assets/gltf"],
-    r"stb_?image|stb/|tinyexr|png\.h|jpeglib\.h|webp/|avif/": ["filament_core/assets/image", "filament_core/assets/gltf"],
+    r"stb_?image|stb/|png\.h|jpeglib\.h|webp/|avif/": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zlib\.h": ["shaders/package", "filament_core/assets/image", "filament_core/assets/gltf"],
     r"zstd\.h": ["filament_core/assets/image"],
     r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "tools", "tests",

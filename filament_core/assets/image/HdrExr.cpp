@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenEXR, scan lines and tiles of one part. "Technical Introduction to OpenEXR", "OpenEXR File Layout" (openexr.com).
-// Nothing is left to libtinyexr, which leaks memory and asserts on damaged files.
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrDecoders.h"
