@@ -178,9 +178,10 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
 
 namespace {
 
-// SPIRV-Tools' own list for performance (Optimizer::RegisterPerformancePasses) without the repetitions that leave every
-// material of the engine as it is: dead code is removed three times instead of nine, and local variables once instead
-// of twice. That is a third of the list's time.
+// SPIRV-Tools' own list for performance (Optimizer::RegisterPerformancePasses) with fewer repetitions: dead code is
+// removed three times instead of nine, and local variables once instead of twice, which saves a third of the time.
+// Of 261 stages of the engine's materials, 195 keep every byte and the others differ by a few words; no picture
+// changes.
 void registerPerformancePasses(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateWrapOpKillPass())
             .RegisterPass(spvtools::CreateDeadBranchElimPass())
