@@ -26,12 +26,13 @@ struct Dispatch {
 
 // ---------------------------------------------------------------------------------------------- life time
 
-Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options, ResultSink& sink) {
+Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options, ResultSink& sink, QuirkFilter filter) {
     auto instance = Instance::create(options.validation ? &sink : nullptr, options.display);
     if (!instance) return instance.error();
     std::vector<PhysicalDevice> devices = surveyDevices(**instance);
     const Result<size_t> choice = chooseDevice(devices, options.requireDevice);
     if (!choice) return choice.error();
+    if (filter) filter(devices[*choice].quirks);
     auto device = Device::create(std::move(*instance), std::move(devices[*choice]));
     if (!device) return device.error();
     return create(std::move(*device), sink, options.cacheDirectory);

@@ -38,7 +38,8 @@ namespace filament::backend::vulkan {
 
 class Executor final : public Driver {
 public:
-    static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink);
+    static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink,
+                                                    QuirkFilter filter = nullptr);
     /// On a device chosen by the caller.
     static Result<std::unique_ptr<Executor>> create(std::unique_ptr<Device> device, ResultSink& sink,
                                                     std::filesystem::path const& cacheDirectory = {});

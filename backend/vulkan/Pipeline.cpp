@@ -110,7 +110,7 @@ void fillBlend(BlendInfo& blend, Device const& device, PipelineDesc const& desc,
         if ((written >> i & 1) == 0) blend.attachments[i].colorWriteMask = 0;
         if (!device.physical().features.independentBlend) blend.attachments[i] = blend.attachments[0];
     }
-    blend.info.attachmentCount = desc.pass.colorCount;
+    blend.info.attachmentCount = colorReferences(device.physical().quirks, desc.pass);
     blend.info.pAttachments = blend.attachments.data();
 }
 

@@ -21,7 +21,7 @@ uint32_t uniformBuffersIn(BindGroupLayout const& layout, ShaderStage stage, bool
 
 Quirks Quirks::of(VkDriverId driver) {
     const bool isLavapipe = driver == VK_DRIVER_ID_MESA_LLVMPIPE;
-    return { .spoilsFourthUniforms = isLavapipe, .inlinesUniforms = isLavapipe };
+    return { .spoilsFourthUniforms = isLavapipe, .inlinesUniforms = isLavapipe, .clearsIndependentBlend = isLavapipe };
 }
 
 uint32_t spareBindings(BindGroupLayout const& layout,
@@ -45,6 +45,10 @@ uint32_t spareBindings(BindGroupLayout const& layout,
     add(both, ShaderStage::Both);
     add(std::max(vertex, fragment) - both, vertex > fragment ? ShaderStage::Vertex : ShaderStage::Fragment);
     return count;
+}
+
+uint32_t colorReferences(Quirks const& quirks, PassLayout const& layout) {
+    return quirks.clearsIndependentBlend && layout.colorCount == 0 ? 1 : layout.colorCount;
 }
 
 } // namespace filament::backend::vulkan

@@ -40,8 +40,24 @@ struct Quirks {
     /// Test    tests/filament_core/engine/CompilationsTest.cpp, tests/tools/view/app/WindowStormTest.cpp.
     bool inlinesUniforms = false;
 
+    /// Driver  lavapipe, found in Mesa 25.0.7 and 26.1.6; 22.3.6 does not have it.
+    /// What    after a pipeline without colour attachments, all attachments of the later pipelines of a command buffer
+    ///         are blended and masked like their first. A tone mapper that reads attachment 0 and writes 1 in a second
+    ///         subpass leaves 1 as it was, and so the whole picture, in every frame that also draws depth alone.
+    /// Why     handle_graphics_pipeline() of lvp_execute.c clears all blend state, and with it that attachments have
+    ///         their own (independent_blend_enable), which only the start of a command buffer sets.
+    /// Cure    colorReferences(): such a pass has one colour, which is unused.
+    /// Cost    a reference that names nothing, in passes of depth alone.
+    /// Test    tests/backend/vulkan/QuirksTest.cpp shows the fault; Pass.AttachmentsKeepTheirOwnBlendingAfterDepthAlone
+    ///         of tests/backend/create requires the cure.
+    /// Remove  when the oldest Mesa that is supported has the correction that docs/driver-faults.md proposes.
+    bool clearsIndependentBlend = false;
+
     static Quirks of(VkDriverId driver);
 };
+
+/// Changes what is known of a device, for tests: without a quirk's cure they show its fault.
+using QuirkFilter = void (*)(Quirks&);
 
 inline constexpr size_t kMaxSpareBindings = 2;
 
@@ -49,5 +65,9 @@ inline constexpr size_t kMaxSpareBindings = 2;
 /// come before those of materials, gets spare ones up to the fourth. Returns how many of `bindings` it has filled.
 uint32_t spareBindings(BindGroupLayout const& layout,
                        std::span<VkDescriptorSetLayoutBinding, kMaxSpareBindings> bindings);
+
+/// How many colours each subpass refers to, and how many the blend state of its pipelines has: those of the pass, but
+/// for clearsIndependentBlend one at least.
+uint32_t colorReferences(Quirks const& quirks, PassLayout const& layout);
 
 } // namespace filament::backend::vulkan

@@ -114,7 +114,8 @@ void describeDependencies(PassLayout const& layout, RenderPassParts& parts) {
 /// The same structures for vkCreateRenderPass2, the only version that can resolve depth.
 class RenderPassParts2 {
 public:
-    RenderPassParts2(PassLayout const& layout, RenderPassParts const& parts) : mAspects(aspectsOf(layout.depthFormat)) {
+    RenderPassParts2(PassLayout const& layout, RenderPassParts const& parts, uint32_t colorCount)
+            : mAspects(aspectsOf(layout.depthFormat)), mColorCount(colorCount) {
         for (uint32_t i = 0; i < parts.attachmentCount; ++i) addAttachment(parts.attachments[i]);
         for (VkSubpassDependency const& each : parts.dependencies) addDependency(each);
         for (uint32_t i = 0; i < layout.subpassCount; ++i) addSubpass(layout, i, parts.subpasses[i]);
@@ -176,7 +177,7 @@ private:
 
     void addSubpass(PassLayout const& layout, uint32_t index, RenderPassParts::Subpass const& of) {
         Subpass& part = mParts[index];
-        for (uint32_t i = 0; i < layout.colorCount; ++i) {
+        for (uint32_t i = 0; i < mColorCount; ++i) {
             part.colors[i] = reference(of.colors[i], VK_IMAGE_ASPECT_COLOR_BIT);
             part.inputs[i] = reference(of.inputs[i], VK_IMAGE_ASPECT_COLOR_BIT);
             part.resolves[i] = reference(of.resolves[i], VK_IMAGE_ASPECT_COLOR_BIT);
@@ -194,7 +195,7 @@ private:
         to = make<VkSubpassDescription2>(VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2);
         to.pNext = &part.resolve;
         to.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-        to.colorAttachmentCount = layout.colorCount;
+        to.colorAttachmentCount = mColorCount;
         to.pColorAttachments = part.colors.data();
         to.pResolveAttachments = layout.resolveMask != 0 ? part.resolves.data() : nullptr;
         to.inputAttachmentCount = readColors(layout, index) != 0 ? layout.colorCount : 0;
@@ -205,6 +206,7 @@ private:
     }
 
     VkImageAspectFlags mAspects;
+    uint32_t mColorCount; ///< references of each subpass
     std::vector<VkAttachmentDescription2> mAttachments;
     std::vector<VkSubpassDependency2> mDependencies;
     std::array<Subpass, kMaxSubpasses> mParts;
@@ -217,12 +219,13 @@ VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
     RenderPassParts parts;
     describeAttachments(key, parts);
     describeDependencies(layout, parts);
+    const uint32_t colorCount = colorReferences(device.physical().quirks, layout);
     std::array<VkSubpassDescription, kMaxSubpasses> subpasses{};
     for (uint32_t i = 0; i < layout.subpassCount; ++i) {
         RenderPassParts::Subpass& part = parts.subpasses[i];
         describeSubpass(layout, i, part);
         subpasses[i].pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-        subpasses[i].colorAttachmentCount = layout.colorCount;
+        subpasses[i].colorAttachmentCount = colorCount;
         subpasses[i].pColorAttachments = part.colors.data();
         subpasses[i].pResolveAttachments = layout.resolveMask != 0 ? part.resolves.data() : nullptr;
         subpasses[i].inputAttachmentCount = readColors(layout, i) != 0 ? layout.colorCount : 0;
@@ -231,7 +234,7 @@ VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
         subpasses[i].preserveAttachmentCount = part.preservedCount;
         subpasses[i].pPreserveAttachments = part.preserved.data();
     }
-    if (layout.resolvesDepth) return RenderPassParts2(layout, parts).create(device);
+    if (layout.resolvesDepth) return RenderPassParts2(layout, parts, colorCount).create(device);
     auto info = make<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
     info.attachmentCount = parts.attachmentCount;
     info.pAttachments = parts.attachments.data();

@@ -49,30 +49,57 @@ DRIVER_TEST(Pass, DiscardedContentsMayBeDrawnOverCompletely) {
     EXPECT_THAT(gpu.readAs<Rgba8>(target, { 0, 0, 4, 4 }), Each(Rgba8{ 255, 0, 255, 255 }));
 }
 
-DRIVER_TEST(Pass, DepthAloneIsAPassAndCarriesOverToTheNext) {
-    const TextureHandle depth = gpu.target(Format::D32F, 4, 4), color = gpu.target(Format::RGBA32F, 4, 4);
-    PassDesc first;
-    first.layout.depthFormat = Format::D32F;
-    first.depth = { .texture = depth };
-    first.area = { 0, 0, 4, 4 };
-    PipelineDesc desc = pipelineFor(gpu.program(kFullScreenVertex, "#version 450\nvoid main() {}\n"), first.layout);
+/// The left half of 4 x 4 pixels, without a colour attachment.
+void drawDepthAlone(Gpu& gpu, TextureHandle depth) {
+    PassDesc pass;
+    pass.layout.depthFormat = Format::D32F;
+    pass.depth = { .texture = depth };
+    pass.area = { 0, 0, 4, 4 };
+    PipelineDesc desc = pipelineFor(gpu.program(kFullScreenVertex, "#version 450\nvoid main() {}\n"), pass.layout);
     desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = true };
-    const PipelineHandle depthOnly = gpu.pipeline(desc);
-    gpu.record(CmdBeginPass{ first });
-    gpu.record(CmdBindPipeline{ depthOnly });
+    const PipelineHandle pipeline = gpu.pipeline(desc);
+    gpu.record(CmdBeginPass{ pass });
+    gpu.record(CmdBindPipeline{ pipeline });
     gpu.record(CmdSetScissor{ { 0, 0, 2, 4 } });
     gpu.record(CmdDraw{ .vertexCount = 3 });
     gpu.record(CmdEndPass{});
+}
 
+DRIVER_TEST(Pass, DepthAloneIsAPassAndCarriesOverToTheNext) {
+    const TextureHandle depth = gpu.target(Format::D32F, 4, 4), color = gpu.target(Format::RGBA32F, 4, 4);
+    drawDepthAlone(gpu, depth);
     PassDesc second = passOver({ { color, Format::RGBA32F } }, 4, 4);
     second.layout.depthFormat = Format::D32F;
     second.depth = { .texture = depth, .load = LoadOp::Load };
-    desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 0.0, 1.0);")),
-                       second.layout);
+    PipelineDesc desc = pipelineFor(
+            gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 0.0, 1.0);")), second.layout);
     desc.depthStencil = { .depthCompare = CompareOp::Equal }; // equal vertex stages give equal depths: z pre-pass
     drawFullScreen(gpu, second, gpu.pipeline(desc));
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(color, { 0, 0, 4, 4 });
     for (uint32_t i = 0; i < 16; ++i) EXPECT_EQ(texels[i], i % 4 < 2 ? kRed : Rgba{}) << i;
+}
+
+/// Both passes in one submission, as in a frame (vulkan::Quirks::clearsIndependentBlend).
+DRIVER_TEST(Pass, AttachmentsKeepTheirOwnBlendingAfterDepthAlone) {
+    const TextureHandle depth = gpu.target(Format::D32F, 4, 4);
+    const TextureHandle added = gpu.target(Format::RGBA32F, 4, 4), masked = gpu.target(Format::RGBA32F, 4, 4);
+    PassDesc pass = passOver({ { added, Format::RGBA32F }, { masked, Format::RGBA32F } }, 4, 4);
+    pass.colors[0].clear = { 1, 2, 3, 4 };
+    pass.colors[1].clear = { 1, 2, 3, 4 };
+    PipelineDesc desc = pipelineFor(gpu.program(kFullScreenVertex, R"(#version 450
+layout(location = 0) out vec4 first;
+layout(location = 1) out vec4 second;
+void main() { first = vec4(0.5); second = vec4(8.0); })"),
+                                    pass.layout);
+    desc.blend[0] = {
+        .enabled = true, .dstColor = BlendFactor::One, .dstAlpha = BlendFactor::One, .writeMask = 0b0101
+    };
+    desc.blend[1] = { .writeMask = 0b1010 };
+    const PipelineHandle pipeline = gpu.pipeline(desc);
+    drawDepthAlone(gpu, depth);
+    drawFullScreen(gpu, pass, pipeline);
+    EXPECT_THAT(gpu.readAs<Rgba>(added, { 0, 0, 4, 4 }), Each(Rgba{ 1.5f, 2, 3.5f, 4 }));
+    EXPECT_THAT(gpu.readAs<Rgba>(masked, { 0, 0, 4, 4 }), Each(Rgba{ 1, 8, 3, 8 }));
 }
 
 // ---------------------------------------------------------------------------------------------- multisampling
@@ -387,6 +414,20 @@ DRIVER_TEST(Pass, ALaterSubpassReadsTheSamePixelOfAnEarlierOne) {
                 ASSERT_EQ(texels[i], expected) << i;
             }
         }
+    }
+}
+
+/// A shadow map and a tone mapper that reads the colours of its own pass: what a first frame draws in one submission.
+DRIVER_TEST(Pass, ALaterSubpassDrawsAfterDepthAlone) {
+    if (!gpu.info().features.mergedPasses) GTEST_SKIP() << "this device cannot merge passes";
+    const TextureHandle depth = gpu.target(Format::D32F, 4, 4);
+    const Merged merged = makeMerged(gpu, Format::RGBA16F, true);
+    drawDepthAlone(gpu, depth);
+    recordMerged(gpu, merged);
+    const std::vector<Rgba> texels = gpu.readAs<Rgba>(merged.second, { 0, 0, 6, 4 });
+    for (uint32_t i = 0; i < texels.size(); ++i) {
+        const Rgba expected{ static_cast<float>(i % 6) * 0.5f, static_cast<float>(i / 6) * 0.5f, 2, 2 };
+        ASSERT_EQ(texels[i], expected) << i;
     }
 }
 

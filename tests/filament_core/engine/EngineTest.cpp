@@ -111,6 +111,21 @@ TEST_P(EngineTest, LightsBrightenWhatTheyShineOn) {
     EXPECT_EQ(test::halfPixel(black, 80, 70), float4(0, 0, 0, 1));
 }
 
+/// A shadow map before a tone mapper that reads the colours of its own pass, in the first commands of a device. A
+/// driver with vulkan::Quirks::clearsIndependentBlend leaves such a picture blank.
+TEST_P(EngineTest, DrawsItsFirstFrameLikeTheNext) {
+    Spheres spheres(*mEngine);
+    spheres.view.quality.shadows = ShadowFilter::Pcf3;
+    Renderer renderer(*mEngine);
+    const auto first = renderer.renderToImage(spheres.scene, spheres.view);
+    ASSERT_TRUE(first.ok());
+    EXPECT_NE(renderer.graphviz().find("shadow"), std::string::npos) << renderer.graphviz();
+    EXPECT_GT(test::bytePixel(*first, 40, 52).x, 0.05f);
+    const auto second = renderer.renderToImage(spheres.scene, spheres.view);
+    ASSERT_TRUE(second.ok());
+    EXPECT_EQ(first->pixels, second->pixels);
+}
+
 TEST_P(EngineTest, AMirroredSphereLooksLikeTheOthers) {
     // The middle sphere has a negative x scale: its faces must not turn inside out.
     Spheres spheres(*mEngine);
