@@ -339,7 +339,9 @@ private:
         for (size_t i = 3; i + 1 < phi.size(); i += 2) {
             if (mEdges.contains({ phi[i + 1], block.label })) append(out, phi.subspan(i, 2));
         }
-        if (out.size() - at > 3 && block.continuedBy != 0) append(out, std::array{ out[at + 3], block.continuedBy });
+        const bool hasRoom = out.size() - at < phi.size(); // in a valid module that of the way back
+        if (hasRoom && out.size() - at > 3 && block.continuedBy != 0)
+            append(out, std::array{ out[at + 3], block.continuedBy });
         const size_t count = out.size() - at;
         out[at] = static_cast<uint32_t>(count) << 16 | (count > 3 ? OpPhi : OpUndef);
     }
@@ -373,15 +375,16 @@ struct Module {
     bool folds = false;
 
     Module(Words words, Values& values) {
-        size_t begin = 0;
+        size_t begin = 0; // of the function that the walk is in
         forEach(words.subspan(kHeaderWords), [&](Words it) {
             const auto at = static_cast<size_t>(it.data() - words.data());
-            if (opOf(it) == OpFunction && begin == 0) globals = words.first(at);
+            if (opOf(it) == OpFunction && globals.empty()) globals = words.first(at);
             if (opOf(it) == OpFunction) begin = at;
-            if (begin == 0) values.read(it);
+            if (globals.empty()) values.read(it);
             if (opOf(it) != OpFunctionEnd || begin == 0) return;
             functions.emplace_back(words.subspan(begin, at + it.size() - begin), values);
             folds |= functions.back().folds();
+            begin = 0;
         });
     }
 };
