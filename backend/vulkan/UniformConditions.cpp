@@ -12,6 +12,7 @@ namespace filament::backend::vulkan {
 namespace {
 
 constexpr size_t kModuleHeader = 5, kBound = 3;
+constexpr uint32_t kMostWords = 0xFFFF; // of an instruction
 
 enum Op : uint32_t {
     OpExtInst = 12,
@@ -71,18 +72,19 @@ struct Instruction {
     size_t at = 0;                     ///< in the module
     std::span<const uint32_t> words{}; ///< with the first one, which has op and size
     uint32_t word(size_t i) const { return i < words.size() ? words[i] : 0; }
+    /// Words from the `first`, at most `count`; fewer if the module is not valid.
+    std::span<const uint32_t> from(size_t first, size_t count = ~size_t{ 0 }) const {
+        const size_t begin = std::min(first, words.size());
+        return words.subspan(begin, std::min(count, words.size() - begin));
+    }
 };
 
 /// The operands that are ids of values.
 std::span<const uint32_t> valuesOf(Instruction const& it) {
-    const auto from = [&](size_t first, size_t count = ~size_t{ 0 }) {
-        const size_t begin = std::min(first, it.words.size());
-        return it.words.subspan(begin, std::min(count, it.words.size() - begin));
-    };
-    if (it.op == OpExtInst) return from(5);
-    if (it.op == OpCompositeExtract) return from(3, 1);
-    if (it.op == OpCompositeInsert || it.op == OpVectorShuffle) return from(3, 2);
-    return from(3);
+    if (it.op == OpExtInst) return it.from(5);
+    if (it.op == OpCompositeExtract) return it.from(3, 1);
+    if (it.op == OpCompositeInsert || it.op == OpVectorShuffle) return it.from(3, 2);
+    return it.from(3);
 }
 
 class Rewriter {
@@ -100,7 +102,7 @@ public:
         for (Branch const& branch : mBranches) {
             if (readsUniforms(branch.condition)) mHidden.push_back(branch);
         }
-        if (mHidden.empty() || !mEntryPoint) return std::move(mWords);
+        if (mHidden.empty() || !mEntryPoint || sizeOfEntryPoint() == kMostWords) return std::move(mWords);
         makeTruth();
         for (Branch const& branch : mHidden) hide(branch);
         return rewritten();
@@ -156,7 +158,7 @@ private:
     }
 
     void noteBranch(Instruction const& it) {
-        if (mFirstBlocks.empty()) return;
+        if (mFirstBlocks.empty() || mFirstBlocks.back() == 0 || it.words.size() < 2) return; // not a valid module
         const bool hasMerge = mMergeAt != 0 && mMergeAt + (mWords[mMergeAt] >> 16) == it.at;
         mBranches.push_back({ it.op, it.at, hasMerge ? mMergeAt : it.at, mFirstBlocks.size() - 1, it.word(1) });
     }
@@ -231,7 +233,7 @@ private:
         Known known = kConstant;
         const uint32_t base = baseOf(pointer);
         for (uint32_t at = pointer; at != base; at = value(at)->made.word(3))
-            known |= ofAll(value(at)->made.words.subspan(4), depth);
+            known |= ofAll(value(at)->made.from(4), depth);
         Value const* variable = value(base);
         if (!variable || variable->made.op != OpVariable) return kVarying;
         const uint32_t storage = variable->made.word(3);
@@ -242,6 +244,7 @@ private:
     // ---- the new module
 
     uint32_t newId() { return mBound++; }
+    uint32_t sizeOfEntryPoint() const { return mWords[mEntryPoint] >> 16; }
     uint32_t builtIn() const { return mIsVertex ? kVertexIndex : kFragCoord; }
     void insert(size_t at, uint32_t op, std::initializer_list<uint32_t> operands) {
         std::vector<uint32_t>& words = mInserted[at];
@@ -294,11 +297,12 @@ private:
     void addBuiltIn(uint32_t type) {
         const uint32_t pointer = typeOr(mInputPointers[type], OpTypePointer, { kStorageOfInput, type });
         mBuiltIn = newId();
-        insert(mTypesAt, OpDecorate, { mBuiltIn, kDecorationBuiltIn, builtIn() });
+        insert(mTypesAt ? mTypesAt : mFunctionsAt, OpDecorate, { mBuiltIn, kDecorationBuiltIn, builtIn() });
         insert(mFunctionsAt, OpVariable, { pointer, mBuiltIn, kStorageOfInput });
-        const uint32_t size = mWords[mEntryPoint] >> 16;
+        const uint32_t size = sizeOfEntryPoint();
         mWords[mEntryPoint] = (size + 1) << 16 | OpEntryPoint;
-        mInserted[mEntryPoint + size] = { mBuiltIn }; // one more word of the entry point
+        std::vector<uint32_t>& behind = mInserted[mEntryPoint + size];
+        behind.insert(behind.begin(), mBuiltIn); // one more word of the entry point
     }
 
     size_t functionsAt() const {

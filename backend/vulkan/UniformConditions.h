@@ -9,7 +9,7 @@
 ///   Source  SPIR-V 1.6 specification, sections 2.4 (logical layout) and 3.52 (instructions).
 ///   Thread  any; a pure function.
 ///   Limits  sees through arithmetic, phis and variables of functions, not through calls. A module that is not valid
-///           may become another one that is not valid.
+///           may become another one that is not valid, of whole instructions (fuzzed: tests/fuzz/ShaderWordsFuzz.cpp).
 ///   Cost    two walks over the words; one operation for each such condition and invocation.
 #pragma once
 
