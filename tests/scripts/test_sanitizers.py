@@ -61,10 +61,26 @@ class Fuzzers(unittest.TestCase):
         self.assertEqual([path.name for path in check_sanitizers.seeds_of("MaterialTextFuzz")], ["material_text"])
         self.assertEqual(check_sanitizers.seeds_of("NoSuchFuzz"), [])
 
+    def test_the_note_sums_the_last_run_of_each(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def keep(name, time, commit, seconds, runs, findings):
+                return check_sanitizers.keep_run(pathlib.Path(folder), name, {"commit": commit, "time": time, "seconds": seconds,
+                                                                              "runs": runs, "findings": findings})
+            keep("AFuzz", "2026-01-02T10:00:00", "1", 600, 50, 3)
+            runs = keep("GoneFuzz", "2026-01-02T10:00:00", "0", 600, 50, 3)
+            self.assertIsNone(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz"}))
+            keep("BFuzz", "2026-01-03T10:00:00", "1", 600, 7, 0)
+            runs = keep("CFuzz", "2026-01-03T09:00:00", "1", 600, 100, 0)
+            self.assertEqual(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz", "CFuzz"}),
+                             ["1", "2026-01-03", 30, "3 fuzzers, 600 s each, 157 runs", "3 inputs"])
+            runs = keep("AFuzz", "2026-01-04T10:00:00", "2", 1200, 60, 0)
+            self.assertEqual(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz", "CFuzz"}),
+                             ["1, 2", "2026-01-04", 40, "3 fuzzers, 600 to 1200 s each, 167 runs", "none"])
+
 
 class Arguments(unittest.TestCase):
     def test_what_is_not_valid_is_an_error(self):
-        for arguments in ([], ["--msan"], ["--fuzz"], ["--fuzz", "0"], ["--fuzz", "long"]):
+        for arguments in ([], ["--msan"], ["--fuzz"], ["--fuzz", "0"], ["--fuzz", "long"], ["--fuzz", "1", "NoSuchFuzz"]):
             done = subprocess.run([sys.executable, SCRIPT, *arguments], capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 1)
             self.assertIn("check_sanitizers: error: ", done.stderr)
