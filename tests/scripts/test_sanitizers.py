@@ -37,6 +37,13 @@ echo 'stat::number_of_executed_units: 1234' >&2
 for argument; do case $argument in -artifact_prefix=*) prefix=${argument#*=} ;; esac; done
 if [ "$FAILS" ]; then echo bad > "${prefix}crash-1"; exit 77; fi
 """
+# Writes two units that were slow; "slow-unit-bad" still fails when it is run again. Another fuzzer found something meanwhile.
+SLOW_FUZZER = """#!/bin/sh
+case $1 in *slow-unit-bad) exit 1 ;; *slow-unit-good) exit 0 ;; esac
+for argument; do case $argument in -artifact_prefix=*) prefix=${argument#*=} ;; esac; done
+echo bad > "${prefix}slow-unit-bad"; echo good > "${prefix}slow-unit-good"; echo > "${prefix%PackageFuzz-}OtherFuzz-crash-1"
+echo 'stat::number_of_executed_units: 5' >&2
+"""
 
 
 class Fuzzers(unittest.TestCase):
@@ -53,6 +60,9 @@ class Fuzzers(unittest.TestCase):
 
     def test_what_is_found_is_named(self):
         self.assertEqual(self.run_one(FUZZER.replace('"$FAILS"', "1")), (1234, ["PackageFuzz-crash-1"]))
+
+    def test_units_are_no_findings_if_only_the_machine_was_slow_nor_are_those_of_others(self):
+        self.assertEqual(self.run_one(SLOW_FUZZER), (5, ["PackageFuzz-slow-unit-bad"]))
 
     def test_a_fuzzer_that_ends_badly_without_an_input_is_a_finding(self):
         self.assertEqual(self.run_one("#!/bin/sh\nexit 3\n"), (0, ["PackageFuzz ended with 3"]))
