@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that includes point down, that libraries are included only in their rooms, and that docs/architecture.md shows this
-table.
+"""Checks that includes point down, that libraries are included only in their rooms, that rooms leave the C library's elementary
+functions to base/math/Elementary.h, and that docs/architecture.md shows this table.
 
   scripts/check_includes.py [--root DIR]     prints file:line: rule for every broken rule; exit status 1 if any
   scripts/check_includes.py --write          writes the table into docs/architecture.md
@@ -98,6 +98,8 @@ LIBRARIES = {
 GENERATED = re.compile(r"generated/")  # written by the build, not part of the tree
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+# Their last bits depend on the release of the C library and on the CPU; tests and tools may compare with them.
+ELEMENTARY = re.compile(r"\b(?:std|glm)::(?:a?(?:sin|cos|tan)h?|atan2|exp(?:2|m1)?|log(?:2|10|1p)?|pow|cbrt|hypot)\(")
 SOURCES = {".h", ".cpp", ".inl"}
 SKIPPED = {"build", "out", ".git"}
 
@@ -177,6 +179,9 @@ def check_file(root, path):
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         match = INCLUDE.match(line)
         if not match:
+            found = room in ROOMS and ELEMENTARY.search(line)
+            if found:
+                yield number, f"{found[0]}) differs from machine to machine: call base/math/Elementary.h"
             continue
         quote, target = match.groups()
         if quote == '"':

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/math/GaussLegendre.h"
 
+#include "base/math/Elementary.h"
+
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,7 +13,7 @@ namespace filament {
 std::vector<QuadratureNode> gaussLegendre(int count) {
     std::vector<QuadratureNode> nodes;
     for (int i = 0; i < count; ++i) {
-        double x = std::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1;
+        double x = elementary::cos(std::numbers::pi * (i + 0.75) / (count + 0.5)), slope = 1;
         for (int step = 0; step < 8; ++step) {
             double value = 1, before = 0;
             for (int n = 1; n <= count; ++n) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/LightRecords.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,7 +89,7 @@ LightRecord recordOf(Engine::Impl const&, SunLight const& light) {
              .directionWorld = unitDirection(light.directionWorld),
              .color = light.color,
              .intensity = light.illuminance.value,
-             .sourceRadius = std::tan(glm::radians(clampedOr0(light.angularRadiusDegrees, kWidestSunDegrees))),
+             .sourceRadius = elementary::tan(glm::radians(clampedOr0(light.angularRadiusDegrees, kWidestSunDegrees))),
              .castsShadows = light.castsShadows,
              .contactShadows = light.contactShadows,
              .channels = light.lightChannels,

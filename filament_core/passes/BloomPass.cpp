@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/BloomPass.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/passes/FullScreenPass.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ void addUp(FrameGraph& graph, FrameContext const& context, TextureId spread, uin
 uint8_t bloomLevels(uint2 view, float radiusPixels, BloomResolution resolution) {
     constexpr int kLast = 10;
     const int first = firstLevel(resolution);
-    const int last = radiusPixels > 2 ? static_cast<int>(std::lround(std::log2(radiusPixels))) : 1;
+    const int last = radiusPixels > 2 ? static_cast<int>(std::lround(elementary::log2(radiusPixels))) : 1;
     const int whole = std::bit_width(std::max(1u, std::min(view.x, view.y) >> first)); // until one texel is left
     return static_cast<uint8_t>(std::clamp(last - first + 1, 1, std::min(whole, kLast - first + 1)));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/FinishPass.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PlacePass.h"
@@ -125,7 +126,7 @@ float4 shapeOf(Vignette const& vignette, uint2 size) {
 float3 dirtLevelsOf(FrameContext const& context, uint2 size) {
     DirtTexture const& dirt = context.resources.dirt;
     const float2 texels = float2(dirt.size) / float2(size);
-    const float level = std::max(std::log2(std::max(texels.x, texels.y)), 0.0f);
+    const float level = std::max(elementary::log2(std::max(texels.x, texels.y)), 0.0f);
     return { context.packet.effects.bloom.dirtStrength, level, static_cast<float>(dirt.levels - 1) };
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/FlarePass.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/passes/FullScreenPass.h"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ constexpr float kTexelsOfTap = 0.62f;   // of a disc with 16 taps, in radii: 1.4
 constexpr float kTexelsOfRing = 0.092f; // of a ring with 96: 1.4 * 2 pi / 96
 
 /// The level whose texels are `texels` of the first one wide.
-float flareLevel(float texels) { return std::max(std::round(std::log2(std::max(texels, 1.0f))), 0.0f); }
+float flareLevel(float texels) { return std::max(std::round(elementary::log2(std::max(texels, 1.0f))), 0.0f); }
 
 float4x4 ghostColumns(std::span<const FlareGhost, 4> ghosts) {
     float4x4 columns(0.0f);

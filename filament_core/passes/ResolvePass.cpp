@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ResolvePass.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PlacePass.h"
 #include "filament_core/values/ToneShader.h"
@@ -19,7 +20,7 @@ constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResol
 float halfWhiteOf(FrameContext const& context) {
     const float half = halfWhiteLight(clamped(context.view->colorGrading));
     const bool isGraded = context.packet.demand.needs(prepare::Effect::Grading);
-    return isGraded ? half * std::exp2(-context.packet.effects.grading.exposure) : half;
+    return isGraded ? half * elementary::exp2(-context.packet.effects.grading.exposure) : half;
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/FitShadows.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +26,9 @@ double roundedUp(double value) {
 
 // A quarter of an octave, to the outside.
 DepthSlice roundedOut(DepthSlice range) {
-    const auto step = [](double depth, double round(double)) { return std::exp2(round(4 * std::log2(depth)) / 4); };
+    const auto step = [](double depth, double round(double)) {
+        return elementary::exp2(round(4 * elementary::log2(depth)) / 4);
+    };
     range.nearest = step(std::max(range.nearest, 1e-6), std::floor);
     range.farthest = step(std::max(range.farthest, range.nearest * 1.0001), std::ceil);
     return range;
@@ -118,7 +122,7 @@ std::array<DepthSlice, kMaxCascades> splitDepth(DepthSlice const& range, uint32_
     double begin = whole.nearest;
     for (uint32_t i = 0; i < count; ++i) {
         const double part = (i + 1.0) / count;
-        const double logarithmic = whole.nearest * std::pow(whole.farthest / whole.nearest, part);
+        const double logarithmic = whole.nearest * elementary::pow(whole.farthest / whole.nearest, part);
         const double uniform = whole.nearest + (whole.farthest - whole.nearest) * part;
         const double end = kLogarithmicShare * logarithmic + (1 - kLogarithmicShare) * uniform;
         slices[i] = { begin, end };
@@ -158,14 +162,15 @@ bool takesCube(scene::LightRecord const& light) {
 
 bool shinesThrough(scene::LightRecord const& light, uint32_t face) {
     constexpr double kCornerOfFace = 0.9553166; // atan(sqrt(2)): from its axis
-    const double away = std::acos(std::clamp(glm::dot(faceDirection(face), double3(light.directionWorld)), -1.0, 1.0));
+    const double away =
+            elementary::acos(std::clamp(glm::dot(faceDirection(face), double3(light.directionWorld)), -1.0, 1.0));
     return away <= coneOf(light) + kCornerOfFace + 1e-3;
 }
 
 FittedShadow fitPunctual(scene::LightRecord const& light, uint32_t face) {
     const bool isCube = takesCube(light);
     const double3x3 axes = worldFromLight(isCube ? faceDirection(face) : double3(light.directionWorld));
-    const double cone = isCube ? 1.0 : std::max(std::tan(static_cast<double>(light.outerConeRadians)), 1e-4);
+    const double cone = isCube ? 1.0 : std::max(elementary::tan(static_cast<double>(light.outerConeRadians)), 1e-4);
     const double tangent = cone / (1 - 2 * kMarginOfMap);
     return { .camera = { .worldFromView = cameraAt(axes, light.positionWorld) },
              .clipFromView = perspectiveClip(tangent, kNearMeters),

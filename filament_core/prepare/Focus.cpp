@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/Focus.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/prepare/ReduceRanges.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ constexpr double kSensorMeters = 0.024;
 Focus focusOf(Camera const& camera, DepthOfField const& depthOfField, uint32_t height) {
     if (camera.lens.isParallel()) return {}; // no point of it lies before the others: nothing is out of focus
     const double halfFov = glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2;
-    const double focal = kSensorMeters / (2 * std::tan(halfFov));
+    const double focal = kSensorMeters / (2 * elementary::tan(halfFov));
     const double focus = std::max(static_cast<double>(depthOfField.focusMeters), 1.01 * focal);
     const double aperture = focal / static_cast<double>(camera.exposure.aperture); // diameter
     const double atInfinity = aperture * focal / (focus - focal) / kSensorMeters / 2;

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/SceneDemand.h"
 
 #include "base/Result.h"
+#include "base/math/Elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -301,7 +302,7 @@ float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView deb
     if (quality.mipBias == MipBias::Off || !gathersFrames(quality, debugView)) return 0;
     const float2 scale = float2(size) / float2(shownSize);
     const float sharper = quality.mipBias == MipBias::Sharp ? 1.0f : 0.0f;
-    return std::min(0.5f * std::log2(scale.x * scale.y), 0.0f) - sharper;
+    return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
 }
 
 uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/SelectLights.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,8 +76,8 @@ PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
     }
     const bool spot = light.type == LightRecord::Type::Spot;
     data.colorIntensity = float4(light.color * (light.intensity * space.exposure), spot ? 1 : 0);
-    const float cosOuter = std::cos(light.outerConeRadians);
-    const float cosInner = std::cos(std::min(light.innerConeRadians, light.outerConeRadians));
+    const float cosOuter = elementary::cos(light.outerConeRadians);
+    const float cosInner = elementary::cos(std::min(light.innerConeRadians, light.outerConeRadians));
     const float scale = 1 / std::max(1e-3f, cosInner - cosOuter);
     data.directionScale = float4(light.directionWorld, scale);
     data.offset = float4(-cosOuter * scale, 0, contactBit(light), 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/SunDiscs.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/prepare/ViewConstants.h"
 
 #include <algorithm>
@@ -28,13 +29,13 @@ double versineOfTangent(double tangent) {
 
 /// Of the halo, or of the disc if there is none; radians.
 double outerRadius(LightRecord const& light, double tangent) {
-    return std::min(std::atan(tangent) * static_cast<double>(light.haloSize), std::numbers::pi);
+    return std::min(elementary::atan(tangent) * static_cast<double>(light.haloSize), std::numbers::pi);
 }
 
 /// Whether a cone of directions may be in view; not exact at the corners.
 bool mayBeSeen(ViewSpace const& space, float3 axis, double radius) {
     if (radius >= std::numbers::pi / 2) return true;
-    const auto reach = static_cast<float>(std::sin(radius) + 1e-6); // floats on both sides
+    const auto reach = static_cast<float>(elementary::sin(radius) + 1e-6); // floats on both sides
     return std::ranges::all_of(space.frustum.planes,
                                [&](float4 const& plane) { return glm::dot(float3(plane), axis) >= -reach; });
 }
@@ -75,7 +76,7 @@ SunDisc discOf(LightRecord const& light, ViewSpace const& space, ViewInput const
     const double versine = versineOfTangent(tangent), square = tangent * tangent;
     const double luminance = static_cast<double>(light.intensity) * static_cast<double>(space.exposure) /
                              (std::numbers::pi * square / (1 + square));
-    const double halfHalo = std::sin(outerRadius(light, tangent) / 2);
+    const double halfHalo = elementary::sin(outerRadius(light, tangent) / 2);
     const double ofHalo = 2 * halfHalo * halfHalo - versine;
     SunDisc disc{};
     disc.axisX = float4(float3(discFromView * rays.right), pixel.x);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/ViewConstants.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,7 @@ namespace filament::prepare {
 namespace {
 
 float4x4 rotationY(float radians) {
-    const float c = std::cos(radians), s = std::sin(radians);
+    const float c = elementary::cos(radians), s = elementary::sin(radians);
     return float4x4(float4(c, 0, -s, 0), float4(0, 1, 0, 0), float4(s, 0, c, 0), float4(0, 0, 0, 1));
 }
 
@@ -50,7 +52,7 @@ float4 shaderTime(double seconds) {
 
 // Heights are relative to the camera, so that they are exact wherever it is.
 float logDensityAt(double height, Fog const& fog) {
-    const double logDensity = std::log(static_cast<double>(fog.density)) -
+    const double logDensity = elementary::log(static_cast<double>(fog.density)) -
                               static_cast<double>(fog.heightFalloff) * (height - static_cast<double>(fog.heightMeters));
     return static_cast<float>(std::clamp(logDensity, -1e20, 1e20)); // without density: minus infinity
 }

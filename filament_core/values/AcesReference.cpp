@@ -3,6 +3,8 @@
 // libraries that they import.
 #include "filament_core/values/AcesReference.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,16 +76,16 @@ struct Spline {
     double slopeLow = 0, slopeHigh = 0;
 
     double operator()(double x) const {
-        const double logX = std::log10(std::max(x, kLeastHalf));
+        const double logX = elementary::log10(std::max(x, kLeastHalf));
         const double2 first = log10Of(least), mid = log10Of(middle), last = log10Of(most);
-        if (logX <= first.x) return std::pow(10, logX * slopeLow + first.y - slopeLow * first.x);
-        if (logX < mid.x) return std::pow(10, between(low, (logX - first.x) / (mid.x - first.x)));
-        if (logX < last.x) return std::pow(10, between(high, (logX - mid.x) / (last.x - mid.x)));
-        return std::pow(10, logX * slopeHigh + last.y - slopeHigh * last.x);
+        if (logX <= first.x) return elementary::pow(10.0, logX * slopeLow + first.y - slopeLow * first.x);
+        if (logX < mid.x) return elementary::pow(10.0, between(low, (logX - first.x) / (mid.x - first.x)));
+        if (logX < last.x) return elementary::pow(10.0, between(high, (logX - mid.x) / (last.x - mid.x)));
+        return elementary::pow(10.0, logX * slopeHigh + last.y - slopeHigh * last.x);
     }
 
 private:
-    static double2 log10Of(double2 v) { return { std::log10(v.x), std::log10(v.y) }; }
+    static double2 log10Of(double2 v) { return { elementary::log10(v.x), elementary::log10(v.y) }; }
 
     static double between(std::array<double, N> const& c, double share) {
         constexpr size_t kCells = N - 3; // the last coefficient is there twice
@@ -97,9 +99,9 @@ private:
 Spline<6> const& rrtCurve() {
     static const Spline<6> kCurve{ { -4, -4, -3.1573765773, -0.4852499958, 1.8477324706, 1.8477324706 },
                                    { -0.7185482425, 2.0810307172, 3.6681241237, 4, 4, 4 },
-                                   { 0.18 * std::exp2(-15), 0.0001 },
+                                   { 0.18 * elementary::exp2(-15.0), 0.0001 },
                                    { 0.18, 4.8 },
-                                   { 0.18 * std::exp2(18), 10'000 } };
+                                   { 0.18 * elementary::exp2(18.0), 10'000 } };
     return kCurve;
 }
 
@@ -108,9 +110,9 @@ Spline<10> const& odtCurve() { // for 48 cd/m^2
                                       0.4511080334, 0.9113744414, 0.9113744414 },
                                     { 0.5154386965, 0.8470437783, 1.1358, 1.3802, 1.5197, 1.5985, 1.6467, 1.6746091357,
                                       1.687873339, 1.687873339 },
-                                    { rrtCurve()(0.18 * std::exp2(-6.5)), 0.02 },
+                                    { rrtCurve()(0.18 * elementary::exp2(-6.5)), 0.02 },
                                     { rrtCurve()(0.18), 4.8 },
-                                    { rrtCurve()(0.18 * std::exp2(6.5)), 48 },
+                                    { rrtCurve()(0.18 * elementary::exp2(6.5)), 48 },
                                     0,
                                     0.04 };
     return kCurve;
@@ -130,7 +132,7 @@ double brightnessOf(double3 rgb) {
 /// Degrees in (-180, 180], of which red is 0.
 double hueOf(double3 rgb) {
     if (rgb.x == rgb.y && rgb.y == rgb.z) return 0;
-    return std::atan2(std::sqrt(3.0) * (rgb.y - rgb.z), 2 * rgb.x - rgb.y - rgb.z) * 180 / std::numbers::pi;
+    return elementary::atan2(std::sqrt(3.0) * (rgb.y - rgb.z), 2 * rgb.x - rgb.y - rgb.z) * 180 / std::numbers::pi;
 }
 
 /// From 0 to 1 where x goes from -2 to 2.
@@ -184,7 +186,7 @@ double3 inDimSurround(double3 ap1) {
     const double3 xyz = m.xyzFromAp1 * ap1;
     const double y = std::clamp(xyz.y, 0.0, kLargestHalf);
     if (y == 0) return double3(0);
-    return m.ap1FromXyz * (xyz * (std::pow(y, kDimSurroundGamma) / y));
+    return m.ap1FromXyz * (xyz * (elementary::pow(y, kDimSurroundGamma) / y));
 }
 
 /// ODT: AP1 -> Rec. 709.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 #include "base/math/Math.h"
 
 #include <filament/Camera.h>
@@ -8,16 +9,16 @@
 
 namespace filament {
 
-float Exposure::ev100() const { return std::log2(aperture * aperture / shutterSeconds * 100.0f / iso); }
+float Exposure::ev100() const { return elementary::log2(aperture * aperture / shutterSeconds * 100.0f / iso); }
 
 float Exposure::factor() const {
     // 1.2 = 78 / (100 * 0.65): saturation-based sensitivity and a lens that passes 65 %.
-    return 1.0f / (1.2f * std::exp2(ev100()));
+    return 1.0f / (1.2f * elementary::exp2(ev100()));
 }
 
-float Exposure::luminance(float ev100) { return std::exp2(ev100 - 3.0f); }
+float Exposure::luminance(float ev100) { return elementary::exp2(ev100 - 3.0f); }
 
-float Exposure::illuminance(float ev100) { return 2.5f * std::exp2(ev100); }
+float Exposure::illuminance(float ev100) { return 2.5f * elementary::exp2(ev100); }
 
 Camera Camera::lookAt(double3 eye, double3 at, Lens lens, Exposure exposure, double3 up) {
     double3 back = eye - at;
@@ -49,14 +50,14 @@ Lens Lens::box(float left, float right, float bottom, float top, float nearMeter
 
 Lens Lens::offCenter(float left, float right, float bottom, float top, float nearMeters) {
     Lens lens = box(left, right, bottom, top, nearMeters);
-    lens.verticalFovDegrees = glm::degrees(2 * std::atan((top - bottom) / 2));
+    lens.verticalFovDegrees = glm::degrees(2 * elementary::atan((top - bottom) / 2));
     lens.parallelMeters = 0;
     return lens;
 }
 
 Lens Lens::fromFocalLength(float millimeters, float sensorHeightMillimeters, float nearMeters) {
     FILAMENT_ASSERT(millimeters > 0 && sensorHeightMillimeters > 0, "a lens has a focal length > 0 and a sensor > 0");
-    return { .verticalFovDegrees = glm::degrees(2 * std::atan(sensorHeightMillimeters / (2 * millimeters))),
+    return { .verticalFovDegrees = glm::degrees(2 * elementary::atan(sensorHeightMillimeters / (2 * millimeters))),
              .nearMeters = nearMeters };
 }
 
@@ -82,7 +83,7 @@ float4x4 Camera::clipFromView(float aspect) const {
     // shift moves by whole pictures, which are 2 wide: over w, so in the column of what w is made of.
     const float shown = lens.aspect > 0 ? lens.aspect : aspect;
     const float focal = lens.isParallel() ? 2.0f / lens.parallelMeters
-                                          : 1.0f / std::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
+                                          : 1.0f / elementary::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
     float4x4 clip(0.0f);
     clip[0][0] = focal / shown;
     clip[1][1] = -focal;
@@ -99,9 +100,10 @@ float4x4 Camera::clipFromView(float aspect) const {
 
 double3 Camera::viewFromPicture(double2 clip, double distanceMeters, double aspect) const {
     const double shown = lens.aspect > 0 ? static_cast<double>(lens.aspect) : aspect;
-    const double half = lens.isParallel() ? static_cast<double>(lens.parallelMeters) / 2
-                                          : std::tan(glm::radians(static_cast<double>(lens.verticalFovDegrees)) / 2) *
-                                                    distanceMeters;
+    const double half =
+            lens.isParallel()
+                    ? static_cast<double>(lens.parallelMeters) / 2
+                    : elementary::tan(glm::radians(static_cast<double>(lens.verticalFovDegrees)) / 2) * distanceMeters;
     const double2 at = double2(clip.x, -clip.y) + 2.0 * double2(lens.shift);
     return { at.x * half * shown, at.y * half, -distanceMeters };
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 #include "base/math/Math.h"
 #include "filament_core/values/Daylight.h"
 
@@ -11,8 +12,8 @@
 namespace filament::color {
 namespace {
 
-float decode(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
-float encode(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
+float decode(float v) { return v <= 0.04045f ? v / 12.92f : elementary::pow((v + 0.055f) / 1.055f, 2.4f); }
+float encode(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * elementary::pow(v, 1 / 2.4f) - 0.055f; }
 
 // CIE 1931 x, y; luminance 1. What Rec. 709 cannot show becomes 0 before the luminance is restored.
 LinearColor fromChromaticity(float x, float y) {
@@ -33,7 +34,8 @@ float3 srgbFromLinear(LinearColor linear) { return { encode(linear.x), encode(li
 float luminance(LinearColor linear) { return glm::dot(linear, float3(0.2126f, 0.7152f, 0.0722f)); }
 
 float3 absorptionAtDistance(LinearColor transmittance, float meters) {
-    return -glm::log(glm::clamp(transmittance, 1e-5f, 1.0f)) / std::max(meters, 1e-5f);
+    const float3 t = glm::clamp(transmittance, 1e-5f, 1.0f);
+    return -float3(elementary::log(t.x), elementary::log(t.y), elementary::log(t.z)) / std::max(meters, 1e-5f);
 }
 
 LinearColor fromTemperature(float kelvin) {

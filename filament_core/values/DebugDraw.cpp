@@ -2,6 +2,7 @@
 #include <filament/DebugDraw.h>
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 
 #include <array>
 #include <cmath>
@@ -60,7 +61,7 @@ void DebugDraw::sphere(double3 centerWorld, double radiusMeters, DebugStyle cons
         const auto at = [&](uint32_t i) {
             const double angle = 2 * std::numbers::pi * (i % segments) / segments;
             double3 point(0.0);
-            point[(axis + 1) % 3] = std::cos(angle), point[(axis + 2) % 3] = std::sin(angle);
+            point[(axis + 1) % 3] = elementary::cos(angle), point[(axis + 2) % 3] = elementary::sin(angle);
             return centerWorld + point * radiusMeters;
         };
         for (uint32_t i = 0; i < segments; ++i) line(at(i), at(i + 1), style);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/math/Elementary.h"
 #include "filament_core/values/Daylight.h"
 
 #include <filament/Effects.h>
@@ -49,7 +50,7 @@ double3x3 whiteBalance(double temperature, double tint) {
 double3x3 gradingMatrix(Grading const& grading) {
     const double3x3 mixer = fromRows(grading.mixRed, grading.mixGreen, grading.mixBlue);
     return mixer * whiteBalance(static_cast<double>(grading.temperature), static_cast<double>(grading.tint)) *
-           kRec2020FromRec709 * std::exp2(static_cast<double>(grading.exposure));
+           kRec2020FromRec709 * elementary::exp2(static_cast<double>(grading.exposure));
 }
 
 } // namespace filament

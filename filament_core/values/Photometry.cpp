@@ -2,6 +2,7 @@
 #include <filament/Photometry.h>
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,9 @@ double spotLumens(float innerConeRadians, float outerConeRadians) {
     FILAMENT_ASSERT(innerConeRadians >= 0 && innerConeRadians < outerConeRadians && outerConeRadians <= 1.5707964f,
                     "a spot has 0 <= inner < outer <= pi/2");
     // 1 - cos, without cancellation.
-    const auto versine = [](float radians) { return 2 * std::pow(std::sin(static_cast<double>(radians) / 2), 2); };
+    const auto versine = [](float radians) {
+        return 2 * elementary::pow(elementary::sin(static_cast<double>(radians) / 2), 2);
+    };
     const double outer = versine(outerConeRadians), inner = versine(innerConeRadians);
     const double width = std::max(1e-3, outer - inner), whole = outer - width;
     const double solidAngle = whole >= 0 ? whole + width / 3 : outer * (outer / width) * (outer / width) / 3;

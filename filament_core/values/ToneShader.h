@@ -3,6 +3,8 @@
 /// ranges: clamped().
 #pragma once
 
+#include "base/math/Elementary.h"
+
 #include <filament/ColorGrading.h>
 #include <filament/Effects.h>
 #include <filament/Math.h>
@@ -31,8 +33,8 @@ inline float whiteShareOf(ColorGrading const& grading) { return grading.whiteNit
 /// Of toneMapGeneric(): c, a, b and the light that is white, so that f(midGreyIn) = midGreyOut and f(maximum) = 1.
 inline float4 shaderToneCurve(ToneCurve const& curve) {
     const double c = static_cast<double>(curve.contrast), out = static_cast<double>(curve.midGreyOut);
-    const double grey = std::pow(static_cast<double>(curve.midGreyIn), c);
-    const double white = std::pow(static_cast<double>(curve.maximum), c);
+    const double grey = elementary::pow(static_cast<double>(curve.midGreyIn), c);
+    const double white = elementary::pow(static_cast<double>(curve.maximum), c);
     // b = white grey (1 - out) / (white out - grey); where that is no curve, nearly a power
     const double b = white * grey * (1 - out) / std::max(white * out - grey, 1e-3 * grey * (1 - out));
     return { c, 1 + b / white, b, static_cast<double>(curve.maximum) };
@@ -58,7 +60,7 @@ inline float halfWhiteLight(ColorGrading const& grading) {
         return 0.691f;
     case ToneMapper::Generic: {
         const float4 curve = shaderToneCurve(grading.toneCurve);
-        return std::pow(0.5f * curve.z / (curve.y - 0.5f), 1 / curve.x);
+        return elementary::pow(0.5f * curve.z / (curve.y - 0.5f), 1 / curve.x);
     }
     case ToneMapper::DisplayRange:
         return 0.18f;
@@ -68,7 +70,7 @@ inline float halfWhiteLight(ColorGrading const& grading) {
 
 /// The factor of light before nightVision(): rods see what is exposed. Without them exposure is part of the matrix.
 inline float exposureBeforeNight(Grading const& grading) {
-    return grading.nightAdaptation > 0 ? std::exp2(grading.exposure) : 1;
+    return grading.nightAdaptation > 0 ? elementary::exp2(grading.exposure) : 1;
 }
 
 /// A row of a matrix, as dot products in shaders take it.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The shader library as C++: exactly the text that the GPU runs, in namespace filament::shader::lib, on GLM's types.
 ///   Use     tests check the BRDF before anything is drawn; the environment baker samples with the same functions.
-///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ library rounds
-///   transcendental functions in its own way.
+///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and transcendental functions are
+///   those of base/math/Elementary.h, rounded from double precision.
 ///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are
 ///           those of GlslBuiltIns.h, functions only.
 ///   Memory  none. Thread: pure functions.

@@ -137,6 +137,10 @@ class IncludeTable(unittest.TestCase):
     def test_a_library_is_included_only_in_its_room(self):
         self.assert_broken({"framegraph/Graph.cpp": "#include <volk.h>\n"}, "framegraph/Graph.cpp:1:", "backend/vulkan")
 
+    def test_a_room_leaves_elementary_functions_of_the_c_library_alone(self):
+        self.assert_broken({"framegraph/Graph.cpp": "float a = std::sqrt(2.0f);\nfloat b = std::atan2(1.0f, a);\n"},
+                           "framegraph/Graph.cpp:2:", "base/math/Elementary.h")
+
     def test_a_sample_sees_only_the_public_api(self):
         self.assert_broken({
             "samples/hello/main.cpp": '#include "base/Hash.h"\n',

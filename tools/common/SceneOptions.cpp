@@ -84,7 +84,7 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     if (words.sun.empty()) return {};
     std::array<double, 4> sun{};
     const auto isSun = [](std::array<double, 4> const& v) {
-        const double size = std::hypot(v[1], v[2], v[3]);
+        const double size = glm::length(double3(v[1], v[2], v[3]));
         return v[0] >= 0 && v[0] <= 1e9 && size >= 1e-6 && size <= 1e6;
     };
     if (auto done =

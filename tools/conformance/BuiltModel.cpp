@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/BuiltModel.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tools/conformance/BuiltLight.h"
 #include "tools/showcase/Shapes.h"
@@ -234,7 +235,7 @@ private:
         reader.read("offset", offset);
         reader.read("scale", scale);
         reader.read("degrees", degrees, -360, 360);
-        const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+        const double c = elementary::cos(glm::radians(degrees)), s = elementary::sin(glm::radians(degrees));
         const double3x3 matrix{ c * scale.x, -s * scale.x, 0, s * scale.y, c * scale.y, 0, offset.x, offset.y, 1 };
         ref.uvTransform = float3x3(matrix);
     }

@@ -2,6 +2,7 @@
 #include "tools/conformance/Flip.h"
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 #include "tools/conformance/ImageChecks.h"
 
 #include <filament/Color.h>
@@ -55,7 +56,7 @@ float3 xyzFromYcc(float3 ycc) {
 float3 labFromXyz(float3 xyz) {
     constexpr float kDelta = 6.0f / 29;
     const auto f = [](float t) {
-        return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29;
+        return t > kDelta * kDelta * kDelta ? elementary::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29;
     };
     const float3 n = xyz / kWhitePoint;
     return { 116 * f(n.y) - 16, 500 * (f(n.x) - f(n.y)), 200 * (f(n.y) - f(n.z)) };
@@ -108,7 +109,7 @@ Plane<T> convolve(Plane<T> const& in, Kernel const& alongX, Kernel const& alongY
 
 Kernel gaussian(double scale, int radius) {
     Kernel kernel;
-    for (int i = -radius; i <= radius; ++i) kernel.push_back(static_cast<float>(std::exp(-scale * i * i)));
+    for (int i = -radius; i <= radius; ++i) kernel.push_back(static_cast<float>(elementary::exp(-scale * i * i)));
     return kernel;
 }
 
@@ -167,8 +168,8 @@ Plane<float3> perceived(Plane<float3> const& ycc) {
 
 /// Small errors take most of [0, 1]; the largest error is green against blue. Eq. 4.
 float colorError(float3 a, float3 b) {
-    static const float sMax = std::pow(hyab(huntLabFromRgb({ 0, 1, 0 }), huntLabFromRgb({ 0, 0, 1 })), kQc);
-    const float error = std::pow(hyab(a, b), kQc), knee = kPc * sMax;
+    static const float sMax = elementary::pow(hyab(huntLabFromRgb({ 0, 1, 0 }), huntLabFromRgb({ 0, 0, 1 })), kQc);
+    const float error = elementary::pow(hyab(a, b), kQc), knee = kPc * sMax;
     return error < knee ? kPt / knee * error : kPt + (error - knee) / (sMax - knee) * (1 - kPt);
 }
 
@@ -201,13 +202,13 @@ Plane<float2> features(Plane<float3> const& ycc) {
     const Plane<float> pointX = convolve(light, point, smooth), pointY = convolve(light, smooth, point);
     Plane<float2> result(ycc.width, ycc.height);
     for (size_t i = 0; i < result.at.size(); ++i)
-        result.at[i] = { std::hypot(edgeX.at[i], edgeY.at[i]), std::hypot(pointX.at[i], pointY.at[i]) };
+        result.at[i] = { elementary::hypot(edgeX.at[i], edgeY.at[i]), elementary::hypot(pointX.at[i], pointY.at[i]) };
     return result;
 }
 
 float featureError(float2 a, float2 b) {
     const float2 difference = glm::abs(a - b);
-    return std::pow(std::max(difference.x, difference.y) / std::sqrt(2.0f), kQf); // eq. 5
+    return elementary::pow(std::max(difference.x, difference.y) / std::sqrt(2.0f), kQf); // eq. 5
 }
 
 } // namespace
@@ -221,7 +222,7 @@ FlipError flip(Image const& reference, Image const& test) {
     for (size_t i = 0; i < a.at.size(); ++i) {
         const float ofColor = std::min(1.0f, colorError(colorA.at[i], colorB.at[i]));
         const float ofFeature = std::min(1.0f, featureError(featureA.at[i], featureB.at[i]));
-        result.pixels.push_back(std::pow(ofColor, 1 - ofFeature)); // eq. 6
+        result.pixels.push_back(elementary::pow(ofColor, 1 - ofFeature)); // eq. 6
         result.mean += static_cast<double>(result.pixels.back());
     }
     if (result.pixels.empty()) return result;

@@ -2,6 +2,7 @@
 #include "tools/conformance/SceneAssets.h"
 
 #include "base/Hash.h"
+#include "base/math/Elementary.h"
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
@@ -196,7 +197,7 @@ Camera cameraOf(SceneSpec const& spec, Box const& bounds) {
         at = (bounds.min + bounds.max) * 0.5;
         const double radius = std::max(1e-3, glm::length(bounds.max - bounds.min) * 0.5);
         const double halfFov = glm::radians(static_cast<double>(spec.lens.verticalFovDegrees)) * 0.5;
-        eye = at + glm::normalize(double3(0.45, 0.35, 1.0)) * (0.8 * radius / std::sin(halfFov));
+        eye = at + glm::normalize(double3(0.45, 0.35, 1.0)) * (0.8 * radius / elementary::sin(halfFov));
     }
     return Camera::lookAt(eye, at, spec.lens, spec.exposure);
 }

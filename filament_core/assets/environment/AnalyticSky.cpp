@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/environment/AnalyticSky.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/assets/environment/IblDirections.h"
 
 #include <glm/common.hpp>
@@ -20,7 +21,8 @@ struct Perez {
 
 // Perez et al. 1993, the shape of a clear sky; theta from the zenith, gamma from the sun.
 double perez(Perez const& p, double cosTheta, double gamma, double cosGamma) {
-    return (1 + p.a * std::exp(p.b / cosTheta)) * (1 + p.c * std::exp(p.d * gamma) + p.e * cosGamma * cosGamma);
+    return (1 + p.a * elementary::exp(p.b / cosTheta)) *
+           (1 + p.c * elementary::exp(p.d * gamma) + p.e * cosGamma * cosGamma);
 }
 
 // Preetham et al. 1999, appendix A.2: distribution coefficients and zenith values, linear in turbidity.
@@ -33,7 +35,7 @@ struct Sky {
 std::array<double, 3> zenithValues(double t, double sunTheta) {
     const double chi = (4.0 / 9 - t / 120) * (std::numbers::pi - 2 * sunTheta);
     const double s = sunTheta, s2 = s * s, s3 = s2 * s;
-    const double luminance = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
+    const double luminance = (4.0453 * t - 4.9710) * elementary::tan(chi) - 0.2155 * t + 2.4192;
     const double x = t * t * (0.00166 * s3 - 0.00375 * s2 + 0.00209 * s) +
                      t * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
                      (0.11693 * s3 - 0.21196 * s2 + 0.06052 * s + 0.25886);
@@ -53,10 +55,10 @@ Sky makeSky(AnalyticSkyOptions const& options) {
                      -0.0033 * t + 0.0452 };
     sky.shape[2] = { -0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
                      -0.0109 * t + 0.0529 };
-    const double sunTheta = std::acos(std::clamp(sky.sun.y, 0.0, 1.0));
+    const double sunTheta = elementary::acos(std::clamp(sky.sun.y, 0.0, 1.0));
     const std::array<double, 3> zenith = zenithValues(t, sunTheta);
     for (size_t i = 0; i < 3; ++i) {
-        sky.scale[i] = zenith[i] / perez(sky.shape[i], 1, sunTheta, std::cos(sunTheta));
+        sky.scale[i] = zenith[i] / perez(sky.shape[i], 1, sunTheta, elementary::cos(sunTheta));
     }
     return sky;
 }
@@ -72,7 +74,7 @@ double3 rec709FromXyY(double x, double y, double luminance) {
 // The model ends at the horizon, where 1 / cos(theta) diverges; a degree above it, the sky is stable.
 double3 skyRadiance(Sky const& sky, double3 direction) {
     const double cosTheta = std::max(direction.y, 0.01);
-    const double cosGamma = std::clamp(glm::dot(direction, sky.sun), -1.0, 1.0), gamma = std::acos(cosGamma);
+    const double cosGamma = std::clamp(glm::dot(direction, sky.sun), -1.0, 1.0), gamma = elementary::acos(cosGamma);
     std::array<double, 3> value;
     for (size_t i = 0; i < 3; ++i) value[i] = sky.scale[i] * perez(sky.shape[i], cosTheta, gamma, cosGamma);
     return rec709FromXyY(value[1], value[2], std::max(value[0], 0.0));
@@ -81,13 +83,13 @@ double3 skyRadiance(Sky const& sky, double3 direction) {
 // The fraction of sunlight that the air transmits at 650, 550 and 450 nm. Preetham et al. 1999, appendix A.1; relative
 // optical mass of Kasten and Young 1989.
 double3 sunTransmittance(double turbidity, double sunElevationSine) {
-    const double degrees = std::asin(std::clamp(sunElevationSine, 0.0, 1.0)) * 180 / std::numbers::pi;
-    const double mass = 1 / (std::max(sunElevationSine, 0.0) + 0.50572 * std::pow(degrees + 6.07995, -1.6364));
+    const double degrees = elementary::asin(std::clamp(sunElevationSine, 0.0, 1.0)) * 180 / std::numbers::pi;
+    const double mass = 1 / (std::max(sunElevationSine, 0.0) + 0.50572 * elementary::pow(degrees + 6.07995, -1.6364));
     const double beta = 0.04608 * turbidity - 0.04586;
     const auto transmittance = [&](double micrometers) {
-        const double rayleigh = 0.008735 * std::pow(micrometers, -4.08);
-        const double aerosol = beta * std::pow(micrometers, -1.3);
-        return std::exp(-(rayleigh + aerosol) * mass);
+        const double rayleigh = 0.008735 * elementary::pow(micrometers, -4.08);
+        const double aerosol = beta * elementary::pow(micrometers, -1.3);
+        return elementary::exp(-(rayleigh + aerosol) * mass);
     };
     return { transmittance(0.65), transmittance(0.55), transmittance(0.45) };
 }
@@ -96,12 +98,13 @@ double3 sunRadiance(AnalyticSkyOptions const& options, Sky const& sky) {
     return kSunLuminance * sunTransmittance(options.turbidity, sky.sun.y);
 }
 
-double sunSolidAngle() { return 2 * std::numbers::pi * (1 - std::cos(kSunAngularRadius)); }
+double sunSolidAngle() { return 2 * std::numbers::pi * (1 - elementary::cos(kSunAngularRadius)); }
 
 double polarOfRow(double row, uint32_t height) { return row / height * std::numbers::pi; }
 
 double pixelSolidAngle(uint32_t row, uint32_t height) {
-    return std::numbers::pi / height * (std::cos(polarOfRow(row, height)) - std::cos(polarOfRow(row + 1, height)));
+    return std::numbers::pi / height *
+           (elementary::cos(polarOfRow(row, height)) - elementary::cos(polarOfRow(row + 1, height)));
 }
 
 // Fraction of the pixel (column, row) that the disc covers, from 16 x 16 points.
@@ -112,7 +115,8 @@ double discCoverage(uint32_t column, uint32_t row, uint32_t height, double3 sun)
         for (int i = 0; i < kPoints; ++i) {
             const double u = (column + (i + 0.5) / kPoints) / (2 * height), v = (row + (j + 0.5) / kPoints) / height;
             const double azimuth = (0.5 - u) * 2 * std::numbers::pi, polar = v * std::numbers::pi;
-            const double3 d(std::sin(azimuth) * std::sin(polar), std::cos(polar), std::cos(azimuth) * std::sin(polar));
+            const double3 d(elementary::sin(azimuth) * elementary::sin(polar), elementary::cos(polar),
+                            elementary::cos(azimuth) * elementary::sin(polar));
             const double3 difference = d - sun; // chord: at such angles acos has no digits left
             inside += glm::dot(difference, difference) <= kSunAngularRadius * kSunAngularRadius;
         }
@@ -127,7 +131,7 @@ struct CoveredPixel {
 
 std::vector<CoveredPixel> pixelsUnderDisc(uint32_t width, uint32_t height, double3 sun) {
     const double pixelDiagonal = std::numbers::pi / height * std::numbers::sqrt2;
-    const double reach = kSunAngularRadius + pixelDiagonal, sunPolar = std::acos(std::clamp(sun.y, -1.0, 1.0));
+    const double reach = kSunAngularRadius + pixelDiagonal, sunPolar = elementary::acos(std::clamp(sun.y, -1.0, 1.0));
     std::vector<CoveredPixel> covered;
     for (uint32_t y = 0; y < height; ++y) {
         if (std::fabs(polarOfRow(y + 0.5, height) - sunPolar) > reach) continue;
@@ -164,7 +168,7 @@ double3 groundIrradiance(HdrImage const& image, AnalyticSkyOptions const& option
     for (uint32_t y = 0; y < image.height / 2; ++y) {
         double3 row(0.0);
         for (uint32_t x = 0; x < image.width; ++x) row += double3(image.at(x, y));
-        irradiance += row * (pixelSolidAngle(y, image.height) * std::cos(polarOfRow(y + 0.5, image.height)));
+        irradiance += row * (pixelSolidAngle(y, image.height) * elementary::cos(polarOfRow(y + 0.5, image.height)));
     }
     if (options.sunDisc) irradiance += sunRadiance(options, sky) * (sunSolidAngle() * std::max(sky.sun.y, 0.0));
     return irradiance;

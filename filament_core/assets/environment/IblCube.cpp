@@ -2,6 +2,7 @@
 #include "filament_core/assets/environment/IblCube.h"
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 
 #include <bit>
 
@@ -26,7 +27,7 @@ HdrImage widenedTowardsPoles(HdrImage const& image, jobs::JobSystem& jobs) {
                 sums[static_cast<size_t>(x) + 1] = sums[static_cast<size_t>(x)] + double3(row[x % width]);
             }
             const double polar = (static_cast<double>(y) + 0.5) / image.height * std::numbers::pi;
-            const double span = std::clamp(1.0 / std::sin(polar), 1.0, static_cast<double>(width));
+            const double span = std::clamp(1.0 / elementary::sin(polar), 1.0, static_cast<double>(width));
             const auto sumBefore = [&](double position) { // sum of the pixels left of a fractional position
                 const double at = std::floor(position), fraction = position - at;
                 const auto i = static_cast<size_t>(at);

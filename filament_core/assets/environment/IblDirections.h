@@ -6,6 +6,7 @@
 ///   Thread  pure functions.
 #pragma once
 
+#include "base/math/Elementary.h"
 #include "base/math/Math.h"
 
 #include <algorithm>
@@ -60,16 +61,17 @@ inline float faceCoordinate(int texel, uint32_t size) {
 
 /// Solid angle of the part of a face from (0, 0) to (s, t); differences of four values give any rectangle. From the
 /// integral of (1 + s^2 + t^2)^(-3/2).
-inline double cornerSolidAngle(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
+inline double cornerSolidAngle(double s, double t) { return elementary::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
 
 /// u in [0, 1], v in [0, 1]. direction is a unit vector.
 inline float2 equirectFromDirection(float3 d) {
-    return { 0.5f - std::atan2(d.x, d.z) / (2.0f * kPi), std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi };
+    return { 0.5f - elementary::atan2(d.x, d.z) / (2.0f * kPi), elementary::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi };
 }
 
 inline float3 directionFromEquirect(float2 uv) {
     const float azimuth = (0.5f - uv.x) * 2.0f * kPi, polar = uv.y * kPi;
-    return { std::sin(azimuth) * std::sin(polar), std::cos(polar), std::cos(azimuth) * std::sin(polar) };
+    return { elementary::sin(azimuth) * elementary::sin(polar), elementary::cos(polar),
+             elementary::cos(azimuth) * elementary::sin(polar) };
 }
 
 } // namespace filament::assets

@@ -2,6 +2,7 @@
 #include "filament_core/assets/environment/IblTree.h"
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 
 namespace filament::assets {
 namespace {
@@ -39,7 +40,7 @@ struct IblTree::Sums {
 // alpha, grows by a factor of e, up to the horizon.
 Lobe Lobe::ofPieces(float alpha, uint32_t pieces) {
     const float horizon = 0.5f * kPi;
-    const float rings = 0.5f + std::log(horizon / std::min(2 * alpha, horizon));
+    const float rings = 0.5f + elementary::log(horizon / std::min(2 * alpha, horizon));
     return { alpha, std::sqrt(2 * kPi * rings / static_cast<float>(pieces)) };
 }
 

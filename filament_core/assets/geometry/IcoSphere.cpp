@@ -2,6 +2,7 @@
 // makeIcoSphere(): an icosahedron, divided. Kept apart from the other shapes because its texture has a seam that no
 // edge follows.
 #include "base/Result.h"
+#include "base/math/Elementary.h"
 
 #include <filament/Primitives.h>
 
@@ -31,7 +32,7 @@ Sphere icosahedron() {
     for (uint32_t i = 0; i < 10; ++i) {
         const bool isUpper = i < 5;
         const double angle = kTurn * ((i % 5) / 5.0 + (isUpper ? 0 : 0.1));
-        sphere.points.push_back({ radius * std::sin(angle), isUpper ? y : -y, radius * std::cos(angle) });
+        sphere.points.push_back({ radius * elementary::sin(angle), isUpper ? y : -y, radius * elementary::cos(angle) });
     }
     sphere.points.push_back({ 0, -1, 0 });
     for (uint32_t i = 0; i < 5; ++i) {
@@ -65,14 +66,14 @@ Sphere divided(Sphere const& whole) {
 
 bool isPole(double3 point) { return point.x == 0 && point.z == 0; }
 
-double turnsAt(double3 point) { return 0.5 + std::atan2(point.x, point.z) / kTurn; }
+double turnsAt(double3 point) { return 0.5 + elementary::atan2(point.x, point.z) / kTurn; }
 
 MeshVertex vertexAt(double3 point, double u, float radius) {
     const double angle = kTurn * (u - 0.5);
-    const double v = 1 - std::acos(std::clamp(point.y, -1.0, 1.0)) / std::numbers::pi;
+    const double v = 1 - elementary::acos(std::clamp(point.y, -1.0, 1.0)) / std::numbers::pi;
     return { .position = float3(point * double(radius)),
              .normal = float3(point),
-             .tangents = tangentsOf(float3(point), float3(double3(std::cos(angle), 0, -std::sin(angle)))),
+             .tangents = tangentsOf(float3(point), float3(double3(elementary::cos(angle), 0, -elementary::sin(angle)))),
              .uv = float2(double2(u, v)) };
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Result.h"
+#include "base/math/Elementary.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/geometry/Tangents.h"
 
@@ -40,7 +41,7 @@ Result<void> checkMesh(Mesh const& mesh, std::string_view function) {
 /// Of the corner at `a`, in radians; 0 if it has no sides.
 double cornerAngle(double3 a, double3 b, double3 c) {
     const double3 ab = b - a, ac = c - a;
-    return std::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
+    return elementary::atan2(glm::length(glm::cross(ab, ac)), glm::dot(ab, ac));
 }
 
 /// The same number for positions of equal bits; -0 is 0.

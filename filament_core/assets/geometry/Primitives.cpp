@@ -2,6 +2,7 @@
 // Shapes of <filament/Primitives.h>. Everything is computed in double precision and rounded once, so that points that
 // meet have the same bits, and the last bit of a library's sine shows in no vertex.
 #include "base/Result.h"
+#include "base/math/Elementary.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 
 #include <filament/Primitives.h>
@@ -66,7 +67,7 @@ struct Direction {
 Direction directionAt(uint64_t numerator, uint64_t denominator, uint64_t quarters) {
     const uint64_t whole = numerator / denominator, rest = numerator % denominator;
     const double angle = kHalfTurn / 2 * static_cast<double>(rest) / static_cast<double>(denominator);
-    const double s = std::sin(angle), c = std::cos(angle);
+    const double s = elementary::sin(angle), c = elementary::cos(angle);
     switch ((whole + quarters) % 4) {
     case 0:
         return { s, c };
@@ -293,7 +294,7 @@ Result<Mesh> makeCone(ConeShape const& shape) {
     fields.vertices(gridVertices(shape.slices, uint64_t{ shape.stacks } + (shape.caps ? 4 : 0)));
     if (fields.error()) return *fields.error();
     const double bottom = shape.radius, top = shape.topRadius, height = shape.height;
-    const double slant = std::hypot(bottom - top, height);
+    const double slant = elementary::hypot(bottom - top, height);
     const Direction normal{ height / slant, (bottom - top) / slant };
     std::vector<ProfilePoint> profile;
     addSide(profile, { bottom, -height / 2, normal, 0 }, { top, height / 2, normal, 1 }, shape.stacks);

@@ -2,6 +2,7 @@
 #include "filament_core/assets/geometry/Tangents.h"
 
 #include "base/Hash.h"
+#include "base/math/Elementary.h"
 #include "filament_core/assets/files/NoIndex.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 
@@ -180,7 +181,7 @@ float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& gro
         if (!triangle.hasGradient) continue;
         const float3 a = inPlane(input.positions[vertices[previousCorner(corner)]] - position, normal);
         const float3 b = inPlane(input.positions[vertices[nextCorner(corner)]] - position, normal);
-        const float angle = std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
+        const float angle = elementary::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
         sum += angle * inPlane(triangle.dPdu, normal);
     }
     return float4(normalizedOr(sum, anyTangent(normal)), groups.keepsOrientation[group] ? 1.0f : -1.0f);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
 
+#include "base/math/Elementary.h"
 #include "filament_core/assets/gltf/GltfExtensions.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ constexpr std::string_view kIesMimeType = "application/x-ies-lm-63";
 
 /// matrixFrom(UvPlacement) of the numbers of the file, unrounded.
 float3x3 textureTransform(std::array<double, 2> offset, double rotation, std::array<double, 2> scale) {
-    const double c = std::cos(rotation), s = std::sin(rotation);
+    const double c = elementary::cos(rotation), s = elementary::sin(rotation);
     return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0),
              float3(offset[0], offset[1], 1) };
 }

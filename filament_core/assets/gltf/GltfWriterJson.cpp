@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfWriterJson.h"
 
+#include "base/math/Elementary.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -45,10 +47,10 @@ Json samplerJson(Sampler const& sampler) {
 
 /// The inverse of the loader's textureTransform(): columns (c sx, -s sx), (s sy, c sy), (ox, oy).
 Json transformJson(float3x3 const& m) {
-    const float rotation = std::atan2(-m[0].y, m[0].x);
-    const float scaleX = std::hypot(m[0].x, m[0].y);
+    const float rotation = elementary::atan2(-m[0].y, m[0].x);
+    const float scaleX = elementary::hypot(m[0].x, m[0].y);
     const float mirror = m[0].x * m[1].y - m[0].y * m[1].x < 0 ? -1.0f : 1.0f;
-    const float scaleY = mirror * std::hypot(m[1].x, m[1].y);
+    const float scaleY = mirror * elementary::hypot(m[1].x, m[1].y);
     return { { "offset", { m[2].x, m[2].y } }, { "rotation", rotation }, { "scale", { scaleX, scaleY } } };
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/NodePose.h"
 
+#include "base/math/Elementary.h"
+
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
@@ -38,10 +40,10 @@ double4 slerp(double4 const& a, double4 const& b, double weight) {
     const double cosine = glm::dot(a, b);
     const double4 target = cosine < 0 ? -b : b;
     if (weight == 1) return target;
-    const double angle = std::acos(std::min(std::abs(cosine), 1.0));
-    const double sine = std::sin(angle);
+    const double angle = elementary::acos(std::min(std::abs(cosine), 1.0));
+    const double sine = elementary::sin(angle);
     if (sine < 1e-6) return a + (target - a) * weight; // so close that the arc is straight
-    return a * (std::sin((1 - weight) * angle) / sine) + target * (std::sin(weight * angle) / sine);
+    return a * (elementary::sin((1 - weight) * angle) / sine) + target * (elementary::sin(weight * angle) / sine);
 }
 
 NodePose blend(NodePose const& a, NodePose const& b, double weight) {

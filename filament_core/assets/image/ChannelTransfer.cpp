@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/ChannelTransfer.h"
 
+#include "base/math/Elementary.h"
+
 #include <filament/Color.h>
 
 #include <cmath>
@@ -10,7 +12,9 @@ namespace filament::assets {
 namespace {
 
 /// IEC 61966-2-1.
-double linearFromSrgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
+double linearFromSrgb(double code) {
+    return code <= 0.04045 ? code / 12.92 : elementary::pow((code + 0.055) / 1.055, 2.4);
+}
 
 std::unique_ptr<ChannelTransfer> makeTransfer(double (*linearFromUnit)(double)) {
     auto transfer = std::make_unique<ChannelTransfer>();

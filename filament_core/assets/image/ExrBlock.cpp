@@ -3,6 +3,7 @@
 // in OpenEXR's ImfPxr24Compressor.cpp and ImfB44Compressor.cpp (openexr.com).
 #include "filament_core/assets/image/ExrBlock.h"
 
+#include "base/math/Elementary.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/HdrDecoders.h"
 #include "filament_core/assets/image/Zlib.h"
@@ -79,7 +80,7 @@ std::optional<B44Square> readSquare(ByteCursor& cursor) {
 uint16_t withoutExponential(uint16_t half) {
     const float value = floatFromHalf(half);
     const bool isStored = std::isfinite(value) && value > 0;
-    return isStored ? halfFromFloat(static_cast<float>(8 * std::log(double{ value }))) : uint16_t{ 0 };
+    return isStored ? halfFromFloat(static_cast<float>(8 * elementary::log(double{ value }))) : uint16_t{ 0 };
 }
 
 bool expandHalves(ExrBlock const& block, ExrChannel const& channel, ByteCursor& cursor, std::byte* first) {

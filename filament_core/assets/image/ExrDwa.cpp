@@ -7,6 +7,7 @@
 //           own; of the others, runs of zeros are one word each.
 //   Runs    exact: the first bytes of all samples, then the second, ..., as run lengths in a zlib stream.
 //   Plain   exact: a zlib stream.
+#include "base/math/Elementary.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ExrBlock.h"
 #include "filament_core/assets/image/HdrDecoders.h"
@@ -195,11 +196,11 @@ void convertToColors(std::array<Square, 3>& planes) {
 /// continues it.
 std::vector<uint16_t> makeCurve() {
     std::vector<uint16_t> curve(1 << 16);
-    const double base = std::pow(2.7182818, 2.2);
+    const double base = elementary::pow(2.7182818, 2.2);
     for (uint32_t bits = 0; bits < curve.size(); ++bits) {
         const double value = floatFromHalf(static_cast<uint16_t>(bits)), size = std::abs(value);
         if (!std::isfinite(value)) continue;
-        const double light = size <= 1 ? std::pow(size, 2.2) : std::pow(base, size - 1);
+        const double light = size <= 1 ? elementary::pow(size, 2.2) : elementary::pow(base, size - 1);
         curve[bits] = halfFromFloat(static_cast<float>(std::copysign(light, value)));
     }
     return curve;

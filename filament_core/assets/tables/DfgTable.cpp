@@ -2,6 +2,7 @@
 #include "filament_core/assets/tables/DfgTable.h"
 
 #include "base/Assert.h"
+#include "base/math/Elementary.h"
 #include "base/math/GaussLegendre.h"
 #include "base/math/Half.h"
 #include "shaders/lib/LibCpp.h"
@@ -42,7 +43,7 @@ std::vector<Node> nodesAlong(int count, Step way(double)) {
 // Cosines of angles in [0, pi].
 std::vector<Node> azimuths(int count) {
     std::vector<Node> nodes = nodesAlong(count, steady);
-    for (Node& node : nodes) node.x = std::cos(lib::kPi * node.x);
+    for (Node& node : nodes) node.x = elementary::cos(lib::kPi * node.x);
     return nodes;
 }
 
@@ -57,7 +58,8 @@ class VisibleHalfVectors {
 public:
     VisibleHalfVectors(float nov, float alpha)
             : mNov(nov), mSine(std::sqrt((1 - nov) * (1 + nov))), mAlpha(alpha),
-              mFirst(std::atan(-nov / ((1 + mSine) * alpha))), mSpan(std::atan((1 + mSine) / (nov * alpha)) - mFirst) {
+              mFirst(elementary::atan(-nov / ((1 + mSine) * alpha))),
+              mSpan(elementary::atan((1 + mSine) / (nov * alpha)) - mFirst) {
         const float length = std::sqrt(alpha * alpha * mSine * mSine + nov * nov);
         mStretched = float2(alpha * mSine, nov) / length;
     }
@@ -68,7 +70,7 @@ public:
         static const std::vector<Node> sTurns = nodesAlong(16, slowAtBothEnds);
         for (Node const& node : sTurns) {
             const float angle = mFirst + node.x * mSpan;
-            visitSlice(std::sin(angle), std::cos(angle), node.weight, visit);
+            visitSlice(elementary::sin(angle), elementary::cos(angle), node.weight, visit);
         }
     }
 

@@ -3,6 +3,7 @@
 #include "filament_core/assets/tables/IesFile.h"
 
 #include "base/NumberText.h"
+#include "base/math/Elementary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -259,12 +260,15 @@ struct IesAngles {
 IesAngles anglesOf(IesType type, double3 const& d) {
     const double forward = -d.z;
     if (type == IesType::C) {
-        const double around = std::atan2(d.y, d.x) * kDegrees;
-        return { std::atan2(std::hypot(d.x, d.y), forward) * kDegrees, around < 0 ? around + 360 : around };
+        const double around = elementary::atan2(d.y, d.x) * kDegrees;
+        return { elementary::atan2(elementary::hypot(d.x, d.y), forward) * kDegrees,
+                 around < 0 ? around + 360 : around };
     }
     if (type == IesType::A)
-        return { std::atan2(d.x, std::hypot(d.y, forward)) * kDegrees, std::atan2(-d.y, forward) * kDegrees };
-    return { std::atan2(d.x, forward) * kDegrees, std::atan2(-d.y, std::hypot(d.x, forward)) * kDegrees };
+        return { elementary::atan2(d.x, elementary::hypot(d.y, forward)) * kDegrees,
+                 elementary::atan2(-d.y, forward) * kDegrees };
+    return { elementary::atan2(d.x, forward) * kDegrees,
+             elementary::atan2(-d.y, elementary::hypot(d.x, forward)) * kDegrees };
 }
 
 } // namespace

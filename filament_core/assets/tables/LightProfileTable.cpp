@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/tables/LightProfileTable.h"
 
+#include "base/math/Elementary.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +31,8 @@ constexpr std::array kRowSteps{ 5.0, 2.5, 2.0, 1.0, 0.5 };
 constexpr std::array kColumnSteps{ 22.5, 15.0, 10.0, 5.0, 2.5 };
 
 double3 directionOf(double polar, double around) {
-    return { std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), -std::cos(polar) };
+    return { elementary::sin(polar) * elementary::cos(around), elementary::sin(polar) * elementary::sin(around),
+             -elementary::cos(polar) };
 }
 
 /// The mean of the candelas over the cells around the rows, times their solid angles: exact for what is linear between.
@@ -42,7 +45,7 @@ double lumensOf(LightProfileTable const& table) {
         const double around = 2 * pi * column / table.columns;
         for (uint32_t i = 0; i < steps; ++i) {
             const double polar = (i + 0.5) * step;
-            sum += table.shareAt(directionOf(polar, around)) * std::sin(polar);
+            sum += table.shareAt(directionOf(polar, around)) * elementary::sin(polar);
         }
     }
     return sum * step * 2 * pi / table.columns * static_cast<double>(table.peak);
@@ -51,8 +54,8 @@ double lumensOf(LightProfileTable const& table) {
 } // namespace
 
 double LightProfileTable::shareAt(double3 const& direction) const {
-    const double polar = std::atan2(std::hypot(direction.x, direction.y), -direction.z);
-    const double turn = std::atan2(direction.y, direction.x) / (2 * pi);
+    const double polar = elementary::atan2(elementary::hypot(direction.x, direction.y), -direction.z);
+    const double turn = elementary::atan2(direction.y, direction.x) / (2 * pi);
     const double down = polar / static_cast<double>(lastRadians) * (rows - 1);
     const double around = (turn < 0 ? turn + 1 : turn) * columns;
     if (down > rows - 1 + 1e-3) return 0;

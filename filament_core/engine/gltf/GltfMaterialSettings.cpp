@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 
+#include "base/math/Elementary.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <algorithm>
@@ -167,7 +168,7 @@ void setAnisotropy(Settings& settings, assets::AnisotropyData const& anisotropy)
     settings.feature("hasAnisotropy");
     settings.parameter("anisotropyStrength", anisotropy.strength);
     const float angle = anisotropy.rotationRadians;
-    settings.parameter("anisotropyRotation", float2(std::cos(angle), std::sin(angle)));
+    settings.parameter("anisotropyRotation", float2(elementary::cos(angle), elementary::sin(angle)));
     settings.map("anisotropy", "hasAnisotropyMap", anisotropy.map);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
+#include "base/math/Elementary.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/EnvironmentImpl.h"
@@ -257,7 +258,7 @@ private:
     /// KHR_materials_volume: a thickness is in the space of the mesh and scales with its nodes. For a non-uniform
     /// scale, the geometric mean preserves the volume.
     static float scaleOf(double4x4 const& worldFromNode) {
-        const double scale = std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode))));
+        const double scale = elementary::cbrt(std::abs(glm::determinant(double3x3(worldFromNode))));
         return std::isfinite(scale) ? static_cast<float>(scale) : 1.0f; // NaN would be a key that is never found
     }
 

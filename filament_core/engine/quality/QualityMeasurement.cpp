@@ -2,6 +2,7 @@
 // measureQualityCosts(): draws every value of every choice in turns, timed by the device and compared as a picture.
 #include "base/Result.h"
 #include "base/Suggest.h"
+#include "base/math/Elementary.h"
 #include "base/math/Half.h"
 #include "filament_core/engine/PublicCall.h"
 
@@ -32,7 +33,7 @@ double linearFromHalf(uint16_t half) {
 // IEC 61966-2-1.
 double linearFromCode(std::byte code) {
     const double c = std::to_integer<int>(code) / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    return c <= 0.04045 ? c / 12.92 : elementary::pow((c + 0.055) / 1.055, 2.4);
 }
 
 double luminanceAt(Image const& image, size_t pixel) {
@@ -69,7 +70,7 @@ double median(std::vector<double> values) {
 /// has about 60 intervals, and none should be wrong. Conover 1999, "Practical Nonparametric Statistics", section 3.2.
 size_t lowRank(size_t count) {
     const auto n = static_cast<double>(count);
-    double probability = std::pow(0.5, n), below = 0; // for exactly `rank` successes; for fewer
+    double probability = elementary::pow(0.5, n), below = 0; // for exactly `rank` successes; for fewer
     size_t rank = 0;
     while (below + probability <= 0.005) {
         below += probability;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Projections in closed form: perspective and parallel, shifted, of any aspect.
+#include "base/math/Elementary.h"
 #include "base/math/Math.h"
 
 #include <filament/Camera.h>
@@ -61,7 +62,7 @@ TEST(Camera, ALensThatSaysNothingMoreHasThePictureItHad) {
     for (const float fov : { 10.0f, 45.0f, 60.0f, 120.0f }) {
         Camera camera;
         camera.lens = { .verticalFovDegrees = fov, .nearMeters = 0.1f };
-        const float focal = 1.0f / std::tan(glm::radians(fov) * 0.5f);
+        const float focal = 1.0f / elementary::tan(glm::radians(fov) * 0.5f);
         float4x4 expected(0.0f);
         expected[0][0] = focal / 1.5f;
         expected[1][1] = -focal;

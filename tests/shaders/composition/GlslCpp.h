@@ -30,6 +30,7 @@ using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
 
 using namespace glsl; // what shaders/lib calls, and:
+using elementary::tan;
 using glm::abs;
 using glm::ceil;
 using glm::floor;
@@ -42,7 +43,6 @@ using glm::refract;
 using glm::sign;
 using glm::smoothstep;
 using glm::step;
-using glm::tan;
 using glm::transpose;
 
 template <class T>
