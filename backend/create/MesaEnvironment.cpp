@@ -15,6 +15,8 @@ namespace {
 constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kCacheDirectory = "MESA_SHADER_CACHE_DIR";
 constexpr const char* kDefaultWidth = "256";
+constexpr const char* kOptions = "GALLIVM_PERF";
+constexpr const char* kFloatFilters = "no_aos_sampling";
 constexpr std::string_view kOwnFolder = "/mesa_vectors_128";
 
 using Lookup = std::function<const char*(const char*)>;
@@ -44,22 +46,36 @@ void leaveOwnCache(Lookup const& lookup, std::vector<EnvironmentChange>& changes
     changes.push_back({ kCacheDirectory, std::string(cache) });
 }
 
-} // namespace
+/// Mesa separates its options by commas.
+void filterInFloatingPoint(Lookup const& lookup, std::vector<EnvironmentChange>& changes) {
+    const char* const value = lookup(kOptions);
+    const std::string_view options = value ? value : "";
+    if (options.find(kFloatFilters) != std::string_view::npos) return;
+    changes.push_back({ kOptions, options.empty() ? kFloatFilters : fmt::format("{},{}", options, kFloatFilters) });
+}
 
-MesaEnvironment mesaEnvironment(Lookup const& lookup) {
+/// What the width needs; see the header.
+void chooseWidth(Lookup const& lookup, MesaEnvironment& environment) {
     const char* const value = lookup(kWidth);
     const std::string_view width = value ? value : "";
-    MesaEnvironment environment;
     if (width == "128") {
-        environment.changes = { ownCache(lookup) };
-        return environment;
+        environment.changes.push_back(ownCache(lookup));
+        return;
     }
     leaveOwnCache(lookup, environment.changes);
-    if (width == kDefaultWidth) return environment;
+    if (width == kDefaultWidth) return;
     environment.changes.push_back({ kWidth, kDefaultWidth });
     if (!width.empty())
         environment.note = fmt::format("{}={}: Mesa's software rasteriser works with 128 or 256 bits; {} are used",
                                        kWidth, width, kDefaultWidth);
+}
+
+} // namespace
+
+MesaEnvironment mesaEnvironment(Lookup const& lookup) {
+    MesaEnvironment environment;
+    chooseWidth(lookup, environment);
+    filterInFloatingPoint(lookup, environment.changes);
     return environment;
 }
 

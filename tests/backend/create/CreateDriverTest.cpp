@@ -149,8 +149,11 @@ Variables afterChanges(Variables variables) {
 }
 
 TEST(MesaEnvironmentTest, AWidthOf256IsTheDefaultAndSharesMesasCache) {
-    EXPECT_EQ(afterChanges({}), (Variables{ { "LP_NATIVE_VECTOR_WIDTH", "256" } }));
-    const Variables chosen{ { "LP_NATIVE_VECTOR_WIDTH", "256" }, { "MESA_SHADER_CACHE_DIR", "/c" } };
+    EXPECT_EQ(afterChanges({}),
+              (Variables{ { "GALLIVM_PERF", "no_aos_sampling" }, { "LP_NATIVE_VECTOR_WIDTH", "256" } }));
+    const Variables chosen{ { "GALLIVM_PERF", "no_aos_sampling" },
+                            { "LP_NATIVE_VECTOR_WIDTH", "256" },
+                            { "MESA_SHADER_CACHE_DIR", "/c" } };
     EXPECT_EQ(afterChanges(chosen), chosen);
 }
 
@@ -170,6 +173,15 @@ TEST(MesaEnvironmentTest, AWidthOf128StaysAndNeverMeetsShadersOfAnother) {
     const Variables child =
             afterChanges({ { "LP_NATIVE_VECTOR_WIDTH", "256" }, { "MESA_SHADER_CACHE_DIR", "/m/mesa_vectors_128" } });
     EXPECT_EQ(child.at("MESA_SHADER_CACHE_DIR"), "/m") << "a child of 256 bits leaves it again";
+}
+
+TEST(MesaEnvironmentTest, TexturesAreFilteredInFloatingPointWhateverElseWasChosen) {
+    const auto optionsAfter = [](const char* options) {
+        return afterChanges({ { "GALLIVM_PERF", options } }).at("GALLIVM_PERF");
+    };
+    EXPECT_EQ(optionsAfter(""), "no_aos_sampling");
+    EXPECT_EQ(optionsAfter("nopt"), "nopt,no_aos_sampling");
+    EXPECT_EQ(optionsAfter("nopt,no_aos_sampling"), "nopt,no_aos_sampling") << "a child process inherits it";
 }
 
 TEST(MesaEnvironmentTest, OtherWidthsFallBackTo256AndSaySo) {
