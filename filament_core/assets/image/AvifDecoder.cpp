@@ -3,6 +3,7 @@
 // libavif goes through libyuv, whose rounding depends on the processor.
 //   Sources  AVIF 1.1; MIAF (ISO/IEC 23000-22), 7.3.6.7: order of transformations; ITU-T H.273, 8.3: coefficients and
 //            ranges
+#include "filament_core/assets/image/AvifMirror.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 
 #include <avif/avif.h>
@@ -108,7 +109,7 @@ uint2 orientedSize(avifImage const& image) {
 uint2 placeInPlanes(avifImage const& image, uint2 pixel) {
     const uint2 size = orientedSize(image);
     if (image.transformFlags & AVIF_TRANSFORM_IMIR) {
-        if (image.imir.mode == 0)
+        if (mirrorOf(image.imir) == 0)
             pixel.y = size.y - 1 - pixel.y; // top and bottom change places
         else
             pixel.x = size.x - 1 - pixel.x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/filament_core/assets/image/AvifFile.h"
 
+#include "filament_core/assets/image/AvifMirror.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/ImageSize.h"
 #include "filament_core/assets/image/PictureDecoder.h"
@@ -133,7 +134,7 @@ TEST(Avif, TurnsAndMirrorsAsTheFileSays) {
                                          if (one.angle) image.transformFlags |= AVIF_TRANSFORM_IROT;
                                          if (one.mirror >= 0) image.transformFlags |= AVIF_TRANSFORM_IMIR;
                                          image.irot.angle = static_cast<uint8_t>(one.angle);
-                                         image.imir.mode = static_cast<uint8_t>(std::max(one.mirror, 0));
+                                         mirrorOf(image.imir) = static_cast<uint8_t>(std::max(one.mirror, 0));
                                      },
                              .code = [](uint32_t, uint2 at) { return at == uint2(0) ? 200u : 10u; } };
         const Image image = decodedAvif(file);
