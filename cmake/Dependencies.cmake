@@ -57,11 +57,11 @@ target_link_libraries(asset_codecs INTERFACE
     nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer draco::draco PNG::PNG JPEG::JPEG ZLIB::ZLIB
     PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
-# The reference renderer's ray tracer. Its CMake package requires TBB's headers, which are not needed here.
-find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)
-find_library(EMBREE_LIBRARY embree3 REQUIRED)
+# The reference renderer's ray tracer, version 4 or 3. Its CMake package requires TBB's headers, which are not needed here.
+find_path(EMBREE_HEADERS rtcore.h PATH_SUFFIXES embree4 embree3 REQUIRED)
+find_library(EMBREE_LIBRARY NAMES embree4 embree3 REQUIRED)
 add_library(embree INTERFACE)
-target_include_directories(embree SYSTEM INTERFACE ${EMBREE_INCLUDE})
+target_include_directories(embree SYSTEM INTERFACE ${EMBREE_HEADERS})
 target_link_libraries(embree INTERFACE ${EMBREE_LIBRARY})
 
 find_library(JEMALLOC_LIBRARY jemalloc REQUIRED) # filament_fast_heap()

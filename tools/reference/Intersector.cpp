@@ -3,7 +3,7 @@
 
 #include "tools/reference/Material.h"
 
-#include <embree3/rtcore.h>
+#include <rtcore.h>
 
 #include <algorithm>
 #include <string>
@@ -11,8 +11,37 @@
 namespace filament::reference {
 namespace {
 
+// Embree 4 renamed the context of a ray, and passes it among other arguments.
+#if RTC_VERSION_MAJOR >= 4
+using EmbreeContext = RTCRayQueryContext;
+
+void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &query, &arguments);
+}
+
+void occlude(RTCScene scene, EmbreeContext& context, RTCRay& query) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &query, &arguments);
+}
+
+void initialize(EmbreeContext& context) { rtcInitRayQueryContext(&context); }
+#else
+using EmbreeContext = RTCIntersectContext;
+
+void intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& query) { rtcIntersect1(scene, &context, &query); }
+
+void occlude(RTCScene scene, EmbreeContext& context, RTCRay& query) { rtcOccluded1(scene, &context, &query); }
+
+void initialize(EmbreeContext& context) { rtcInitIntersectContext(&context); }
+#endif
+
 struct TraceContext {
-    RTCIntersectContext embree; // first member, because Embree passes its address
+    EmbreeContext embree; // first member, because Embree passes its address
     Ray const* ray;
 };
 
@@ -90,7 +119,7 @@ RTCRay embreeRay(Ray const& ray) {
 
 TraceContext contextOf(Ray const& ray) {
     TraceContext context{ {}, &ray };
-    rtcInitIntersectContext(&context.embree);
+    initialize(context.embree);
     return context;
 }
 
@@ -122,7 +151,7 @@ std::optional<Hit> Intersector::nearest(Ray const& ray) const {
     RTCRayHit query{ embreeRay(ray), {} };
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(static_cast<RTCScene>(mScene.get()), &context.embree, &query);
+    intersect(static_cast<RTCScene>(mScene.get()), context.embree, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return Hit{ query.hit.geomID, { query.hit.primID, query.hit.u, query.hit.v }, query.ray.tfar };
 }
@@ -130,7 +159,7 @@ std::optional<Hit> Intersector::nearest(Ray const& ray) const {
 bool Intersector::isOccluded(Ray const& ray) const {
     TraceContext context = contextOf(ray);
     RTCRay query = embreeRay(ray);
-    rtcOccluded1(static_cast<RTCScene>(mScene.get()), &context.embree, &query);
+    occlude(static_cast<RTCScene>(mScene.get()), context.embree, query);
     return query.tfar < 0; // Embree's way to report a hit: minus infinity
 }
 
