@@ -161,7 +161,7 @@ class TicketCall {
 public:
     TicketCall(std::shared_ptr<LoadTask> const& ofTicket, const char* function)
             : mCall(function), task(static_cast<LoadTaskOf<T>&>(existing(ofTicket))) {
-        if (task.link.isAlive()) mOfEngine.emplace(&task, function);
+        if (task.link.isAlive()) const PublicCall checksThread(&task, function);
     }
 
 private:
@@ -171,7 +171,6 @@ private:
     }
 
     ApiCall mCall;
-    std::optional<PublicCall> mOfEngine; ///< checks the thread
 
 public:
     LoadTaskOf<T>& task;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 namespace filament {
 namespace {
@@ -182,12 +181,11 @@ public:
     AnimatorCall(Animator::Impl const* animator, const char* function) : mCall(function) {
         if (!animator) misused("the animator was moved from; use the one that it was moved to");
         if (animator->sceneLink.expired()) misused("its scene is gone");
-        mOfScene.emplace(&animator->scene, function);
+        const engine::PublicCall checksEngineAndThread(&animator->scene, function);
     }
 
 private:
     ApiCall mCall;
-    std::optional<engine::PublicCall> mOfScene; ///< checks engine and thread
 };
 
 } // namespace
