@@ -103,7 +103,6 @@ bool drawsNothing(scene::InstanceRaster const& raster) {
 // Whatever is nearer than the depth that is known is equal to it.
 PipelineDesc leavingMotion(PipelineDesc desc, DepthRange range) {
     desc.raster.cull = CullMode::None; // what was culled in the prepass has other depths
-    desc.raster.alphaToCoverage = false;
     desc.depthStencil = { .depthCompare =
                                   range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,
                           .depthWrite = false };
@@ -119,7 +118,6 @@ PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raste
 
 // The depths of what blends count as well: the nearest surface is seen.
 PipelineDesc leavingEdges(PipelineDesc desc, scene::InstanceRaster const& raster, DepthRange range) {
-    desc.raster.alphaToCoverage = false;
     desc.depthStencil = { .depthCompare =
                                   range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,
                           .depthWrite = !drawsNothing(raster) };
@@ -128,7 +126,6 @@ PipelineDesc leavingEdges(PipelineDesc desc, scene::InstanceRaster const& raster
 }
 
 PipelineDesc leavingPick(PipelineDesc desc, scene::InstanceRaster const& raster) {
-    desc.raster.alphaToCoverage = false;
     desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
     return desc;
 }
@@ -140,13 +137,6 @@ DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange ran
     const bool writes = raster.depthWrite && !drawsNothing(raster);
     if (!raster.depthCulling && !writes) return {};
     return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
-}
-
-// The alpha from which the device derives coverage is that of a pixel; a covered sample is opaque.
-void keepCoveredAlpha(BlendState& blend) {
-    if (blend.enabled) return;
-    blend.enabled = true;
-    blend.dstAlpha = BlendFactor::OneMinusSrcAlpha;
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
@@ -435,7 +425,6 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
     desc.raster.cull = cullMode(raster);
     desc.raster.frontFace = mirrored ? FrontFace::Clockwise : FrontFace::CounterClockwise;
-    desc.raster.alphaToCoverage = package.alphaToCoverage && slot.layout.samples > 1;
     if (geometryLayout != kNoGeometry) {
         desc.vertices = withInstanceIndex(mLayouts[geometryLayout].vertices);
         desc.raster.topology = mLayouts[geometryLayout].topology;
@@ -453,7 +442,6 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.depthStencil.back = stencilFace(slot.stencil->back);
     }
     BlendState blend = slot.debug == DebugSlot::None ? blendState(package) : debugBlendState(slot.debug);
-    if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);
     composeInAnyOrder(desc, slot.transparency);

@@ -25,10 +25,26 @@ public:
         }
     }
 
+    /// Part of ESSL 3.20. A device with neither it nor the extension covers all samples.
+    void nameSampleMask() {
+        update_active_builtins();
+        if (!has_active_builtin(spv::BuiltInSampleMask, spv::StorageClassOutput)) return;
+        for (const char* line :
+             { "#extension GL_OES_sample_variables : enable", "#ifdef GL_OES_sample_variables",
+               "#define written_samples gl_SampleMask", "#else", "int written_samples[1];", "#endif" }) {
+            add_header_line(line);
+        }
+    }
+
 private:
     void emit_header() override {
         backend.support_precise_qualifier = true;
         CompilerGLSL::emit_header();
+    }
+
+    std::string builtin_to_glsl(spv::BuiltIn builtin, spv::StorageClass storage) override {
+        const bool isWrittenMask = builtin == spv::BuiltInSampleMask && storage == spv::StorageClassOutput;
+        return isWrittenMask ? "written_samples" : CompilerGLSL::builtin_to_glsl(builtin, storage);
     }
 };
 
@@ -98,6 +114,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
         renumberAll(compiler, layout);
         requireCubeArrays(compiler);
         requirePrimitiveId(compiler);
+        compiler.nameSampleMask();
         return preprocessConditions(compiler.compile());
     } catch (std::exception const& error) {
         return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());

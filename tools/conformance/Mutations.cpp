@@ -529,12 +529,18 @@ class TargetSizeEdit final : public PassBlocksEdit {
     }
 };
 
+/// Samples a pixel of the PassUniforms that begin here with the size of a target and its reciprocal; 0: none do.
+float samplesAt(Bytes const& bytes, size_t at) {
+    const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+    const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
+    const bool isTarget = number(0) >= 1 && isReciprocal(0) && isReciprocal(1);
+    return isTarget && (number(4) == 1 || number(4) == 4) ? number(4) : 0;
+}
+
 /// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.
 bool isBeforePicture(Bytes const& bytes, size_t at) {
     const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
-    const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
-    return number(0) >= 1 && isReciprocal(0) && isReciprocal(1) && (number(4) == 1 || number(4) == 4) &&
-           number(6) >= 1 && number(10) > number(8);
+    return samplesAt(bytes, at) > 0 && number(6) >= 1 && number(10) > number(8);
 }
 
 /// The last blurred level of the picture that is refracted is not read.
@@ -644,10 +650,13 @@ class DrawnLevelsEdit final : public ConstantEdit {
     }
 };
 
-class CoverageOffEdit final : public StreamEdit {
-public:
-    using StreamEdit::edit;
-    void edit(CmdCreatePipeline& command) override { command.desc.raster.alphaToCoverage = false; }
+/// Surfaces believe that their target has one sample a pixel.
+class CoverageOffEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
+            if (samplesAt(bytes, at) > 1) writeFloat(bytes, at + offsetof(shader::PassUniforms, raster), 1);
+        }
+    }
 };
 
 /// Those of finish.mat.

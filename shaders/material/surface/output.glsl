@@ -5,8 +5,8 @@
 #define ALPHA_IS_COVERAGE
 #endif
 
-// With several samples a pixel, the edge becomes a ramp of one pixel's width around the threshold, from which the device
-// derives coverage (Golus 2017, "Anti-aliased alpha test: the esoteric alpha to coverage").
+// With several samples a pixel, the edge becomes a ramp of one pixel's width around the threshold, from which
+// applyCoverage() derives coverage (Golus 2017, "Anti-aliased alpha test: the esoteric alpha to coverage").
 void applyMask(inout vec4 baseColor) {
 #if defined(BLEND_MODE_MASKED)
 #if defined(ALPHA_TO_COVERAGE)
@@ -33,7 +33,7 @@ void addEmissive(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
-// 1 for an opaque surface, unless the device derives coverage from it. A masked one has what applyMask() left.
+// 1 for an opaque surface, unless coverage is derived from it. A masked one has what applyMask() left.
 float outputAlpha(float alpha) {
 #if defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)
     return 1.0;
@@ -63,4 +63,36 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
     color.a = surfaceAlpha; // what lies above an opaque surface cannot make it transparent
 #endif
 #endif
+}
+
+#if defined(ALPHA_TO_COVERAGE)
+
+// Sample s of N is covered if alpha > s / N: the first ceil(alpha * N) of them. Which samples devices would choose is
+// their own affair (Vulkan 1.3, "Multisample Coverage"), and versions of Mesa differ. samples: a power of two, at most
+// 16, which makes the product exact. Returns bit s for sample s; no sample if alpha is no number.
+int coveredSamples(highp float alpha, highp float samples) {
+    int count = alpha > 0.0 ? int(ceil(min(alpha, 1.0) * samples)) : 0;
+    return (1 << count) - 1;
+}
+
+// All samples if there is one: a device does not define the mask of a program that writes it on some of its ways only.
+void applyCoverage(inout highp vec4 color) {
+    int covered = -1;
+    highp float samples = ofFragment(passUniforms.raster.x);
+    if (samples > 1.0) {
+        covered = coveredSamples(color.a, samples);
+#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
+        color.a = 1.0; // of a covered sample
+#endif
+    }
+    gl_SampleMask[0] = covered;
+}
+
+#endif
+
+void writeColor(highp vec4 color) {
+#if defined(ALPHA_TO_COVERAGE)
+    applyCoverage(color);
+#endif
+    fragment_color = color;
 }

@@ -31,5 +31,5 @@ void main() {
 #if defined(BLENDS_IN_ANY_ORDER)
     color = composedColor(color);
 #endif
-    fragment_color = color;
+    writeColor(color);
 }

@@ -81,5 +81,22 @@ TEST(PrimitiveId, AsksForTheExtensionOfEssl310WhereItIsRead) {
     EXPECT_EQ(essl("m.baseColor.r = float(ownBits(1));").find(extension), std::string::npos);
 }
 
+TEST(SampleMask, IsInTheCodeOfMaterialsWithAlphaToCoverageAlone) {
+    const auto essl = [](std::string const& properties) {
+        return compiled(lit(properties, "m.roughness = 0.5;")).variants[0].fragment->essl;
+    };
+    const std::string extension = "#extension GL_OES_sample_variables : enable",
+                      mask = "#define written_samples gl_SampleMask";
+    for (const char* properties : { "blending : masked", "alphaToCoverage : true" }) {
+        EXPECT_NE(essl(properties).find(extension), std::string::npos) << properties;
+        EXPECT_NE(essl(properties).find(mask), std::string::npos) << properties;
+        EXPECT_NE(essl(properties).find("written_samples[0] = "), std::string::npos) << properties;
+    }
+    for (const char* properties : { "blending : opaque", "blending : masked, alphaToCoverage : false" }) {
+        EXPECT_EQ(essl(properties).find(extension), std::string::npos) << properties;
+        EXPECT_EQ(essl(properties).find("gl_SampleMask"), std::string::npos) << properties;
+    }
+}
+
 } // namespace
 } // namespace filament::shader

@@ -80,27 +80,24 @@ double shareOf(uint32_t x, uint32_t y) {
     return std::clamp((alpha - kThreshold) / (seen / kSide) + 0.5, 0.0, 1.0); // fwidth() of both slopes is one pixel
 }
 
-/// How many samples an alpha covers is left to devices; Mesa rounds up.
+/// coveredSamples() of shaders/material/surface/output.glsl: the next higher of five levels.
 TEST(AlphaToCoverage, CoversAsManyOfFourSamplesAsTheSharpenedAlphaSays) {
     const Image image = drawn("", 4);
     double away = 0;
     uint32_t edges = 0;
-    std::set<float> levels;
     for (uint32_t y = 0; y < kSide; ++y) {
         for (uint32_t x = 0; x < kSide; ++x) {
             const double share = shareOf(x, y), seen = static_cast<double>(halfPixel(image, x, y).x);
-            EXPECT_EQ(seen * 4, std::round(seen * 4)) << "of four samples";
-            EXPECT_GE(seen, share - 1e-3) << "the next of five levels; " << x << " " << y;
-            EXPECT_LE(seen, share + 0.25) << x << " " << y;
+            if (std::abs(share * 4 - std::round(share * 4)) > 4e-3) {
+                EXPECT_EQ(seen * 4, std::ceil(share * 4)) << x << " " << y;
+            }
             if (share <= 0 || share >= 1) continue;
-            levels.insert(halfPixel(image, x, y).x);
             away += seen - share;
             ++edges;
         }
     }
     EXPECT_GE(edges, kSide) << "one a row";
     EXPECT_NEAR(away / edges, 0.125, 0.04) << "in the mean";
-    EXPECT_EQ(levels, (std::set<float>{ 0.25f, 0.5f, 0.75f, 1 }));
 }
 
 /// Without a mask alpha is the coverage itself: materials of the blending opaque.
