@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/UiInput.h"
 
-#include <imgui.h>
-#include <imgui_internal.h>
+#include "tools/view/ui/ImGuiVersions.h"
 
 #include <algorithm>
 #include <array>
@@ -36,7 +35,7 @@ constexpr std::array<std::pair<ImGuiKey, int>, 22> kKeys{ {
         { ImGuiKey_Space, key::kSpace },
         { ImGuiKey_Enter, key::kEnter },
         { ImGuiKey_Escape, key::kEscape },
-        { ImGuiKey_KeyPadEnter, key::kKeypadEnter },
+        { kImGuiKeypadEnter, key::kKeypadEnter },
         { ImGuiKey_A, 'A' },
         { ImGuiKey_C, 'C' },
         { ImGuiKey_V, 'V' },
@@ -46,10 +45,7 @@ constexpr std::array<std::pair<ImGuiKey, int>, 22> kKeys{ {
 } };
 
 void setModifiers(ImGuiIO& io, Modifiers const& modifiers) {
-    io.KeyShift = modifiers.shift;
-    io.KeyCtrl = modifiers.control;
-    io.KeyAlt = modifiers.alt;
-    io.KeySuper = modifiers.super;
+    setModifierKeys(io, modifiers.shift, modifiers.control, modifiers.alt, modifiers.super);
 }
 
 /// Gives an event to ImGui.
@@ -57,8 +53,8 @@ struct Apply {
     ImGuiIO& io;
 
     void operator()(KeyEvent const& event) const {
-        if (event.key >= 0 && event.key < static_cast<int>(std::size(io.KeysDown)))
-            io.KeysDown[event.key] = event.isDown;
+        const auto known = std::ranges::find(kKeys, event.key, &std::pair<ImGuiKey, int>::second);
+        if (known != kKeys.end()) setKey(io, known->first, event.isDown);
         setModifiers(io, event.modifiers);
     }
     void operator()(TextEvent const& event) const { io.AddInputCharacter(event.character); }
@@ -73,7 +69,7 @@ struct Apply {
     }
     void operator()(FocusEvent const& event) const {
         if (event.hasFocus) return;
-        std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false); // their releases go elsewhere
+        for (auto const& [key, number] : kKeys) setKey(io, key, false); // their releases go elsewhere
         std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
         io.MousePos = ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
     }
@@ -103,7 +99,7 @@ UiInput& inputOf(void* data) { return *static_cast<UiInput*>(data); }
 
 UiInput::UiInput(Clipboard clipboard) : mClipboard(std::move(clipboard)) {
     ImGuiIO& io = ImGui::GetIO();
-    for (auto const& [ours, theirs] : kKeys) io.KeyMap[ours] = theirs;
+    prepareKeys(io);
     io.ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     io.ClipboardUserData = this;
     io.SetClipboardTextFn = [](void* data, const char* text) { inputOf(data).copy(text); };
@@ -120,7 +116,7 @@ void UiInput::followPointer() const {
     if (std::ranges::any_of(mWaiting, isButton)) return; // the pointer waits for it
     for (InputEvent const& event : mWaiting)
         if (auto const* move = std::get_if<MouseMoveEvent>(&event)) Apply{ ImGui::GetIO() }(*move);
-    ImGui::UpdateHoveredWindowAndCaptureFlags();
+    updateHovered();
 }
 
 bool UiInput::pass(InputEvent const& event) {

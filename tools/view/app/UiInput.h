@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// UiInput: passes InputEvents to Dear ImGui's current context.
-///   Order    ImGui 1.86 looks at the mouse and the keys once a frame. Events that one look would confuse wait for the
-///            next frame: a button or a key that was pressed and released in one, or a pointer that moved on after a
-///            click.
+///   Order    ImGui looks at the mouse and the keys once a frame (ImGuiVersions.h). Events that one look would confuse
+///            wait for the next frame: a button or a key that was pressed and released in one, or a pointer that moved
+///            on after a click.
 ///   Out      pass(): the interface wants the event for itself: the pointer is over a panel, or a text is being edited,
 ///            as of the last frame.
 ///   Thread   that of the context.

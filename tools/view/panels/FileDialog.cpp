@@ -2,8 +2,8 @@
 #include "tools/view/panels/FileDialog.h"
 
 #include "tools/view/panels/PanelText.h"
+#include "tools/view/ui/ImGuiVersions.h"
 
-#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -29,7 +29,6 @@ const char* titleOf(FilePurpose purpose) {
 }
 
 bool isPath(std::string const& text) { return text.find('/') != std::string::npos; }
-bool isPressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
 
 } // namespace
 
@@ -144,10 +143,10 @@ void FileDialog::updateShown() {
 
 void FileDialog::walk() {
     const size_t before = mSelected, last = mShown.empty() ? 0 : mShown.size() - 1;
-    if (isPressed(ImGuiKey_UpArrow) && mSelected > 0) --mSelected;
-    if (isPressed(ImGuiKey_DownArrow)) ++mSelected;
-    if (isPressed(ImGuiKey_PageUp)) mSelected -= std::min(mSelected, kRowsOfPage);
-    if (isPressed(ImGuiKey_PageDown)) mSelected += kRowsOfPage;
+    if (isKeyPressed(ImGuiKey_UpArrow) && mSelected > 0) --mSelected;
+    if (isKeyPressed(ImGuiKey_DownArrow)) ++mSelected;
+    if (isKeyPressed(ImGuiKey_PageUp)) mSelected -= std::min(mSelected, kRowsOfPage);
+    if (isKeyPressed(ImGuiKey_PageDown)) mSelected += kRowsOfPage;
     mSelected = std::min(mSelected, last);
     mHasMoved |= mSelected != before;
 }
@@ -223,7 +222,7 @@ void FileDialog::drawEntries() {
 bool FileDialog::drawField(bool hasKeys) {
     if (mIsNew || !ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const bool goesUp = hasKeys && mField.empty() && isPressed(ImGuiKey_Backspace);
+    const bool goesUp = hasKeys && mField.empty() && isKeyPressed(ImGuiKey_Backspace);
     const bool isChanged =
             ImGui::InputTextWithHint("##field", isSaving(mPurpose) ? "name" : "filter, or a path", &mField);
     if (goesUp) goTo(mFolder.parent_path());
@@ -255,8 +254,8 @@ void FileDialog::draw() {
         updateShown(); // of the folder that these two may have left
         const bool hasKeys = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
         if (hasKeys) walk();
-        if (hasKeys && (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter))) enter();
-        if (hasKeys && isPressed(ImGuiKey_Escape)) close();
+        if (hasKeys && (isKeyPressed(ImGuiKey_Enter) || isKeyPressed(kImGuiKeypadEnter))) enter();
+        if (hasKeys && isKeyPressed(ImGuiKey_Escape)) close();
         updateShown();
         drawEntries();
         if (drawField(hasKeys)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/ui/UiGeometry.h"
 
+#include "tools/view/ui/ImGuiVersions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -57,12 +59,12 @@ void UiGeometry::build(ImDrawData const& drawData) {
     mRuns.clear();
     mSkipped = 0;
     const uint2 size = uiPixels(drawData);
-    if (size.x == 0 || !drawData.Valid || !drawData.CmdLists) return;
+    if (size.x == 0 || !drawData.Valid) return;
     mOrigin = { drawData.DisplayPos.x, drawData.DisplayPos.y };
     mScale = { drawData.FramebufferScale.x, drawData.FramebufferScale.y };
     mSize = float2(size);
-    for (int i = 0; i < drawData.CmdListsCount; ++i)
-        if (drawData.CmdLists[i]) add(*drawData.CmdLists[i]);
+    for (ImDrawList const* list : drawLists(drawData))
+        if (list) add(*list);
 }
 
 void UiGeometry::add(ImDrawList const& list) {
@@ -94,7 +96,7 @@ void UiGeometry::add(ImDrawList const& list, ImDrawCmd const& command) {
     }
     const size_t before = mIndices.size();
     for (uint32_t i = 0; i < there; i += 3) addTriangle(list, command, command.IdxOffset + i, clip);
-    if (mIndices.size() > before) extendRun(command.TextureId);
+    if (mIndices.size() > before) extendRun(command.GetTexID());
     if (mRuns.size() > kMostRuns) {
         mRuns.pop_back();
         mIndices.resize(before);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/ui/UiRenderer.h"
 
+#include "tools/view/ui/ImGuiVersions.h"
+
 #include <materials/ui.h>
 
 #include <algorithm>
@@ -16,7 +18,7 @@ constexpr size_t kLeastVertices = 4096, kLeastIndices = 8192;
 constexpr float3 kDeviceMin{ -1 }, kDeviceMax{ 1 };
 
 ImTextureID textureId(size_t slot, uint32_t generation) {
-    return reinterpret_cast<ImTextureID>(uintptr_t{ generation } << 32 | (slot + 1));
+    return textureIdOf(uint64_t{ generation } << 32 | (slot + 1));
 }
 
 /// What the view makes of numbers: nothing.
@@ -79,7 +81,7 @@ void UiRenderer::remove(ImTextureID id) {
 }
 
 MaterialInstance UiRenderer::materialOf(ImTextureID id) const {
-    const auto bits = reinterpret_cast<uintptr_t>(id);
+    const uint64_t bits = bitsOfTexture(id);
     const size_t slot = (bits & 0xFFFFFFFF) - 1; // of 0: beyond all
     if (slot >= mSlots.size() || bits >> 32 != mSlots[slot].generation) return {};
     return mSlots[slot].instance.get();

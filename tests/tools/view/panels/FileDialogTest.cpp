@@ -2,6 +2,7 @@
 // Folders as a file dialog lists them, and the dialog by keys alone: without a device.
 #include "tools/view/panels/FileDialog.h"
 #include "tests/filament_core/engine/RenderFixture.h"
+#include "tools/view/ui/ImGuiVersions.h"
 #include "tools/view/ui/UiContext.h"
 
 #include <gmock/gmock.h>
@@ -95,7 +96,7 @@ class FileDialogTest : public testing::Test {
 protected:
     FileDialogTest() : mFolder(folderOfTest()) {
         ImGuiIO& io = ImGui::GetIO();
-        for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key + 1;
+        prepareKeys(io);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
         io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
@@ -128,9 +129,9 @@ protected:
     /// One frame, in which nothing that the disk has to say can be known yet.
     void pressOnly(ImGuiKey key) {
         ImGuiIO& io = ImGui::GetIO();
-        io.KeysDown[key + 1] = true;
+        setKey(io, key, true);
         frame();
-        io.KeysDown[key + 1] = false;
+        setKey(io, key, false);
     }
     void press(ImGuiKey key) {
         pressOnly(key);
@@ -150,8 +151,8 @@ protected:
     static bool isSelectionSeen() {
         const ImU32 color = ImGui::GetColorU32(ImGuiCol_Header);
         ImDrawData const& data = *ImGui::GetDrawData();
-        for (int i = 0; i < data.CmdListsCount; ++i)
-            for (ImDrawVert const& vertex : data.CmdLists[i]->VtxBuffer)
+        for (ImDrawList const* list : drawLists(data))
+            for (ImDrawVert const& vertex : list->VtxBuffer)
                 if (vertex.col == color) return true;
         return false;
     }

@@ -2,8 +2,7 @@
 // The panels themselves, without a window: their pictures on both APIs, and what clicks and keys do to the document.
 #include "tests/tools/view/panels/PanelStage.h"
 #include "tools/view/panels/CameraModel.h"
-
-#include <imgui_internal.h>
+#include "tools/view/ui/ImGuiVersions.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -94,9 +93,9 @@ TEST(Panels, WithTheirTimesFixedEvenThoseAreTheSame) {
         stage.ui->render(*ImGui::GetDrawData(), bare, stage.size);
         const auto expected = first.waitPixels(first.readPixels(bare));
         ui->uploadFonts(stage.context.fonts());
-        for (int i = 0; i < ImGui::GetDrawData()->CmdListsCount; ++i) // the identifier of the other atlas
-            for (ImDrawCmd& command : ImGui::GetDrawData()->CmdLists[i]->CmdBuffer)
-                command.TextureId = stage.context.fonts().TexID;
+        for (ImDrawList* list : view::drawLists(*ImGui::GetDrawData())) // the identifier of the other atlas
+            for (ImDrawCmd& command : list->CmdBuffer)
+                view::setTexture(command, view::textureOf(stage.context.fonts()));
         renderer.render(scene, View{ .size = stage.size }, chain);
         ui->render(*ImGui::GetDrawData(), chain, stage.size);
         const auto seen = renderer.waitPixels(renderer.readPixels(chain));
@@ -253,19 +252,18 @@ TEST(Panels, TypingFiltersTheOptions) {
 }
 
 TEST(Panels, TypingAPathGivesATextureAPicture) {
-    constexpr int kEnter = 1; // any number that no other key has
     PanelStage stage(Backend::Vulkan);
     stage.panels.state.selectedMaterial = "canvas";
     stage.open("Materials");
-    ImGui::GetIO().KeyMap[ImGuiKey_Enter] = kEnter;
+    view::prepareKeys(ImGui::GetIO());
     for (const ImVec2 place : widgetsOf(stage, stage.panels.layout().left)) {
         if (place.y < 60) continue; // tabs, and the filter
         stage.click(place);
         if (!ImGui::GetIO().WantTextInput) continue;
         stage.type("cloth.png");
-        ImGui::GetIO().KeysDown[kEnter] = true;
+        view::setKey(ImGui::GetIO(), ImGuiKey_Enter, true);
         stage.interfaceFrame();
-        ImGui::GetIO().KeysDown[kEnter] = false;
+        view::setKey(ImGui::GetIO(), ImGuiKey_Enter, false);
         stage.interfaceFrame();
         if (!stage.document.textures.empty()) break;
         ImGui::ClearActiveID();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draw lists as arrays: what becomes of each command, and lists that no program should make.
 #include "tools/view/ui/UiGeometry.h"
+#include "tools/view/ui/ImGuiVersions.h"
 #include "tools/view/ui/UiContext.h"
 
 #include <gtest/gtest.h>
@@ -20,17 +21,21 @@ struct HandMade {
         data.Valid = true;
         data.DisplaySize = { size.x, size.y };
         data.FramebufferScale = { 1, 1 };
+#if IMGUI_VERSION_NUM >= 18980
+        data.CmdLists.push_back(&list);
+#else
         data.CmdLists = lists.data();
+#endif
         data.CmdListsCount = 1;
     }
     /// Two triangles; their vertices are new.
-    void quad(float2 least, float2 most, ImVec4 clip, ImTextureID texture = nullptr) {
+    void quad(float2 least, float2 most, ImVec4 clip, ImTextureID texture = {}) {
         const auto first = static_cast<ImDrawIdx>(list.VtxBuffer.Size);
         for (const float2 place : { least, float2(most.x, least.y), most, float2(least.x, most.y) })
             list.VtxBuffer.push_back({ { place.x, place.y }, { 0, 0 }, IM_COL32_WHITE });
         ImDrawCmd command;
         command.ClipRect = clip;
-        command.TextureId = texture;
+        setTexture(command, texture);
         command.IdxOffset = static_cast<unsigned>(list.IdxBuffer.Size);
         command.ElemCount = 6;
         for (const int corner : { 0, 1, 2, 0, 2, 3 }) list.IdxBuffer.push_back(static_cast<ImDrawIdx>(first + corner));
@@ -48,7 +53,7 @@ struct HandMade {
     UiGeometry geometry;
 };
 
-const ImTextureID kOne = reinterpret_cast<ImTextureID>(1), kOther = reinterpret_cast<ImTextureID>(2);
+const ImTextureID kOne = textureIdOf(1), kOther = textureIdOf(2);
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 TEST(UiGeometry, NeighboursWithTheSameTextureAreOneRunWhateverTheirRectangles) {
@@ -139,7 +144,7 @@ TEST(UiGeometry, OfAnyListsStaysInsideItsArraysAndTheirRectanglesInsideThePictur
             command.IdxOffset = random() % 3 ? static_cast<unsigned>(random() % 200) : static_cast<unsigned>(random());
             command.VtxOffset = random() % 3 ? 0 : static_cast<unsigned>(random() % 70);
             command.ElemCount = random() % 5 ? static_cast<unsigned>(random() % 90) : ~0u;
-            command.TextureId = random() % 2 ? kOne : kOther;
+            setTexture(command, random() % 2 ? kOne : kOther);
             made.list.CmdBuffer.push_back(command);
         }
         UiGeometry const& geometry = made.built();

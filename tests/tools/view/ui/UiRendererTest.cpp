@@ -2,6 +2,7 @@
 // Interfaces over a picture: their bytes, the edges of their rectangles, their text and their textures, on both APIs.
 #include "tests/tools/view/ui/UiStage.h"
 #include "tools/filament-render/HeapCounter.h"
+#include "tools/view/ui/ImGuiVersions.h"
 
 #include <gmock/gmock.h>
 
@@ -15,10 +16,12 @@ namespace {
 using test::Codes;
 using test::codesAt;
 using test::drawnByBoth;
+using test::glyphOf;
 using test::imColor;
 using test::kGround;
 using test::UiContext;
 using test::UiStage;
+using view::drawLists;
 
 constexpr uint2 kSize(96, 64);
 
@@ -131,7 +134,7 @@ TEST(UiRenderer, WhiteTextOnBlackIsTheFontAtlas) {
     float pen = 7;
     size_t inked = 0;
     for (const char* letter = text; *letter; ++letter) {
-        ImFontGlyph const& glyph = *context.fonts().Fonts[0]->FindGlyph(static_cast<ImWchar>(*letter));
+        ImFontGlyph const& glyph = glyphOf(context, *letter);
         const auto u = static_cast<int>(std::lround(glyph.U0 * static_cast<float>(width)));
         const auto v = static_cast<int>(std::lround(glyph.V0 * static_cast<float>(height)));
         const auto columns = static_cast<int>(glyph.X1 - glyph.X0), rows = static_cast<int>(glyph.Y1 - glyph.Y0);
@@ -297,9 +300,8 @@ TEST(UiRenderer, GlyphsOfAnyDisplayScaleLieOnWholePixels) {
         EXPECT_NE(codesAt(image, 40, 20), kGround);
         size_t glyphs = 0;
         ImDrawData const& data = *ImGui::GetDrawData();
-        ImFontGlyph const& letter = *context.fonts().Fonts[0]->FindGlyph('F');
-        for (int i = 0; i < data.CmdLists[0]->VtxBuffer.Size; ++i) {
-            ImDrawVert const& vertex = data.CmdLists[0]->VtxBuffer[i];
+        ImFontGlyph const& letter = glyphOf(context, 'F');
+        for (ImDrawVert const& vertex : drawLists(data)[0]->VtxBuffer) {
             if (vertex.uv.x != letter.U0 || vertex.uv.y != letter.V0) continue;
             EXPECT_EQ(vertex.pos.x, std::floor(vertex.pos.x)) << scale;
             EXPECT_EQ(vertex.pos.y, std::floor(vertex.pos.y)) << scale;

@@ -25,6 +25,16 @@ inline Codes codesAt(Image const& image, uint32_t x, uint32_t y) {
     return codes;
 }
 
+/// Of ImGui's own font, at its size.
+inline ImFontGlyph const& glyphOf(UiContext& context, char letter) {
+    ImFont& font = *context.fonts().Fonts[0];
+#if IMGUI_VERSION_NUM >= 19200
+    return *font.GetFontBaked(font.LegacySize)->FindGlyph(static_cast<ImWchar>(letter));
+#else
+    return *font.FindGlyph(static_cast<ImWchar>(letter));
+#endif
+}
+
 inline ImU32 imColor(Codes const& codes) { return IM_COL32(codes[0], codes[1], codes[2], codes[3]); }
 
 class UiStage {
