@@ -151,8 +151,11 @@ function(filament_fast_heap)
 endfunction()
 
 # The code of tests runs once, and most of it waits for a driver or a compiler: optimising it takes longer than it saves.
-# OPTIMIZED programs compute for seconds in their own objects.
+# OPTIMIZED programs compute for seconds in their own objects. Sanitizers make optimising slower still.
 set(FILAMENT_TEST_OPTIONS $<$<CONFIG:Release>:-O0>)
+if(FILAMENT_SANITIZE)
+    set(FILAMENT_TEST_OPTIONS -O0)
+endif()
 set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # Mesa's CPU drivers compile a shader when it is first drawn: half the time of a test on a machine that knows none yet, half
