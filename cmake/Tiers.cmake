@@ -70,9 +70,26 @@ endif()
 
 filament_fast_list(cases conformance)
 if(cases)
-    add_test(NAME conformance_fast COMMAND filament-conformance --threads off --cases ${cases}
+    set(compared --threads off)
+    if(FILAMENT_SANITIZE STREQUAL thread) # draws with several numbers of workers instead of defects
+        set(compared --threads on --mutations off)
+    endif()
+    add_test(NAME conformance_fast COMMAND filament-conformance ${compared} --cases ${cases}
         --out ${CMAKE_BINARY_DIR}/conformance-fast CONFIGURATIONS fast)
     set_tests_properties(conformance_fast PROPERTIES LABELS "gpu;fast" ENVIRONMENT ${FILAMENT_DEVICE_ENVIRONMENT}
         COST 100 TIMEOUT 1800)
     add_dependencies(fast_tests filament-conformance)
+endif()
+
+# What runs under the thread sanitizer, `ctest -C fast -L threads` and the target `thread_tests`: programs that start threads
+# of this engine, and storms that were written for it. The others of the fast tier have one thread, or those of Mesa.
+add_custom_target(thread_tests)
+set(thread_tests backend_create backend_layers backend_stream base faults filament_core_passes_devices
+    filament_core_prepare framegraph jobsystem)
+set_property(TEST ${thread_tests} APPEND PROPERTY LABELS threads)
+list(TRANSFORM thread_tests APPEND _tests)
+add_dependencies(thread_tests ${thread_tests})
+if(cases)
+    set_property(TEST conformance_fast APPEND PROPERTY LABELS threads)
+    add_dependencies(thread_tests filament-conformance)
 endif()
