@@ -24,13 +24,44 @@ class Runs(unittest.TestCase):
         self.assertEqual(text, f"a\n{check_sanitizers.BEGIN}{check_sanitizers.HEAD}| asan | 1 | d | 2 | c | none |\n"
                                f"| tsan | 2 | d | 2 | c | none |\n{check_sanitizers.END}b\n")
 
-    def test_tests_cases_and_reports_are_counted(self):
-        log = ("1/3 Test #1: base .....   Passed    0.12 sec\n 2/3 Test #24: engine .....***Failed  338.24 sec\n"
-               " 3/3 Test  #3: site .....***Skipped   0.10 sec\n")
-        outputs = ("[  PASSED  ] 12 tests.\n[  PASSED  ] 1 test.\n==7==ERROR: AddressSanitizer: heap-use-after-free\n"
-                   "A.cpp:3:4: runtime error: signed integer overflow\nWARNING: ThreadSanitizer: data race (pid=1)\n")
-        self.assertEqual(check_sanitizers.counts_of(log, outputs), (3, 1, 13, 3))
+    def test_the_tests_of_a_run_are_told_apart(self):
+        runs = check_sanitizers.tests_of(LAST_TEST)
+        self.assertEqual(runs, {"base": {"seconds": 3.54, "runs": 13, "failed": 0, "findings": 0},
+                                "engine": {"seconds": 60, "runs": 0, "failed": 1, "findings": 3},
+                                "site": {"seconds": 0.1, "runs": 0, "failed": 0, "findings": 0}})
+        self.assertEqual(check_sanitizers.sum_of_tests(runs, list(runs)), ("3 tests, 13 cases passed", "3 reports, 1 tests failed"))
+        self.assertEqual(check_sanitizers.sum_of_tests(runs, ["base"]), ("1 tests, 13 cases passed", "none"))
 
+    def test_the_last_run_of_each_counts(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            check_sanitizers.keep_runs(folder, "1", {"a": {"seconds": 60, "runs": 5, "failed": 1, "findings": 3}})
+            check_sanitizers.keep_runs(folder, "1", {"b": {"seconds": 600, "runs": 7, "failed": 0, "findings": 0}})
+            runs = check_sanitizers.keep_runs(folder, "2", {"a": {"seconds": 120, "runs": 6, "failed": 0, "findings": 0}})
+            self.assertEqual(check_sanitizers.sum_of_tests(runs, ["a", "b"]), ("2 tests, 13 cases passed", "none"))
+            commits, date, minutes = check_sanitizers.origin_of(runs, ["a", "b"])
+            self.assertEqual((commits, minutes), ("1, 2", "12"))
+            self.assertRegex(date, r"^\d{4}-\d\d-\d\d$")
+            self.assertEqual(check_sanitizers.sum_of_fuzzers(runs, ["a", "b"]), ("2 fuzzers, 120 to 600 s each, 13 runs", "none"))
+            self.assertEqual(check_sanitizers.sum_of_fuzzers(runs, ["b"]), ("1 fuzzers, 600 s each, 7 runs", "none"))
+
+
+LAST_TEST = """Start testing: Nov 28 09:35 UTC
+1/120 Testing: base
+[  PASSED  ] 12 tests.
+[  PASSED  ] 1 test.
+Test time =   3.54 sec
+Test Passed.
+24/120 Testing: engine
+==7==ERROR: AddressSanitizer: heap-use-after-free
+A.cpp:3:4: runtime error: signed integer overflow
+WARNING: ThreadSanitizer: data race (pid=1)
+Test time =  60.00 sec
+Test Failed.
+3/120 Testing: site
+Test time =   0.10 sec
+Test Skipped.
+"""
 
 FUZZER = """#!/bin/sh
 echo 'stat::number_of_executed_units: 1234' >&2
@@ -70,22 +101,6 @@ class Fuzzers(unittest.TestCase):
     def test_seeds_have_the_name_of_the_fuzzer_in_small_letters(self):
         self.assertEqual([path.name for path in check_sanitizers.seeds_of("MaterialTextFuzz")], ["material_text"])
         self.assertEqual(check_sanitizers.seeds_of("NoSuchFuzz"), [])
-
-    def test_the_note_sums_the_last_run_of_each(self):
-        with tempfile.TemporaryDirectory() as folder:
-            def keep(name, time, commit, seconds, runs, findings):
-                return check_sanitizers.keep_run(pathlib.Path(folder), name, {"commit": commit, "time": time, "seconds": seconds,
-                                                                              "runs": runs, "findings": findings})
-            keep("AFuzz", "2026-01-02T10:00:00", "1", 600, 50, 3)
-            runs = keep("GoneFuzz", "2026-01-02T10:00:00", "0", 600, 50, 3)
-            self.assertIsNone(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz"}))
-            keep("BFuzz", "2026-01-03T10:00:00", "1", 600, 7, 0)
-            runs = keep("CFuzz", "2026-01-03T09:00:00", "1", 600, 100, 0)
-            self.assertEqual(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz", "CFuzz"}),
-                             ["1", "2026-01-03", 30, "3 fuzzers, 600 s each, 157 runs", "3 inputs"])
-            runs = keep("AFuzz", "2026-01-04T10:00:00", "2", 1200, 60, 0)
-            self.assertEqual(check_sanitizers.sum_of(runs, {"AFuzz", "BFuzz", "CFuzz"}),
-                             ["1, 2", "2026-01-04", 40, "3 fuzzers, 600 to 1200 s each, 167 runs", "none"])
 
 
 class Arguments(unittest.TestCase):
