@@ -90,11 +90,11 @@ endfunction()
 # What runs once or waits for a device: text of options, files of the tools, checks. -O1 compiles in two thirds of the time, and
 # gives the same bits. Precompiled headers do not mind, if gcc from 13 on is told what -O2 sets besides.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13 AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    set(FILAMENT_AS_PRECOMPILED -munroll-only-small-loops)
+    set(FILAMENT_AS_PRECOMPILED -munroll-only-small-loops -mvzeroupper)
 endif()
 function(filament_cold)
     foreach(target IN LISTS ARGN)
-        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Release>:${FILAMENT_AS_PRECOMPILED}>)
+        target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> "$<$<CONFIG:Release>:${FILAMENT_AS_PRECOMPILED}>")
     endforeach()
 endfunction()
 
