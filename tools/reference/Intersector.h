@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Intersector: finds the triangle that a ray hits. Only this file uses Embree (version 3 or 4, single rays, robust mode).
+/// Intersector: finds the triangle that a ray hits. Only this file uses Embree (version 3 or 4, single rays, robust
+/// mode).
 ///   In      parts, to which it keeps a reference.
 ///   Alpha   triangles exist where their material's mask does not cut them away. Blended triangles always exist: the
 ///           caller decides whether light passes, and continues with the triangles passed in `Ray::passed`.
