@@ -202,7 +202,7 @@ void FileDialog::drawEntries() {
         ImGuiListClipper clipper;
         clipper.Begin(static_cast<int>(mShown.size()));
         const auto selected = static_cast<int>(mSelected);
-        if (mHasMoved && mSelected < mShown.size()) clipper.ForceDisplayRangeByIndices(selected, selected + 1);
+        if (mHasMoved && mSelected < mShown.size()) alwaysDraw(clipper, selected);
         while (clipper.Step())
             for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row)
                 if (const auto twice = drawRow(static_cast<size_t>(row))) clicked = twice;

@@ -52,6 +52,15 @@ inline bool isKeyPressed(ImGuiKey key) {
 #endif
 }
 
+/// A row that a list draws even where it is not seen.
+inline void alwaysDraw(ImGuiListClipper& clipper, int row) {
+#if IMGUI_VERSION_NUM >= 18990
+    clipper.IncludeItemByIndex(row);
+#else
+    clipper.ForceDisplayRangeByIndices(row, row + 1);
+#endif
+}
+
 /// What the pointer is over, and whether the interface wants it.
 inline void updateHovered() {
 #if IMGUI_VERSION_NUM >= 19200

@@ -175,7 +175,7 @@ TEST(UiGeometry, EqualsTheSameListsAndNoOthers) {
     b.list.VtxBuffer[2].col ^= 1;
     EXPECT_FALSE(a.built() == b.built());
     b.list.VtxBuffer[2].col ^= 1;
-    b.list.CmdBuffer[0].TextureId = kOther;
+    setTexture(b.list.CmdBuffer[0], kOther);
     EXPECT_FALSE(a.built() == b.built());
 }
 
@@ -187,7 +187,11 @@ TEST(UiContext, ScalesStyleAndFontsOnlyWhenTheScaleChanges) {
     EXPECT_EQ(ImGui::GetStyle().FramePadding.x, 2 * padding);
     EXPECT_FALSE(context.fonts().IsBuilt());
     ASSERT_TRUE(context.fonts().Build());
+#if IMGUI_VERSION_NUM >= 19200
+    EXPECT_EQ(context.fonts().Fonts[0]->LegacySize, 26);
+#else
     EXPECT_EQ(context.fonts().Fonts[0]->FontSize, 26);
+#endif
     EXPECT_TRUE(context.setScale(1e9f));
     EXPECT_EQ(context.scale(), kMostUiScale);
     EXPECT_TRUE(context.setScale(kNan));

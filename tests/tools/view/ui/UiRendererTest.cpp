@@ -301,7 +301,7 @@ TEST(UiRenderer, GlyphsOfAnyDisplayScaleLieOnWholePixels) {
         size_t glyphs = 0;
         ImDrawData const& data = *ImGui::GetDrawData();
         ImFontGlyph const& letter = glyphOf(context, 'F');
-        for (ImDrawVert const& vertex : drawLists(data)[0]->VtxBuffer) {
+        for (ImDrawVert const& vertex : view::drawLists(data)[0]->VtxBuffer) {
             if (vertex.uv.x != letter.U0 || vertex.uv.y != letter.V0) continue;
             EXPECT_EQ(vertex.pos.x, std::floor(vertex.pos.x)) << scale;
             EXPECT_EQ(vertex.pos.y, std::floor(vertex.pos.y)) << scale;
