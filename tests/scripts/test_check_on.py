@@ -89,6 +89,10 @@ class Releases(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0, environment)
             self.assertIn(said, done.stdout)
 
+    def test_pixels_that_differ_are_no_reason_to_leave_out_the_tests(self):
+        self.assertEqual(self.check_on("trixie", RUN_STATUS="1", PIXELS="99.9998").returncode, 1)
+        self.assertIn("./check", self.calls.read_text())
+
     def test_each_error_names_its_cure(self):
         self.assertIn("give bookworm, trixie, forky or sid", self.refused("jessie"))
         self.assertIn("run as root, or with sudo", self.refused("trixie", USER_ID="1000"))
