@@ -54,7 +54,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Apis, ConnectionsTest, testing::ValuesIn(test::kBothApis),
-                         [](testing::TestParamInfo<Backend> const& info) { return std::string(toString(info.param)); });
+                         [](testing::TestParamInfo<Backend> const& each) { return std::string(toString(each.param)); });
 
 // A new connection often gets the memory of the one before it.
 TEST_P(ConnectionsTest, ClosedOnesDoNotReturnWithTheirAddress) {

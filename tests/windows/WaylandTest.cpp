@@ -11,7 +11,7 @@ using test::VirtualCompositor;
 
 class WaylandTest : public testing::TestWithParam<Backend> {};
 INSTANTIATE_TEST_SUITE_P(Apis, WaylandTest, testing::ValuesIn(test::kBothApis),
-                         [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& each) { return std::string(toString(each.param)); });
 
 std::vector<uint8_t> colorsOf(Image const& image) {
     std::vector<uint8_t> colors;
