@@ -68,8 +68,8 @@ Parts partsOf(double x) {
     return parts;
 }
 
-/// ln(m) for m from sqrt(1/2) to sqrt(2): 2 artanh(s) with s = (m - 1) / (m + 1), |s| < 0.172. What is rounded off is
-/// added where the sum is still small: ln(m) = d - s (d - r), where d = m - 1 and r = 2 (artanh(s) - s).
+/// ln(m) for m from sqrt(1/2) to sqrt(2): 2 artanh(s) with s = (m - 1) / (m + 1), |s| < 0.172. The difference
+/// d = m - 1 is exact, and 2 s = d - s d, so that ln(m) = d - s d + 2 (artanh(s) - s) has its largest term exactly.
 double logOfMantissa(double m) {
     static constexpr auto kTerms = oddReciprocals<12>(false); // 0.172^25 / 25 = 3e-21
     const double d = m - 1, s = d / (m + 1), square = s * s;
@@ -227,14 +227,12 @@ double atan2(double y, double x) {
     if (std::isnan(x) || std::isnan(y)) return kNan;
     const double height = std::abs(y), width = std::abs(x);
     double angle = 0; // of the first quadrant
-    if (height == 0)
-        angle = 0;
-    else if (std::isinf(height))
+    if (std::isinf(height))
         angle = std::isinf(width) ? kPi / 4 : kHalfPi;
-    else if (height <= width)
-        angle = atanOfPart(height / width);
-    else
+    else if (height > width)
         angle = kHalfPi - atanOfPart(width / height);
+    else if (height > 0)
+        angle = atanOfPart(height / width);
     return std::copysign(std::signbit(x) ? kPi - angle : angle, y);
 }
 

@@ -5,12 +5,12 @@
 ///   Method  sums, products, quotients, square roots, fma() and exact functions (rint, frexp, ldexp), which IEEE 754
 ///           defines to the bit: argument reduction and Taylor series (J.-M. Muller, Elementary Functions, 3rd edition,
 ///           chapters 3 and 11), in double precision without contraction.
-///   Error   double: at most 4 units in the last place, pow(): 2 (2 + |y log2(x)|), or y for an
-///           integer up to 32. float: that of double, rounded, so nearly always correctly.
-///           tests/base/math/ElementaryTest.cpp measures both.
+///   Error   double: at most 4 units in the last place, pow(): 2 (2 + |y log2(x)|), or |y| for an integer
+///           up to 32. float: that of double, rounded, so nearly always correctly. tests/base/math/ElementaryTest.cpp
+///           measures both.
 ///   Limits  sin(), cos(), tan(): full accuracy for |x| < 2^30. Not for NaN payloads: a NaN gives a NaN.
 ///   Special values are those of the C++ library (C17, annex F.10), without floating-point exceptions.
-///   Thread  any; pure functions. Cost: two to three times the C++ library's, so not for inner loops over pixels.
+///   Thread  any; pure functions. Cost: 10 to 40 ns, 1.2 to 5 times glibc 2.36: not for inner loops over pixels.
 #pragma once
 
 #include <concepts>

@@ -43,7 +43,7 @@ double unitsOff(double got, long double want) {
 }
 
 #define FILAMENT_FUNCTION(name, from, to, isExponential, bits)                                                         \
-    { #name, elementary::name, elementary::name, static_cast < Truth>(std::name), from, to, isExponential, bits }
+    { #name, elementary::name, elementary::name, Truth(std::name), from, to, isExponential, bits }
 
 const std::array<Function, 20> kFunctions{ {
         FILAMENT_FUNCTION(exp, -700, 700, false, 0xAA5D4593A4375BB4),
