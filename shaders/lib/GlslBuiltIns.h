@@ -51,38 +51,13 @@ glm::vec<L, T> componentwise(Function function, glm::vec<L, T> const& first, Vec
 }
 
 template <glm::length_t L, class T>
-glm::vec<L, T> cos(glm::vec<L, T> const& x) {
-    return componentwise([](T each) { return elementary::cos(each); }, x);
-}
-
-template <glm::length_t L, class T>
 glm::vec<L, T> exp(glm::vec<L, T> const& x) {
     return componentwise([](T each) { return elementary::exp(each); }, x);
 }
 
 template <glm::length_t L, class T>
-glm::vec<L, T> exp2(glm::vec<L, T> const& x) {
-    return componentwise([](T each) { return elementary::exp2(each); }, x);
-}
-
-template <glm::length_t L, class T>
-glm::vec<L, T> log(glm::vec<L, T> const& x) {
-    return componentwise([](T each) { return elementary::log(each); }, x);
-}
-
-template <glm::length_t L, class T>
-glm::vec<L, T> log2(glm::vec<L, T> const& x) {
-    return componentwise([](T each) { return elementary::log2(each); }, x);
-}
-
-template <glm::length_t L, class T>
 glm::vec<L, T> pow(glm::vec<L, T> const& x, glm::vec<L, T> const& y) {
     return componentwise([](T each, T exponent) { return elementary::pow(each, exponent); }, x, y);
-}
-
-template <glm::length_t L, class T>
-glm::vec<L, T> sin(glm::vec<L, T> const& x) {
-    return componentwise([](T each) { return elementary::sin(each); }, x);
 }
 
 } // namespace filament::shader::glsl
