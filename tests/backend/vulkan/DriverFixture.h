@@ -48,8 +48,11 @@ inline constexpr RasterState kNoCulling{ .cull = CullMode::None };
 
 class DriverTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        auto made = Executor::create({ .validation = true }, sink);
+    void SetUp() override { start(); }
+
+    /// The driver, with the quirks of its device changed by `filter`.
+    void start(QuirkFilter filter = nullptr) {
+        auto made = Executor::create({ .validation = true }, sink, filter);
         if (!made && made.error().code == ErrorCode::DeviceUnavailable) GTEST_SKIP() << made.error().message;
         ASSERT_TRUE(made) << made.error().message;
         driver = std::move(*made);
