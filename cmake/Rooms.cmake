@@ -131,6 +131,26 @@ function(filament_room folder)
     endif()
 endfunction()
 
+# Generates a C++ file with the bytes of FILES between symbols <prefix>_<i> and <prefix>_<i>_end, and returns in the
+# variable `result` the lines of a table { "<name>", <prefix>_<i>, <prefix>_<i>_end }. NAMES are parallel to FILES.
+function(filament_embed prefix)
+    cmake_parse_arguments(ARG "" "DATA;TABLE" "FILES;NAMES" ${ARGN})
+    set(data "")
+    set(table "")
+    set(index 0)
+    foreach(file name IN ZIP_LISTS ARG_FILES ARG_NAMES)
+        set(symbol ${prefix}_${index})
+        string(APPEND data
+            "asm(\".pushsection .rodata\\n.balign 16\\n.global ${symbol}, ${symbol}_end\\n.hidden ${symbol}, ${symbol}_end\\n\"\n"
+            "    \"${symbol}: .incbin \\\"${file}\\\"\\n${symbol}_end: .byte 0\\n.popsection\\n\");\n"
+            "extern \"C\" [[gnu::visibility(\"hidden\")]] const char ${symbol}[], ${symbol}_end[];\n")
+        string(APPEND table "    { \"${name}\", ${symbol}, ${symbol}_end },\n")
+        math(EXPR index "${index} + 1")
+    endforeach()
+    set(${ARG_DATA} "${data}" PARENT_SCOPE)
+    set(${ARG_TABLE} "${table}" PARENT_SCOPE)
+endfunction()
+
 # A program of one folder or one file.
 function(filament_program name)
     cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

@@ -22,7 +22,7 @@ Backend backendOf(std::string const& name) {
 
 EngineObject makeEngine(std::string const& backend, std::string const& requireDevice, int64_t workers,
                         bool exactShaders, bool validation, std::optional<std::filesystem::path> const& cacheDirectory,
-                        bool cachePrograms) {
+                        bool cachePrograms, bool driverSelfTest) {
     EngineOptions options{ .backend = backendOf(backend), .requireDevice = requireDevice };
     if (workers < -1 || workers > kMaxWorkers)
         raiseInvalid("workers: {} is not from -1 (one for each other core) to {}", workers, kMaxWorkers);
@@ -32,6 +32,7 @@ EngineObject makeEngine(std::string const& backend, std::string const& requireDe
     options.validation = validation;
     if (cacheDirectory) options.cacheDirectory = *cacheDirectory;
     options.cachePrograms = cachePrograms;
+    options.driverSelfTest = driverSelfTest;
     return { Owner::create(options) };
 }
 
@@ -189,7 +190,8 @@ EngineClass bindEngine(py::module_& module) {
     bindLoaded(module);
     engine.def(py::init(&makeEngine), py::arg("backend") = "vulkan", py::kw_only(), py::arg("require_device") = "",
                py::arg("workers") = -1, py::arg("exact_shaders") = true, py::arg("validation") = false,
-               py::arg("cache_directory") = py::none(), py::arg("cache_programs") = false)
+               py::arg("cache_directory") = py::none(), py::arg("cache_programs") = false,
+               py::arg("driver_self_test") = true)
             .def_property_readonly(
                     "device", [](EngineObject const& self) { return dictOf(self.owner->device()); },
                     "backend, device, driver, max_texture_size and max_samples.")

@@ -115,6 +115,9 @@ struct DriverOptions {
     /// The folder that keeps compiled programs between runs, one file per device, at most kProgramCacheBytes; empty:
     /// none. Read when the driver is created, written when it ends.
     std::filesystem::path cacheDirectory{};
+    bool selfTest = false; ///< refuse a driver that draws a small known picture wrong: backend/create/SelfTest.h
+    /// The folder of the file that names the drivers which passed, so that they are not tested again; empty: none.
+    std::filesystem::path selfTestNotes{};
 };
 inline constexpr uint64_t kProgramCacheBytes = 64u << 20;
 

@@ -2,6 +2,7 @@
 #include "backend/create/CreateDriver.h"
 
 #include "backend/create/MesaEnvironment.h"
+#include "backend/create/SelfTest.h"
 #include "backend/gles/Driver.h"
 #include "backend/null/NullDriver.h"
 #include "backend/vulkan/Driver.h"
@@ -10,9 +11,9 @@
 #include <utility>
 
 namespace filament::backend {
+namespace {
 
-Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
-    applyMesaEnvironment();
+Result<std::unique_ptr<Driver>> makeDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
     switch (type) {
     case BackendType::Null:
         return createNullDriver(sink);
@@ -22,6 +23,14 @@ Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions con
         return createGlesDriver(options, sink);
     }
     return fail(ErrorCode::InvalidArgument, "there is no backend number {}", static_cast<int>(type));
+}
+
+} // namespace
+
+Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
+    applyMesaEnvironment();
+    const auto make = [&](ResultSink& results) { return makeDriver(type, options, results); };
+    return options.selfTest ? makeTestedDriver(make, sink, options.selfTestNotes) : make(sink);
 }
 
 std::vector<DeviceInfo> listDevices() {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The only file that names all backends.
 ///   Thread  createDriver(): on the thread that will drive it. listDevices(): any, before drivers are made.
-///   Errors  DeviceUnavailable with the reason and the cure (which package to install, which devices exist).
+///   Errors  DeviceUnavailable with the reason and the cure (which package to install, which devices exist);
+///           Unsupported for a driver that fails the self-test.
 #pragma once
 
 #include "backend/api/Driver.h"

@@ -57,8 +57,7 @@ FrameLatency latencyOf(LatencyStatistics const& latency) {
              milliseconds(latency.backPressure.median), milliseconds(latency.backPressure.p99) };
 }
 
-std::filesystem::path programCache(EngineOptions const& options) {
-    if (!options.cachePrograms) return {};
+std::filesystem::path cacheDirectory(EngineOptions const& options) {
     return assets::environmentCacheDirectory({ .cacheDirectory = options.cacheDirectory });
 }
 
@@ -69,7 +68,10 @@ DriverFactory driverFactory(EngineOptions const& options) {
             const DriverOptions driverOptions{ .requireDevice = options.requireDevice,
                                                .validation = options.validation,
                                                .display = options.display,
-                                               .cacheDirectory = programCache(options) };
+                                               .cacheDirectory = options.cachePrograms ? cacheDirectory(options)
+                                                                                       : std::filesystem::path(),
+                                               .selfTest = options.driverSelfTest,
+                                               .selfTestNotes = cacheDirectory(options) };
             auto device = createDriver(backendType(options.backend), driverOptions, results);
             if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
             return device;

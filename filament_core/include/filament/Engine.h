@@ -94,6 +94,10 @@ struct EngineOptions {
     /// Keep the device's compiled programs in cacheDirectory for the next engine. Useful for drivers without their own
     /// cache. Mesa has one; backend/gles/README.md says what this option adds to it.
     bool cachePrograms = false;
+    /// Before its first use a driver draws 8 x 8 pixels whose values are known. Engine::create() fails with
+    /// Unsupported if they are wrong, instead of an engine that draws wrong pictures. A file in cacheDirectory names
+    /// the drivers that passed, which are not tested again.
+    bool driverSelfTest = true;
     EngineDebug debug{};
 };
 

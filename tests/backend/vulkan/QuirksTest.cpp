@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a driver draws without the cure of a quirk. tests/backend/create requires what it draws with the cure.
+#include "backend/create/SelfTest.h"
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <cstdio>
@@ -62,6 +63,27 @@ TEST_F(QuirkTest, DepthAloneTakesTheBlendingOfAttachmentsWithoutItsCure) {
         EXPECT_EQ(seen, kRed) << driver->info().driverName << " draws right: say so in Quirks.h";
     } else if (mesa <= 22) { // of those between we know nothing
         EXPECT_EQ(seen, kWhite) << driver->info().driverName;
+    }
+}
+
+/// The self-test of drivers would have seen what the quirk cures.
+TEST_F(QuirkTest, TheSelfTestRefusesADriverWithoutItsCure) {
+    DeviceInfo info;
+    const auto made = makeTestedDriver(
+            [&](ResultSink& results) -> Result<std::unique_ptr<Driver>> {
+                auto executor =
+                        Executor::create({}, results, [](Quirks& quirks) { quirks.clearsIndependentBlend = false; });
+                if (!executor) return executor.error();
+                info = (*executor)->info();
+                return std::unique_ptr<Driver>(std::move(*executor));
+            },
+            sink, {});
+    if (info.deviceName.empty()) GTEST_SKIP() << made.error().message;
+    const int mesa = lavapipeOf(info);
+    if (mesa >= 25) {
+        EXPECT_FALSE(made) << info.driverName;
+    } else if (mesa <= 22) {
+        EXPECT_TRUE(made) << made.error().message;
     }
 }
 

@@ -294,6 +294,26 @@ TEST(EngineCreate, SaysWhichDevicesThereAreWhenTheRequiredOneIsMissing) {
     }
 }
 
+/// tests/backend/create/SelfTestTest.cpp has what the test finds.
+TEST(EngineCreate, TestsADriverOnceAndNotesThatItPassed) {
+    for (Backend backend : test::kBothApis) {
+        const std::filesystem::path folder = test::folderOfThisTest() / toString(backend);
+        std::filesystem::remove_all(folder);
+        const std::filesystem::path notes = folder / "tested-drivers";
+        for (const bool isTested : { false, true }) {
+            auto engine = Engine::create({ .backend = backend,
+                                           .workers = 0,
+                                           .validation = true,
+                                           .cacheDirectory = folder,
+                                           .driverSelfTest = isTested });
+            ASSERT_TRUE(engine) << engine.error().message;
+            EXPECT_EQ(std::filesystem::exists(notes), isTested) << toString(backend);
+            EXPECT_EQ(engine->statistics().draws, 0u);
+            test::expectNoErrors(*engine);
+        }
+    }
+}
+
 TEST(EngineTrace, TellsWhatEveryThreadDidInValidJson) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "engine-jobs.json";
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 1, .traceJobs = true });

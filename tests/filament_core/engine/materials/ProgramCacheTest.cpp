@@ -79,7 +79,9 @@ protected:
     std::vector<fs::path> files() const {
         std::vector<fs::path> found;
         if (!fs::exists(mFolder)) return found;
-        for (auto const& entry : fs::directory_iterator(mFolder)) found.push_back(entry.path());
+        for (auto const& entry : fs::directory_iterator(mFolder)) {
+            if (entry.path().filename() != "tested-drivers") found.push_back(entry.path()); // of the self-test
+        }
         return found;
     }
 
