@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Compare.h"
 
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/conformance/Flip.h"
 #include "tools/conformance/ImageChecks.h"
 #include "tools/imgdiff/ImageCompare.h"
@@ -28,6 +29,18 @@ bool agrees(Comparison const& c, Comparator const& comparator) {
     return false;
 }
 
+Result<Image> readPicture(std::filesystem::path const& path) {
+    Result<assets::Image> image = assets::readPng(path);
+    if (!image) return image.error();
+    return Image{ .width = image->width, .height = image->height, .pixels = std::move(image->data) };
+}
+
+std::string firstPixel(Image const& a, Image const& b) {
+    const auto first = firstDifference(a.format, a.width, a.pixels, b.pixels);
+    if (!first) return {};
+    return fmt::format("pixel ({}, {}) is {} and {}", first->x, first->y, textOf(first->a), textOf(first->b));
+}
+
 } // namespace
 
 Comparator comparatorFor(Comparator const& asked, DeviceDescription const& a, DeviceDescription const& b) {
@@ -46,11 +59,27 @@ Result<Comparison> comparePictures(Image const& reference, Image const& test, Co
         const FlipError error = flip(reference, test);
         result.flipMean = error.mean, result.flipP99 = error.p99;
     }
-    if (const auto first = firstDifference(reference.format, reference.width, reference.pixels, test.pixels))
-        result.first =
-                fmt::format("pixel ({}, {}) is {} and {}", first->x, first->y, textOf(first->a), textOf(first->b));
+    result.first = firstPixel(reference, test);
     result.passed = agrees(result, comparator);
     return result;
+}
+
+Result<void> compareFiles(std::filesystem::path const& out, std::string const& reference,
+                          std::filesystem::path const& drawn, Comparison& comparison) {
+    const Result<Image> a = readPicture(out / reference), b = readPicture(drawn);
+    if (!a) return a.error();
+    if (!b) return b.error();
+    const Result<tools::ImageComparison> compared = tools::compareImages(*a, *b);
+    if (!compared) return compared.error();
+    comparison.differing = std::max<uint64_t>(1, compared->pixels - compared->identical);
+    comparison.maxDifference = compared->maxDifference;
+    comparison.first = firstPixel(*a, *b);
+    std::string stem = std::filesystem::path(reference).stem().string() + "." + comparison.configuration;
+    std::ranges::replace(stem, ' ', '.');
+    comparison.image = fmt::format("images/{}.png", stem);
+    comparison.difference = fmt::format("images/{}.difference.png", stem);
+    if (Result<void> saved = savePng(out / comparison.image, *b); !saved) return saved;
+    return savePng(out / comparison.difference, tools::differenceImage(*a, *b));
 }
 
 Image displayed(Image const& image) {

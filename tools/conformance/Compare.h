@@ -17,6 +17,12 @@ Comparator comparatorFor(Comparator const& asked, DeviceDescription const& a, De
 /// Everything but the names of configuration and files.
 Result<Comparison> comparePictures(Image const& reference, Image const& test, Comparator const& comparator);
 
+/// Fills in how two pictures of a case differ that are files: how many pixels (one at least: half floats may differ
+/// where what a display shows agrees), which is the first, and the files for the report in the folder `out`.
+/// `reference` is one of its files, `drawn` any file.
+Result<void> compareFiles(std::filesystem::path const& out, std::string const& reference,
+                          std::filesystem::path const& drawn, Comparison& comparison);
+
 /// As a display shows it: RGBA8; half floats are clamped to [0, 1] and encoded.
 Image displayed(Image const& image);
 

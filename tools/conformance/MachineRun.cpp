@@ -2,7 +2,6 @@
 #include "tools/conformance/MachineRun.h"
 
 #include "base/Assert.h"
-#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/common/ChildProcess.h"
 #include "tools/common/Console.h"
 #include "tools/conformance/Baselines.h"
@@ -134,31 +133,6 @@ private:
     const std::chrono::seconds mSilence;
     MachineOutcome mOutcome;
 };
-
-Result<Image> readPicture(Path const& path) {
-    Result<assets::Image> image = assets::readPng(path.string());
-    if (!image) return image.error();
-    return Image{ .width = image->width, .height = image->height, .pixels = std::move(image->data) };
-}
-
-/// Compares pictures of one case whose bits differ: how many pixels, and the files for the report.
-Result<void> compareFiles(Path const& out, std::string const& reference, Path const& drawn, Comparison& comparison) {
-    const Result<Image> a = readPicture(out / reference), b = readPicture(drawn);
-    if (!a) return a.error();
-    if (!b) return b.error();
-    const Result<tools::ImageComparison> compared = tools::compareImages(*a, *b);
-    if (!compared) return compared.error();
-    // half floats may differ even where their display-referred pictures agree
-    comparison.differing = std::max<uint64_t>(1, compared->pixels - compared->identical);
-    comparison.maxDifference = compared->maxDifference;
-    const std::string stem = Path(reference).stem().string() + "." + comparison.configuration;
-    comparison.image = fmt::format("images/{}.png", stem);
-    comparison.difference = fmt::format("images/{}.difference.png", stem);
-    std::ranges::replace(comparison.image, ' ', '.');
-    std::ranges::replace(comparison.difference, ' ', '.');
-    if (Result<void> saved = savePng(out / comparison.image, *b); !saved) return saved;
-    return savePng(out / comparison.difference, tools::differenceImage(*a, *b));
-}
 
 Comparison compareCase(Options const& options, SimulatedMachine const& machine, CaseResult const& here,
                        MachineOutcome const& there) {

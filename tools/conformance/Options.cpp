@@ -21,7 +21,7 @@ struct Words {
     std::string assets = tools::assetDir();
     std::string out = "conformance", shard = "0/1", shuffle, threads, mutations, pictures = "all";
     std::vector<std::string> backends, machines, merge, set;
-    std::string journal, random = "0", seed = "1", reduce;
+    std::string journal, against, random = "0", seed = "1", reduce;
 };
 
 void declare(tools::CommandLine& app, Words& words, Options& options) {
@@ -37,6 +37,9 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
             .typeName("I/N");
     app.option("--merge", words.merge, "do not run: merge the results of shards").typeName("DIR...");
+    app.option("--against", words.against,
+               "compare with the report of another machine, driver or release: cases, pixels, passes")
+            .typeName("DIR");
     app.option("--backends", words.backends, "vulkan gles, the first is the reference").typeName("NAME...");
     app.option("--require-device", options.requireDevice, "part of the device's name").typeName("NAME");
     app.option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies").typeName("on|off");
@@ -130,6 +133,7 @@ Result<void> convert(Words const& words, Options& options) {
     if (words.baselines == "none") options.baselines.clear();
     options.out = words.out;
     options.journal = words.journal;
+    options.against = words.against;
     options.merge.assign(words.merge.begin(), words.merge.end());
     if (auto done = convertBackends(words.backends, options); !done) return done;
     if (auto done = convertSet(words.set, options); !done) return done;

@@ -36,6 +36,7 @@ struct Options {
     std::string mutate;                       ///< with --bisect, --random: the defect of one backend; empty: none
     std::string bisect;                       ///< the case to bisect; empty: run
     std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
+    std::filesystem::path against;            ///< folder of another report (Against.h); empty: none
     bool exact = true;                        ///< --set exact=off: the engine's shaders without it
     std::vector<std::pair<std::string, std::string>> quality; ///< --set NAME=VALUE: overrides every case
     uint32_t random = 0; ///< generated materials to draw (random/RandomRun.h); 0: run the scenes

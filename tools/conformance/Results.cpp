@@ -13,6 +13,7 @@ namespace filament::conformance {
 namespace {
 
 constexpr std::string_view kMachinePrefix = "machine ";
+constexpr const char* kBetweenHashAndPlace = " ";
 
 Json toJson(Comparison const& c) {
     Json json{ { "configuration", c.configuration },
@@ -37,6 +38,11 @@ Comparison comparisonFromJson(Json const& json) {
              .image = json.value("image", ""),
              .difference = json.value("difference", ""),
              .fault = json.value("fault", "") };
+}
+
+AttachmentHash attachmentFromText(std::string const& text) {
+    const size_t end = std::min(text.find(kBetweenHashAndPlace), text.size());
+    return { text.substr(0, end), text.substr(std::min(end + 1, text.size())) };
 }
 
 Status statusFromJson(std::string const& text) {
@@ -114,6 +120,9 @@ Json toJson(CaseResult const& result) {
     json["hash"] = result.hash;
     json["baseline"] = result.baseline;
     json["image"] = result.image;
+    json["attachments"] = Json::array(); // a text each: one line of the file
+    for (auto const& [hash, where] : result.attachments)
+        json["attachments"].push_back(hash + kBetweenHashAndPlace + where);
     json["comparisons"] = Json::array();
     for (Comparison const& comparison : result.comparisons) json["comparisons"].push_back(toJson(comparison));
     json["kills"] = Json::array();
@@ -129,6 +138,8 @@ CaseResult caseFromJson(Json const& json) {
     result.hash = json.value("hash", "");
     result.baseline = json.value("baseline", "");
     result.image = json.value("image", "");
+    for (Json const& attachment : json.value("attachments", Json::array()))
+        result.attachments.push_back(attachmentFromText(attachment));
     for (Json const& comparison : json.value("comparisons", Json::array()))
         result.comparisons.push_back(comparisonFromJson(comparison));
     for (Json const& kill : json.value("kills", Json::array()))

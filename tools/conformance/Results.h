@@ -46,13 +46,21 @@ struct Kill {
     uint64_t differing = 0; ///< pixels
 };
 
+/// The bits of an attachment after a pass of the reference configuration.
+struct AttachmentHash {
+    std::string hash;
+    std::string where; ///< "pass 'opaque', attachment 'hdr'"
+    friend bool operator==(AttachmentHash const&, AttachmentHash const&) = default;
+};
+
 struct CaseResult {
     std::string name;
     Status status = Status::Failed;
-    std::vector<std::string> reasons; ///< why it failed or was skipped
-    std::string hash;                 ///< of the reference picture
-    std::string baseline;             ///< the result of the comparison with the stored picture
-    std::string image;                ///< of the reference configuration
+    std::vector<std::string> reasons;        ///< why it failed or was skipped
+    std::string hash;                        ///< of the reference picture
+    std::string baseline;                    ///< the result of the comparison with the stored picture
+    std::string image;                       ///< of the reference configuration
+    std::vector<AttachmentHash> attachments; ///< in the order of the passes
     std::vector<Comparison> comparisons;
     std::vector<Kill> kills;
 };

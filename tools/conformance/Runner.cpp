@@ -2,6 +2,7 @@
 #include "tools/conformance/Runner.h"
 
 #include "base/Assert.h"
+#include "base/Hash.h"
 #include "tools/common/Console.h"
 #include "tools/common/Interrupt.h"
 #include "tools/conformance/Bisect.h"
@@ -23,6 +24,16 @@ std::string fileName(std::string name) {
     std::replace_if(
             name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '.');
     return name;
+}
+
+std::vector<AttachmentHash> hashesOf(backend::CapturedFrame const& frame) {
+    std::vector<AttachmentHash> hashes;
+    for (backend::CapturedPass const& pass : frame.passes) {
+        for (backend::CapturedAttachment const& attachment : pass.attachments)
+            hashes.push_back({ fmt::format("{:016x}", hashBytes(attachment.bytes)),
+                               fmt::format("pass '{}', attachment '{}'", pass.name, attachment.name) });
+    }
+    return hashes;
 }
 
 /// A configuration and its engine.
@@ -73,6 +84,7 @@ private:
         std::optional<Shot> shot = draw(*actor.stage, actor.configuration.name, true);
         if (!shot) return false;
         lookInside(*shot, actor.configuration.name);
+        if (shot->inside) mResult.attachments = hashesOf(*shot->inside);
         mReference = std::move(*shot);
         mResult.hash = hashOf(mReference.image);
         mResult.image = save(displayed(mReference.image), "");

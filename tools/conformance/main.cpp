@@ -4,6 +4,7 @@
 // report of the cases until then. docs/conformance.md.
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
+#include "tools/conformance/Against.h"
 #include "tools/conformance/Machines.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Report.h"
@@ -17,7 +18,24 @@ namespace {
 
 using tools::failed;
 
-int finish(Options const& options, Results const& results) {
+/// Prints what differs from the report of --against, as the run prints what differs in itself.
+Result<void> compareWithOther(Options const& options, Results& results) {
+    if (options.against.empty()) return {};
+    if (const Result<void> done = compareWithReport(options.out, results, options.against); !done) return done;
+    const std::string configuration = againstConfiguration(options.against);
+    for (CaseResult const& result : results.cases) {
+        for (std::string const& reason : result.reasons) {
+            if (reason.starts_with(configuration))
+                std::printf("%-8s %s: %s\n", "failed", result.name.c_str(), reason.c_str());
+        }
+    }
+    std::printf("%s", againstLine(results, options.against).c_str());
+    return {};
+}
+
+int finish(Options const& options, Results& results) {
+    if (const Result<void> compared = compareWithOther(options, results); !compared) return failed(compared.error());
+    if (!options.passedPictures) dropPassedPictures(options.out, results);
     if (const Result<void> written = writeReport(options.out, results); !written) return failed(written.error());
     std::printf("%s%s\n%s\n", machineLines(results).c_str(), summaryLine(results).c_str(),
                 (options.out / "report.html").c_str());
@@ -45,7 +63,7 @@ int mergeShards(Options const& options) {
         parts.push_back(std::move(*part));
         if (const Result<void> copied = copyPictures(folder, options.out); !copied) return failed(copied.error());
     }
-    const Result<Results> merged = merge(std::move(parts));
+    Result<Results> merged = merge(std::move(parts));
     return merged ? finish(options, *merged) : failed(merged.error());
 }
 
@@ -93,7 +111,6 @@ int run(Options const& options) {
     Result<Results> results = runCases(options, cases);
     tools::clearProgress();
     if (!results) return failed(results.error());
-    if (!options.passedPictures) dropPassedPictures(options.out, *results);
     if (options.shard.count > 1) results->shard = { options.shard, static_cast<uint32_t>(cases.size()) };
     const int status = finish(options, *results);
     if (!tools::isInterrupted()) return status;

@@ -49,6 +49,7 @@ Results mixedResults() {
                           .status = Status::Failed,
                           .reasons = { "gles differs", "a mutant was not noticed" },
                           .image = "reference.png",
+                          .attachments = { { "0123456789abcdef", "pass 'opaque', attachment 'hdr'" } },
                           .comparisons = { differs },
                           .kills = { { "oneLightOff", false, 0 }, { "depthCompare", true, 5 } } },
                         { .name = "d", .status = Status::Skipped, .reasons = { "no asset" } } },
