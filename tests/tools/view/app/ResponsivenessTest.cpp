@@ -92,7 +92,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Apis, ResponsivenessTest, testing::Values(Backend::Vulkan, Backend::Gles),
-                         [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& test) { return std::string(toString(test.param)); });
 
 TEST_P(ResponsivenessTest, NoStepIsLongWhileAModelAndALargeSkyLoad) {
     if (!mViewer) return;

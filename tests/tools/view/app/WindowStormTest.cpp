@@ -136,7 +136,7 @@ protected:
 
 // Each round changes to the other API and back.
 INSTANTIATE_TEST_SUITE_P(Apis, WindowStormTest, testing::Values(Backend::Vulkan, Backend::Gles),
-                         [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& test) { return std::string(toString(test.param)); });
 
 TEST_P(WindowStormTest, SixtyStepsLeaveNothingBehind) {
     if (!isReady()) return;

@@ -14,7 +14,7 @@ namespace {
 class WindowTest : public WindowStage {};
 
 INSTANTIATE_TEST_SUITE_P(Apis, WindowTest, testing::Values(Backend::Vulkan, Backend::Gles),
-                         [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& test) { return std::string(toString(test.param)); });
 
 TEST_P(WindowTest, HandsOfXdotoolReachTheViewer) {
     if (!isReady()) return;
