@@ -52,6 +52,12 @@ foreach(name IN LISTS fast_names)
     set_property(TEST ${name} APPEND PROPERTY LABELS ${labels})
 endforeach()
 
+# Much of it is the first time, when pipelines are compiled.
+set(fast_timeout 1800)
+if(FILAMENT_SANITIZE)
+    set(fast_timeout 7200)
+endif()
+
 string(JSON fast_count LENGTH "${fast_json}" cases)
 if(fast_count GREATER 0)
     math(EXPR last "${fast_count} - 1")
@@ -62,7 +68,7 @@ if(fast_count GREATER 0)
             list(JOIN cases ":" filter)
             add_test(NAME ${name}_fast COMMAND ${name}_tests --gtest_filter=${filter} CONFIGURATIONS fast)
             set_tests_properties(${name}_fast PROPERTIES LABELS fast ENVIRONMENT ${FILAMENT_DEVICE_ENVIRONMENT}
-                TIMEOUT 1800) # the first time it compiles pipelines
+                TIMEOUT ${fast_timeout})
             add_dependencies(fast_tests ${name}_tests)
         endif()
     endforeach()
@@ -77,7 +83,7 @@ if(cases)
     add_test(NAME conformance_fast COMMAND filament-conformance ${compared} --cases ${cases}
         --out ${CMAKE_BINARY_DIR}/conformance-fast CONFIGURATIONS fast)
     set_tests_properties(conformance_fast PROPERTIES LABELS "gpu;fast" ENVIRONMENT ${FILAMENT_DEVICE_ENVIRONMENT}
-        COST 100 TIMEOUT 1800)
+        COST 100 TIMEOUT ${fast_timeout})
     add_dependencies(fast_tests filament-conformance)
 endif()
 
