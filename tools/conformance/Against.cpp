@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "pass, attachment", or that all of them agree; empty if one of the reports has none.
+/// "first in pass, attachment", or that all of them agree; empty if one of the reports has none.
 std::string firstPass(CaseResult const& mine, CaseResult const& theirs) {
     if (mine.attachments.empty() || theirs.attachments.empty()) return {};
     const auto [at, other] = std::ranges::mismatch(mine.attachments, theirs.attachments);

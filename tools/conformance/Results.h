@@ -49,7 +49,7 @@ struct Kill {
 /// The bits of an attachment after a pass of the reference configuration.
 struct AttachmentHash {
     std::string hash;
-    std::string where; ///< "pass 'opaque', attachment 'hdr'"
+    std::string where; ///< "pass 'color', color 0", "pass 'shadow maps', depth"
     friend bool operator==(AttachmentHash const&, AttachmentHash const&) = default;
 };
 

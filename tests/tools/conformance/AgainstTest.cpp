@@ -52,9 +52,8 @@ protected:
 };
 
 TEST_F(Against, TheSameBitsPassAndOthersFailWithTheirPixelsAndTheFirstPass) {
-    const AttachmentHash depth{ "1", "pass 'shadows', attachment 'depth'" },
-            hdr{ "2", "pass 'opaque', attachment 'hdr'" }, otherHdr{ "3", hdr.where },
-            bytes{ "4", "pass 'tone', attachment 'bytes'" };
+    const AttachmentHash depth{ "1", "pass 'shadows', depth" }, hdr{ "2", "pass 'opaque', color 0" },
+            otherHdr{ "3", hdr.where }, bytes{ "4", "pass 'tone', color 0" };
     const Results results = compared({ drawn(here(), "a", 7), drawn(here(), "b", 8, { depth, hdr, bytes }) },
                                      { drawn(there(), "a", 7), drawn(there(), "b", 11, { depth, otherHdr, bytes }) });
     EXPECT_EQ(results.cases[0].status, Status::Passed);
@@ -65,7 +64,7 @@ TEST_F(Against, TheSameBitsPassAndOthersFailWithTheirPixelsAndTheFirstPass) {
     EXPECT_EQ(found.differing, 1u);
     EXPECT_EQ(found.maxDifference, 3u);
     EXPECT_THAT(found.first, HasSubstr("pixel (2, 1)"));
-    EXPECT_THAT(found.first, HasSubstr("first in pass 'opaque', attachment 'hdr'"));
+    EXPECT_THAT(found.first, HasSubstr("first in pass 'opaque', color 0"));
     EXPECT_THAT(results.cases[1].reasons.at(0), HasSubstr("against debian-13: 1 pixels differ, by 3/255 at most"));
     EXPECT_TRUE(std::filesystem::exists(here() / found.image));
     EXPECT_TRUE(std::filesystem::exists(here() / found.difference));
@@ -82,8 +81,8 @@ TEST_F(Against, BitsThatNoPictureShowsAreFoundByTheirHashes) {
 }
 
 TEST_F(Against, AReportWithoutPicturesStillSaysWhichCaseAndPass) {
-    CaseResult mine = drawn(here(), "a", 7, { { "1", "pass 'opaque', attachment 'hdr'" } });
-    CaseResult theirs = drawn(there(), "a", 9, { { "2", "pass 'opaque', attachment 'hdr'" } });
+    CaseResult mine = drawn(here(), "a", 7, { { "1", "pass 'opaque', color 0" } });
+    CaseResult theirs = drawn(there(), "a", 9, { { "2", "pass 'opaque', color 0" } });
     theirs.image.clear();
     const Results results = compared({ mine }, { theirs });
     EXPECT_THAT(results.cases[0].reasons.at(0), HasSubstr("--pictures all"));
@@ -91,17 +90,15 @@ TEST_F(Against, AReportWithoutPicturesStillSaysWhichCaseAndPass) {
 }
 
 TEST_F(Against, PassesThatOnlyOneReportHasAreNamed) {
-    const AttachmentHash depth{ "1", "pass 'shadows', attachment 'depth'" },
-            hdr{ "2", "pass 'opaque', attachment 'hdr'" };
+    const AttachmentHash depth{ "1", "pass 'shadows', depth" }, hdr{ "2", "pass 'opaque', color 0" };
     const auto reason = [&](std::vector<AttachmentHash> mine, std::vector<AttachmentHash> theirs) {
         return compared({ drawn(here(), "a", 1, std::move(mine)) }, { drawn(there(), "a", 2, std::move(theirs)) })
                 .cases[0]
                 .reasons.at(0);
     };
-    EXPECT_THAT(reason({ depth }, { depth, hdr }),
-                HasSubstr("in pass 'opaque', attachment 'hdr', which only the other"));
-    EXPECT_THAT(reason({ depth, hdr }, { depth }), HasSubstr("in pass 'opaque', attachment 'hdr', which only this"));
-    EXPECT_THAT(reason({ depth, hdr }, { hdr }), HasSubstr("from pass 'shadows', attachment 'depth' on, where"));
+    EXPECT_THAT(reason({ depth }, { depth, hdr }), HasSubstr("in pass 'opaque', color 0, which only the other"));
+    EXPECT_THAT(reason({ depth, hdr }, { depth }), HasSubstr("in pass 'opaque', color 0, which only this"));
+    EXPECT_THAT(reason({ depth, hdr }, { hdr }), HasSubstr("from pass 'shadows', depth on, where"));
     EXPECT_THAT(reason({ depth }, { depth }), HasSubstr("after the last pass"));
 }
 
