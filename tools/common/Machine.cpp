@@ -7,7 +7,11 @@
 
 #include <sys/utsname.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 #include <thread>
 
 namespace filament::tools {
@@ -35,6 +39,22 @@ std::string describeMachine() {
     const bool known = uname(&system) == 0;
     return fmt::format("{}, {} cores, {} {}, load {}", processor(), std::thread::hardware_concurrency(),
                        known ? system.sysname : "unknown", known ? system.release : "system", load());
+}
+
+std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override) {
+    constexpr std::string_view kWithoutAvx[] = { "nosse", "sse", "sse2", "sse3", "ssse3", "sse4.1" };
+    if (override && std::ranges::find(kWithoutAvx, std::string_view(override)) != std::end(kWithoutAvx))
+        hasAvx = hasFma = false;
+    return fmt::format("{} {}", hasAvx ? "avx" : "no-avx", hasFma ? "fma" : "no-fma");
+}
+
+std::string cpuFeatures() {
+#if defined(__x86_64__)
+    return cpuFeatures(__builtin_cpu_supports("avx") != 0, __builtin_cpu_supports("fma") != 0,
+                       std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"));
+#else
+    return "not x86-64";
+#endif
 }
 
 std::string builtCommit() { return FILAMENT_COMMIT; }

@@ -9,6 +9,13 @@ namespace filament::tools {
 
 /// Processor, cores, system, load.
 std::string describeMachine();
+/// What of "avx fma" this processor gives Mesa's CPU drivers, such as "avx no-fma", or "not x86-64". Processors with
+/// both draw the same bits (docs/conformance.md).
+std::string cpuFeatures();
+inline constexpr const char* kPromisedFeatures = "avx fma";
+/// Of an x86-64 processor. `override` is GALLIUM_OVERRIDE_CPU_CAPS, null if it is not set: up to "sse4.1" it makes
+/// Mesa do without AVX, and so without FMA.
+std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override);
 /// The commit that was built, with "-dirty" if files differ from it.
 std::string builtCommit();
 

@@ -3,6 +3,7 @@
 
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/common/Machine.h"
 #include "tools/conformance/Flip.h"
 #include "tools/conformance/ImageChecks.h"
 
@@ -13,8 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <iterator>
 #include <string_view>
 
 namespace filament::conformance {
@@ -41,22 +40,8 @@ std::optional<Image> imageFromHex(std::string const& text) {
 
 } // namespace
 
-std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override) {
-    constexpr std::string_view kWithoutAvx[] = { "nosse", "sse", "sse2", "sse3", "ssse3", "sse4.1" };
-    if (override && std::ranges::find(kWithoutAvx, std::string_view(override)) != std::end(kWithoutAvx))
-        hasAvx = hasFma = false;
-    return fmt::format("{} {}", hasAvx ? "avx" : "no-avx", hasFma ? "fma" : "no-fma");
-}
-
 Machine thisMachine(std::string device, std::string driver) {
-    Machine machine{ .device = std::move(device), .driver = std::move(driver) };
-#if defined(__x86_64__)
-    machine.cpuFeatures = cpuFeatures(__builtin_cpu_supports("avx") != 0, __builtin_cpu_supports("fma") != 0,
-                                      std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"));
-#else
-    machine.cpuFeatures = "not x86-64";
-#endif
-    return machine;
+    return { .device = std::move(device), .driver = std::move(driver), .cpuFeatures = tools::cpuFeatures() };
 }
 
 std::string hashOf(Image const& image) { return fmt::format("{:016x}", hashBytes(image.pixels)); }

@@ -15,19 +15,13 @@ namespace filament::conformance {
 
 inline constexpr uint32_t kThumbnail = 16; ///< pixels per side
 inline constexpr double kThumbnailFlip = 0.02;
-/// Machine::cpuFeatures of the processors that draw the same bits (docs/conformance.md).
-inline constexpr const char* kPromisedFeatures = "avx fma";
 
 struct Machine {
     std::string device, driver;
-    std::string cpuFeatures; ///< "avx fma", or what of it Mesa does without: pictures have the bits of this class
+    std::string cpuFeatures; ///< tools::cpuFeatures(): pictures have the bits of this class
     friend bool operator==(Machine const&, Machine const&) = default;
 };
 Machine thisMachine(std::string device, std::string driver);
-
-/// Machine::cpuFeatures of an x86-64 processor. `override` is GALLIUM_OVERRIDE_CPU_CAPS, null if it is not set: up to
-/// "sse4.1" it makes Mesa do without AVX, and so without FMA.
-std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override);
 
 struct BaselineVerdict {
     bool passed = false;

@@ -175,7 +175,7 @@ std::vector<std::string> drawnCases(Results const& results) {
 
 Result<void> drawOnMachines(Options const& options, Results& results, MachineLimits const& limits) {
     const std::vector<std::string> names = drawnCases(results);
-    const bool isOneOfThem = thisMachine({}, {}).cpuFeatures == kPromisedFeatures; // this process draws those bits
+    const bool isOneOfThem = tools::cpuFeatures() == tools::kPromisedFeatures; // this process draws those bits
     for (std::string const& name : options.machines) {
         SimulatedMachine const* machine = findMachine(name);
         FILAMENT_ASSERT(machine, "parseOptions() checks the names of --machines");

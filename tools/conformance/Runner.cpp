@@ -4,7 +4,9 @@
 #include "base/Assert.h"
 #include "base/Hash.h"
 #include "tools/common/Console.h"
+#include "tools/common/DriverPromise.h"
 #include "tools/common/Interrupt.h"
+#include "tools/common/Machine.h"
 #include "tools/conformance/Bisect.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"
@@ -26,12 +28,17 @@ std::string fileName(std::string name) {
     return name;
 }
 
+/// Not the texture's name: passes that take turns with a texture name it after the first of them.
+std::string placeOf(backend::CapturedAttachment const& attachment) {
+    return attachment.isDepth ? "depth" : fmt::format("color {}", attachment.slot);
+}
+
 std::vector<AttachmentHash> hashesOf(backend::CapturedFrame const& frame) {
     std::vector<AttachmentHash> hashes;
     for (backend::CapturedPass const& pass : frame.passes) {
         for (backend::CapturedAttachment const& attachment : pass.attachments)
             hashes.push_back({ fmt::format("{:016x}", hashBytes(attachment.bytes)),
-                               fmt::format("pass '{}', attachment '{}'", pass.name, attachment.name) });
+                               fmt::format("pass '{}', {}", pass.name, placeOf(attachment)) });
     }
     return hashes;
 }
@@ -194,6 +201,13 @@ Result<std::vector<Actor>> openActors(std::vector<Configuration> const& configur
     return actors;
 }
 
+void warnOfDrivers(std::vector<Actor> const& actors) {
+    std::vector<DeviceDescription> devices;
+    for (Actor const& actor : actors) devices.push_back(actor.stage->device());
+    if (const std::string note = tools::driverNote(devices, tools::cpuFeatures()); !note.empty())
+        tools::printWarning(note);
+}
+
 void showCase(size_t index, size_t count, std::string const& name) {
     constexpr size_t kBarWidth = 30;
     const size_t done = index * kBarWidth / count;
@@ -225,12 +239,18 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
     Result<std::vector<Actor>> actors = openActors(configurationsOf(options));
     if (!actors) return actors.error();
     Results results{ .build = options.build, .reference = actors->front().configuration.name };
+    warnOfDrivers(*actors);
     for (Actor const& actor : *actors)
         results.devices[toString(actor.stage->device().backend)] =
                 actor.stage->device().device + ", " + actor.stage->device().driver;
     Journal journal(options.journal);
     journal.devices(results.devices);
     for (size_t i = 0; i < cases.size() && !tools::isInterrupted(); ++i) {
+        if (options.fresh && i > 0) {
+            actors->clear(); // before others are opened: nothing of them is left
+            actors = openActors(configurationsOf(options));
+            if (!actors) return actors.error();
+        }
         showCase(i, cases.size(), cases[i].name);
         journal.begins(cases[i].name);
         const auto start = std::chrono::steady_clock::now();

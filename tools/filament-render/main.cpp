@@ -3,6 +3,7 @@
 // Exit status 0: everything was drawn and, with two backends, all pixels are equal (within --tolerance).
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Console.h"
+#include "tools/common/DriverPromise.h"
 #include "tools/common/Machine.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
@@ -115,6 +116,8 @@ int render(Options const& options) {
     const std::vector<BackendRun> runs = drawAll(options, *files, errors);
     std::optional<ImageComparison> comparison;
     if (runs.size() == 2) {
+        const DeviceDescription devices[] = { runs[0].device, runs[1].device };
+        if (const std::string note = driverNote(devices, cpuFeatures()); !note.empty()) printWarning(note);
         const Result<ImageComparison> compared = compareRuns(options, runs[0], runs[1]);
         if (compared)
             comparison = *compared;

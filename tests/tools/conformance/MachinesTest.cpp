@@ -3,6 +3,7 @@
 // hang.
 #include "tools/conformance/Machines.h"
 #include "tests/tools/conformance/Pictures.h"
+#include "tools/common/Machine.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
@@ -102,7 +103,7 @@ protected:
         mOptions.program = mOptions.out / "actor.sh";
         std::ofstream(mOptions.program) << kActor;
         std::filesystem::permissions(mOptions.program, std::filesystem::perms::owner_all);
-        if (thisMachine({}, {}).cpuFeatures != kPromisedFeatures)
+        if (tools::cpuFeatures() != tools::kPromisedFeatures)
             GTEST_SKIP() << "no bits are promised here: the processor lacks AVX or FMA";
     }
 
@@ -239,7 +240,7 @@ TEST(JournalFile, HasWhatEndedAndWhatIsOpenEvenIfItsLastLineIsCutOff) {
 
 // Without a machine that draws other bits, nobody would know whether the overrides take effect.
 TEST(RealMachines, DrawOtherBitsWithoutFmaAndTheSameWithOtherVectors) {
-    if (thisMachine({}, {}).cpuFeatures != kPromisedFeatures) GTEST_SKIP() << "no bits are promised here";
+    if (tools::cpuFeatures() != tools::kPromisedFeatures) GTEST_SKIP() << "no bits are promised here";
     Options options;
     options.scenes = tools::sourceDir() / "tests/conformance/scenes";
     options.assets = tools::assetDir();
