@@ -34,6 +34,7 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--cases", options.cases, "of those, the cases with these names").typeName("NAME...");
     app.option("--shuffle", words.shuffle, "draw the cases in another order, the same for a seed on every machine")
             .typeName("SEED");
+    app.flag("--fresh", options.fresh, "open the devices anew for each case: each is a first frame");
     app.option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
             .typeName("I/N");
     app.option("--merge", words.merge, "do not run: merge the results of shards").typeName("DIR...");

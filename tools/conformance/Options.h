@@ -24,6 +24,7 @@ struct Options {
     std::vector<std::string> only;   ///< cases whose names contain one of these; empty: all
     std::vector<std::string> cases;  ///< of those, the ones with these names; empty: all
     std::optional<uint64_t> shuffle; ///< seed of the order in which cases are drawn; none: by name
+    bool fresh = false;              ///< new engines for each case: its picture is the first that they draw
     tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;
