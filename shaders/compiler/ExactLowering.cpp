@@ -138,9 +138,24 @@ private:
             return lowerModulo();
         case spv::OpFDiv:
             return lowerDivision();
+        case spv::OpImageSampleImplicitLod:
+        case spv::OpImageSampleExplicitLod:
+        case spv::OpImageGather:
+            return mEditor.isPlane(mAt.operands[0]) ? lookUp() : Value{};
         default:
             return {};
         }
+    }
+
+    /// Of a texture that repeats, Mesa's CPU drivers find the texels by one of two formulas: c * size - 0.5, wrapped as an
+    /// integer, where the size is a power of two and they know it when they compile; fract(c) * size - 0.5 otherwise, as
+    /// lavapipe 23.2 to 25.0 always does (lp_build_sample_wrap_linear, lp_texture_handle.c). From 0 on both are exact, and
+    /// so the same. (c - 0.5) + 0.5 takes the bits of a negative coordinate that either could round away.
+    Value lookUp() const {
+        const Value c = operand(1); // the layer of an array is never negative
+        std::vector<uint32_t> operands(mAt.operands.begin(), mAt.operands.end());
+        operands[1] = selectLess(c, c.like(0), 0.5f + (c - 0.5f), c).id;
+        return { &mEditor, mEditor.emit(mAt.op, mAt.type, operands) };
     }
 
     /// By 0: 0 of signed numbers, all bits of unsigned ones, which some drivers give and GLSL leaves undefined.

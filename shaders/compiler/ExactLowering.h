@@ -10,6 +10,8 @@
 ///           (docs/materials-undefined.md). Functions of functions, such as log(exp2(x)), are separated by a sum, so
 ///           that no driver folds them. Minima, maxima, arcs and mod of values that follow from constants choose what
 ///           they give for NaN and 0 themselves, because drivers compute constants by other rules than variables.
+///           Negative coordinates of look-ups in flat textures lose the bits that one of two ways to repeat a texture
+///           rounds away.
 ///   In      valid SPIR-V; run it after the optimiser, which would restore some of the operations.
 ///   Limits  32-bit floats; modf, frexp and ldexp are not changed.
 ///   Thread  any. Fails: never for a valid module. Cost: one pass over the words.

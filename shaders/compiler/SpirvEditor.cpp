@@ -85,6 +85,12 @@ void SpirvEditor::scanGlobal(Instruction const& at) {
     case spv::OpTypeMatrix:
         mTypes[at.result] = { at.op, at.operands[0], at.operands[1] };
         break;
+    case spv::OpTypeImage:
+        if (at.operands[1] == spv::Dim2D) mPlanes.insert(at.result);
+        break;
+    case spv::OpTypeSampledImage:
+        if (mPlanes.contains(at.operands[0])) mPlanes.insert(at.result);
+        break;
     default:
         break;
     }
@@ -137,6 +143,8 @@ bool SpirvEditor::isVector(Id type) const {
     const auto found = mTypes.find(type);
     return found != mTypes.end() && found->second.op == spv::OpTypeVector;
 }
+
+bool SpirvEditor::isPlane(Id image) const { return mPlanes.contains(typeOf(image)); }
 
 uint32_t SpirvEditor::elementCount(Id type) const {
     Type const& at = mTypes.at(type);

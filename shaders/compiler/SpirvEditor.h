@@ -49,7 +49,8 @@ public:
     bool isNonZeroInteger(Id value) const;
     /// Depends only on constants and specialisation constants, so the driver knows it when it compiles.
     bool isConstantExpression(Id value) const;
-    Id extendedInstructions() const;              ///< the GLSL.std.450 import; 0: none
+    bool isPlane(Id image) const;    ///< a sampled image that is flat, or an array of such: neither a cube nor a volume
+    Id extendedInstructions() const; ///< the GLSL.std.450 import; 0: none
     bool isExtended(Instruction const& at) const; ///< an OpExtInst of GLSL.std.450
 
     // ---- inside `replace`
@@ -88,6 +89,7 @@ private:
     std::unordered_map<Id, std::vector<float>> mConstants;
     std::unordered_set<Id> mNonZeroIntegers;
     std::unordered_set<Id> mConstantExpressions;
+    std::unordered_set<Id> mPlanes; ///< types of flat images, and of these with a sampler
     std::unordered_map<Id, std::vector<spv::Decoration>> mPrecision; ///< RelaxedPrecision, NoContraction
     std::map<std::pair<Id, std::vector<uint32_t>>, Id> mMadeConstants;
     Id mExtended = 0;

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <string>
 
 namespace filament::shader {
@@ -107,6 +110,65 @@ TEST(ExactLowering, ChoosesQuotientsByZeroUnlessTheDivisorIsConstant) {
     }
     for (const char* by : { "vec4(int(u.a.x) / 3)", "vec4(ivec4(u.a) / ivec4(1, 2, 3, -4))", "vec4(uvec4(u.a) % 7u)" })
         EXPECT_EQ(test::disassembly(lowerExactly(optimized(by))).find("OpIEqual"), std::string::npos) << by;
+}
+
+/// A fragment shader with a flat texture, an array of such and a cube.
+std::string afterLookUp(std::string const& lookUp) {
+    const std::string text = R"(#version 450
+layout(set = 0, binding = 0) uniform sampler2D flat2d;
+layout(set = 0, binding = 1) uniform sampler2DArray layers;
+layout(set = 0, binding = 2) uniform samplerCube cube;
+layout(location = 0) in vec4 at;
+layout(location = 0) out vec4 color;
+void main() { color = )" + lookUp +
+                             "; }";
+    const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(text, backend::ShaderStage::Fragment, "test");
+    EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
+    const std::vector<uint32_t> after = lowerExactly(*spirv);
+    EXPECT_EQ(test::validationErrors(after), "");
+    return test::disassembly(after);
+}
+
+TEST(ExactLowering, ShortensNegativeCoordinatesOfFlatTextures) {
+    for (const char* lookUp :
+         { "texture(flat2d, at.xy)", "texture(flat2d, at.xy, 1.0)", "textureLod(flat2d, at.xy, 0.0)",
+           "textureGrad(flat2d, at.xy, at.zw, at.wz)", "textureGather(flat2d, at.xy)", "texture(layers, at.xyz)" }) {
+        const std::string text = afterLookUp(lookUp);
+        EXPECT_NE(text.find("OpFSub"), std::string::npos) << lookUp;
+        EXPECT_NE(text.find("OpSelect"), std::string::npos) << lookUp;
+    }
+    for (const char* lookUp : { "texture(cube, at.xyz)", "texelFetch(flat2d, ivec2(at.xy), 0)" })
+        EXPECT_EQ(afterLookUp(lookUp).find("OpFSub"), std::string::npos) << lookUp;
+}
+
+/// The two formulas of lp_build_sample_wrap_linear() for a size that is a power of two, and what is left of a coordinate.
+struct Repeated {
+    float texel, weight;
+    friend bool operator==(Repeated const&, Repeated const&) = default;
+};
+Repeated byMask(float c, float size) {
+    const float at = c * size - 0.5f, floor = std::floor(at), wrapped = floor - size * std::floor(floor / size);
+    return { wrapped, at - floor };
+}
+Repeated byFraction(float c, float size) {
+    const float at = (c - std::floor(c)) * size - 0.5f, floor = std::floor(at);
+    return { at < 0 ? size - 1 : floor, at - floor };
+}
+float shortened(float c) { return c < 0 ? 0.5f + (c - 0.5f) : c; }
+
+TEST(ExactLowering, BothWaysToRepeatATextureGiveTheSameBitsOfShortenedCoordinates) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> exponent(-30, 7);
+    uint32_t different = 0;
+    for (int i = 0; i < 1'000'000; ++i) {
+        const float c = std::exp2(exponent(random)) * (i % 2 ? 1.0f : -1.0f);
+        const auto size = static_cast<float>(1u << random() % 15);
+        different += !(byMask(c, size) == byFraction(c, size));
+        const float s = shortened(c);
+        ASSERT_EQ(byMask(s, size), byFraction(s, size)) << c << " " << size;
+        ASSERT_LE(std::abs(s - c), std::max(0x1p-24f, std::abs(c) * 0x1p-23f));
+    }
+    EXPECT_GT(different, 100'000u) << "the coordinates need no change";
 }
 
 TEST(ExactLowering, KeepsDivisionByAVariable) {
