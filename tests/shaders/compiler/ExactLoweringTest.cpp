@@ -141,7 +141,7 @@ TEST(ExactLowering, ShortensNegativeCoordinatesOfFlatTextures) {
         EXPECT_EQ(afterLookUp(lookUp).find("OpFSub"), std::string::npos) << lookUp;
 }
 
-/// The two formulas of lp_build_sample_wrap_linear() for a size that is a power of two, and what is left of a coordinate.
+/// By the two formulas of lp_build_sample_wrap_linear(), for a size that is a power of two.
 struct Repeated {
     float texel, weight;
     friend bool operator==(Repeated const&, Repeated const&) = default;
