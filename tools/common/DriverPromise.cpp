@@ -22,14 +22,19 @@ std::string textOf(Version const& version) {
     return fmt::format("{}.{}.{}", version.major, version.minor, version.patch);
 }
 
-/// Of Mesa's CPU drivers; nothing for others. A release candidate has no patch number.
-std::optional<Version> mesaVersion(DeviceDescription const& device) {
-    const size_t at = device.driver.find("Mesa ");
+/// A release candidate has no patch number.
+std::optional<Version> versionOf(std::string const& driver) {
+    const size_t at = driver.find("Mesa ");
     Version version;
-    if (at == std::string::npos || device.device.find("llvmpipe") == std::string::npos) return {};
-    if (std::sscanf(device.driver.c_str() + at, "Mesa %d.%d.%d", &version.major, &version.minor, &version.patch) < 2)
+    if (at == std::string::npos) return {};
+    if (std::sscanf(driver.c_str() + at, "Mesa %d.%d.%d", &version.major, &version.minor, &version.patch) < 2)
         return {};
     return version;
+}
+
+/// Of Mesa's CPU drivers; nothing for others.
+std::optional<Version> cpuDriverVersion(DeviceDescription const& device) {
+    return device.device.find("llvmpipe") == std::string::npos ? std::nullopt : versionOf(device.driver);
 }
 
 std::string noteOfAge(Version const& version) {
@@ -44,10 +49,15 @@ std::string noteOfAge(Version const& version) {
 
 } // namespace
 
+std::string mesaVersion(std::string_view driver) {
+    const std::optional<Version> version = versionOf(std::string(driver));
+    return version ? textOf(*version) : std::string();
+}
+
 std::string driverNote(std::span<const DeviceDescription> devices, std::string_view features) {
     std::optional<Version> first;
     for (DeviceDescription const& device : devices) {
-        const std::optional<Version> version = mesaVersion(device);
+        const std::optional<Version> version = cpuDriverVersion(device);
         if (!version)
             return fmt::format("{} ({}) may round as it likes: the same bits are promised for Mesa's CPU drivers "
                                "(mesa-vulkan-drivers, libgl1-mesa-dri)",

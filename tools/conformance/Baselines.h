@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Baselines: stored pictures, as a hash and a thumbnail each, with the machine that produced them.
-///   Rule    with the same driver the hash must match, on every x86-64 processor with AVX and FMA. Otherwise the
+///   Rule    with the same driver, and with the versions of Mesa that the file lists, the hash must match on every
+///           x86-64 processor with AVX and FMA; each version lists the cases that have other bits there. Otherwise the
 ///           thumbnails are compared with FLIP, and the report says so. A case without a baseline fails: store one with
 ///           --update-baselines.
-///   File    tests/conformance/baselines.json: one machine, every case as a hash and 16 x 16 RGB.
+///   File    tests/conformance/baselines.json: one machine, the other versions (scripts/check_drivers --write), every
+///           case as a hash and 16 x 16 RGB.
 ///   Thread  one.  Fails  Unreadable, Corrupt with the path.
 #pragma once
 
 #include "tools/conformance/Results.h"
 
 #include <filament/Image.h>
+
+#include <map>
+#include <set>
+#include <string>
 
 namespace filament::conformance {
 
@@ -42,7 +48,10 @@ private:
     struct Entry {
         std::string hash, thumbnail; ///< hexadecimal
     };
+    bool holdsFor(Machine const& machine, std::string const& name) const;
+
     Machine mMachine;
+    std::map<std::string, std::set<std::string>> mVersions; ///< of Mesa -> cases that have other bits there
     std::map<std::string, Entry> mEntries;
 };
 

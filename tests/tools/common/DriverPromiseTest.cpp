@@ -59,6 +59,13 @@ TEST(DriverPromise, OfAProcessorWithoutFmaIsThatOfBothApisOnly) {
     EXPECT_THAT(noteOf({ lavapipe("22.3.6"), llvmpipe("22.3.6") }, "avx no-fma"), HasSubstr("'avx no-fma'"));
 }
 
+TEST(MesaVersion, IsReadFromTheNamesOfBothApis) {
+    EXPECT_EQ(mesaVersion(lavapipe("25.0.7-2").driver), "25.0.7");
+    EXPECT_EQ(mesaVersion(llvmpipe("23.2.1-1ubuntu3.1~22.04.3").driver), "23.2.1");
+    EXPECT_EQ(mesaVersion("NVIDIA 550.1, Vulkan 1.3"), "");
+    EXPECT_EQ(mesaVersion("Mesa"), "");
+}
+
 // Makers, generations and wider vectors do not matter; features that change rounding do.
 TEST(CpuFeatures, AreThoseThatMesaUses) {
     for (const char* override : { static_cast<const char*>(nullptr), "avx", "avx2", "avx512", "" })

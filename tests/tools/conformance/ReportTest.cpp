@@ -203,6 +203,32 @@ TEST(Baselines, GoByTheThumbnailOnAnotherMachineAndSaySo) {
     EXPECT_FALSE(baselines.check("case", grey(110), kThere).passed);
 }
 
+/// With another version of Mesa that draws the same bits, but for one case.
+TEST(Baselines, HoldBitForBitForTheVersionsThatTheyList) {
+    const Path file = freshFolder("versions") / "baselines.json";
+    Baselines baselines = stored(grey(100));
+    baselines.store("other", grey(100), kHere);
+    ASSERT_TRUE(baselines.write(file));
+    Json json = Json::parse(textOfFile(file));
+    json["versions"]["25.0.7"] = { "other" };
+    std::ofstream(file) << json.dump();
+    Result<Baselines> listed = Baselines::read(file);
+    ASSERT_TRUE(listed) << listed.error().message;
+    ASSERT_TRUE(listed->write(file));
+    listed = Baselines::read(file);
+    ASSERT_TRUE(listed) << listed.error().message;
+    const Machine newer{ "llvmpipe (LLVM 19.1.7, 256 bits)", "OpenGL ES 3.2 Mesa 25.0.7-2", kHere.cpuFeatures };
+    Machine unlisted = newer, weaker = newer;
+    unlisted.driver = "OpenGL ES 3.2 Mesa 25.1.0", weaker.cpuFeatures = "avx no-fma";
+    Image image = grey(100);
+    EXPECT_EQ(listed->check("case", image, newer).text, "equal");
+    image.pixels[5] ^= std::byte{ 1 };
+    EXPECT_FALSE(listed->check("case", image, newer).passed);
+    EXPECT_TRUE(listed->check("other", image, newer).passed) << "by its thumbnail";
+    EXPECT_TRUE(listed->check("case", image, unlisted).passed) << "by its thumbnail";
+    EXPECT_TRUE(listed->check("case", image, weaker).passed) << "by its thumbnail";
+}
+
 TEST(Baselines, OfAnotherMachineAreForgottenWhenOneIsStored) {
     Baselines baselines = stored(grey(100));
     baselines.store("other", grey(50), kThere);
