@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Baselines: stored pictures, as a hash and a thumbnail each, with the machine that produced them.
 ///   Rule    with the same driver, and with the versions of Mesa that the file lists, the hash must match on every
-///           x86-64 processor with AVX and FMA; each version lists the cases that have other bits there. Otherwise the
-///           thumbnails are compared with FLIP, and the report says so. A case without a baseline fails: store one with
-///           --update-baselines.
+///           x86-64 processor with AVX and FMA; each version has the hashes of cases that have other bits there.
+///           Otherwise the thumbnails are compared with FLIP, and the report says so. A case without a baseline fails:
+///           store one with --update-baselines.
 ///   File    tests/conformance/baselines.json: one machine, the other versions (scripts/check_drivers --write), every
 ///           case as a hash and 16 x 16 RGB.
 ///   Thread  one.  Fails  Unreadable, Corrupt with the path.
@@ -14,7 +14,7 @@
 #include <filament/Image.h>
 
 #include <map>
-#include <set>
+#include <optional>
 #include <string>
 
 namespace filament::conformance {
@@ -48,10 +48,11 @@ private:
     struct Entry {
         std::string hash, thumbnail; ///< hexadecimal
     };
-    bool holdsFor(Machine const& machine, std::string const& name) const;
+    /// None: nothing is known of the bits that this machine draws.
+    std::optional<std::string> hashFor(std::string const& name, Entry const& entry, Machine const& machine) const;
 
     Machine mMachine;
-    std::map<std::string, std::set<std::string>> mVersions; ///< of Mesa -> cases that have other bits there
+    std::map<std::string, std::map<std::string, std::string>> mVersions; ///< of Mesa -> case -> hash, where it differs
     std::map<std::string, Entry> mEntries;
 };
 
