@@ -60,9 +60,9 @@ class Tables(unittest.TestCase):
     def test_counts_what_the_apis_draw_otherwise_and_what_is_not_stored(self):
         rows = self.write(debian_13=drawn(case("a", "1", passed=False), case("b", "9"), case("c", "", status="skipped")))
         self.assertEqual(rows["debian-13"].apart, ["a"])
-        self.assertEqual(rows["debian-13"].other, ["b"])
+        self.assertEqual(rows["debian-13"].other, {"b": "9"})
         self.assertEqual(self.lines(), ["| debian-13 | 25.0.7 | 19.1.7 | 2.41 | 2 | 1 | 1 | `b` |"])
-        self.assertEqual(self.versions(), {"25.0.7": ["b"]})
+        self.assertEqual(self.versions(), {"25.0.7": {"b": "9"}})
 
     def test_a_case_without_a_comparison_counts_as_different(self):
         result = drawn(case("a", "1"))
@@ -74,16 +74,16 @@ class Tables(unittest.TestCase):
         self.write(debian_12=drawn(case("a", "1"), mesa="22.3.6"))
         self.write(debian_13=drawn(case("a", "1")))
         self.assertEqual([line.split(" | ")[0] for line in self.lines()], ["| debian-12", "| debian-13"])
-        self.assertEqual(self.versions(), {"22.3.6": [], "25.0.7": []})
+        self.assertEqual(self.versions(), {"22.3.6": {}, "25.0.7": {}})
 
     def test_two_releases_with_one_version_share_what_differs(self):
         rows = self.write(**{"debian-12-backports": drawn(case("a", "9")), "debian-13": drawn(case("b", "9"))})
         self.assertEqual(len(rows), 2)
-        self.assertEqual(self.versions(), {"25.0.7": ["a", "b"]})
+        self.assertEqual(self.versions(), {"25.0.7": {"a": "9", "b": "9"}})
         self.write(debian_13=drawn(case("b", "2")))
-        self.assertEqual(self.versions(), {"25.0.7": ["a", "b"]}, "the other release was not drawn again")
+        self.assertEqual(self.versions(), {"25.0.7": {"a": "9", "b": "9"}}, "the other release was not drawn again")
         self.write(**{"debian-12-backports": drawn(case("a", "1")), "debian-13": drawn(case("b", "2"))})
-        self.assertEqual(self.versions(), {"25.0.7": []})
+        self.assertEqual(self.versions(), {"25.0.7": {}})
 
     def test_the_text_around_the_table_stays(self):
         self.write(debian_13=drawn(case("a", "1")))
