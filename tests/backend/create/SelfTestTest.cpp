@@ -137,9 +137,37 @@ TEST(SelfTestMessage, NamesTheDeviceTheDriverAndTheCure) {
     EXPECT_THAT(driver.error().message, HasSubstr("EngineOptions::driverSelfTest"));
 }
 
-TEST(SelfTestMessage, TheNullDriverHasNothingToTest) {
+TEST(SelfTestOf, TheNullDriverIsMadeWithoutOne) {
     SilentSink sink;
-    EXPECT_TRUE(createDriver(BackendType::Null, { .selfTest = true }, sink));
+    const auto driver = createDriver(BackendType::Null, { .selfTest = true }, sink);
+    ASSERT_TRUE(driver);
+    CommandBuffer commands;
+    const auto buffer = BufferHandle::make(1, 1);
+    commands.record(CmdCreateBuffer{ buffer, { .size = 16, .usage = BufferUsage::TransferSource } });
+    commands.record(CmdReadBuffer{ .buffer = buffer, .size = 16, .ticket = { 1 } });
+    (*driver)->execute(commands.view());
+    (*driver)->waitIdle();
+    EXPECT_EQ(sink.readbacks, 1u);
+}
+
+/// What a driver says while it is made is for its user, and no reason to refuse it.
+TEST(SelfTestOf, ADriverThatReportsSomethingWhenItIsMadePassesThatOn) {
+    class Listener final : public ResultSink {
+    public:
+        void onReadback(Ticket, std::span<const std::byte>) override {}
+        void onTimer(Ticket, uint64_t) override {}
+        void onError(DriverErrorKind, std::string_view message) override { messages.emplace_back(message); }
+        std::vector<std::string> messages;
+    } listener;
+    const auto driver = makeTestedDriver(
+            [](ResultSink& results) {
+                auto made = createDriver(BackendType::Gles, {}, results);
+                results.onError(DriverErrorKind::Other, "a cache was damaged");
+                return made;
+            },
+            listener, {});
+    EXPECT_TRUE(driver);
+    EXPECT_THAT(listener.messages, testing::ElementsAre("a cache was damaged"));
 }
 
 } // namespace
