@@ -67,7 +67,7 @@ TEST_F(Cull, WhatIsClearedOrCoveredAfterwardsIsNotWanted) {
 
 TEST_F(Cull, DrawingOverAPictureKeepsThePassThatMadeIt) {
     const TextureId out = backbuffer();
-    pass("base", [&](PassBuilder& p) { p.writeColor(0, out, { .clear = { {} } }); });
+    pass("base", [&](PassBuilder& p) { p.writeColor(0, out, { .clear = std::array<float, 4>{} }); });
     pass("overlay", [&](PassBuilder& p) { p.writeColor(0, out); });
     EXPECT_EQ(cullUnreadPasses(graph).order.size(), 2u);
 }
@@ -123,7 +123,7 @@ TEST_F(Cull, ALevelThatIsReplacedBeforeItIsReadNeedsNoFirstWriter) {
     const TextureId a = chain("bloom", 2), out = backbuffer();
     const uint32_t lost = pass("lost", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
     const uint32_t kept = pass("kept", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("replace", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = { {} }, .level = 1 }); });
+    pass("replace", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = std::array<float, 4>{}, .level = 1 }); });
     pass("show", [&](PassBuilder& p) {
         p.readSampled(a);
         p.writeColor(0, out);
@@ -144,8 +144,9 @@ TEST_F(Cull, AMarkedOutputKeepsItsPass) {
 TEST_F(Cull, AResolveTargetKeepsTheMultisampledPassAndReplacesOlderContents) {
     const TextureId ms = color("ms", 64, 4), resolved = color("resolved"), out = backbuffer();
     const uint32_t old = pass("old", [&](PassBuilder& p) { p.writeColor(0, resolved); });
-    const uint32_t draw =
-            pass("draw", [&](PassBuilder& p) { p.writeColor(0, ms, { .clear = { {} }, .resolve = resolved }); });
+    const uint32_t draw = pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, ms, { .clear = std::array<float, 4>{}, .resolve = resolved });
+    });
     pass("show", [&](PassBuilder& p) {
         p.readSampled(resolved);
         p.writeColor(0, out);

@@ -27,7 +27,7 @@ protected:
 TEST_F(MergePasses, APassThatReadsTheCurrentPixelBecomesASubpass) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
     pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, hdr, { .clear = { {} } });
+        p.writeColor(0, hdr, { .clear = std::array<float, 4>{} });
         p.writeDepth(z, { .clear = 0.0f });
     });
     declareToneMap(hdr, out);

@@ -92,7 +92,7 @@ protected:
     uint64_t frameHash(RangeRecorder* ranges) {
         const TextureId out = target();
         graph.addPass(
-                "draw", [&](PassBuilder& b) { b.writeColor(0, out, { .clear = { {} } }); },
+                "draw", [&](PassBuilder& b) { b.writeColor(0, out, { .clear = std::array<float, 4>{} }); },
                 [](PassContext& pass) {
                     pass.recordRanges(10'000, 1000, [](CommandBuffer& commands, size_t begin, size_t end) {
                         for (size_t i = begin; i < end; ++i)

@@ -121,7 +121,7 @@ TEST_F(Record, MergedPassesAreSubpassesOfOne) {
 TEST_F(Record, MultisampledAttachmentsResolve) {
     const TextureId ms = color("ms", 64, 4), out = target();
     graph.addPass(
-            "color", [&](PassBuilder& b) { b.writeColor(0, ms, { .clear = { {} }, .resolve = out }); },
+            "color", [&](PassBuilder& b) { b.writeColor(0, ms, { .clear = std::array<float, 4>{}, .resolve = out }); },
             [](PassContext&) {});
     frame();
     ASSERT_EQ(descs.size(), 1u);
@@ -157,7 +157,8 @@ TEST_F(Record, MultisampledDepthIsReadThroughItsResolveTarget) {
 TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
     const TextureId a = color("a");
     graph.addPass(
-            "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+            "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = std::array<float, 4>{} }); },
+            [](PassContext&) {});
     Ticket ticket = stream->nextTicket();
     graph.addPass(
             "read-back",
@@ -177,7 +178,8 @@ TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
 TEST_F(Record, BeforePassRunsBeforeTheMergedPassBegins) {
     const TextureId hdr = color("hdr"), out = target();
     graph.addPass(
-            "color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = { {} } }); }, [](PassContext&) {});
+            "color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = std::array<float, 4>{} }); },
+            [](PassContext&) {});
     graph.addPass(
             "tone map",
             [&](PassBuilder& b) {
@@ -249,7 +251,8 @@ TEST_F(Record, PassesSampleTheLevelAboveTheOneThatTheyWrite) {
     std::vector<TextureRange> shown;
     const SamplerHandle sampler = stream->allocateSampler();
     graph.addPass(
-            "top", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+            "top", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = std::array<float, 4>{} }); },
+            [](PassContext&) {});
     for (uint8_t level = 1; level < 3; ++level) {
         graph.addPass(
                 "down",
@@ -310,7 +313,8 @@ protected:
     void declareChain(int count, const char* const* names) {
         TextureId previous = color(names[0]);
         graph.addPass(
-                names[0], [&](PassBuilder& b) { b.writeColor(0, previous, { .clear = { {} } }); }, [](PassContext&) {});
+                names[0], [&](PassBuilder& b) { b.writeColor(0, previous, { .clear = std::array<float, 4>{} }); },
+                [](PassContext&) {});
         for (int i = 1; i < count; ++i) {
             const TextureId next = i + 1 == count ? target() : color(names[i]);
             graph.addPass(
@@ -387,7 +391,8 @@ TEST_F(Pool, EqualBindGroupsAreMadeOnce) {
     for (int i = 0; i < 2; ++i) {
         const TextureId a = color("a"), out = target();
         graph.addPass(
-                "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+                "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = std::array<float, 4>{} }); },
+                [](PassContext&) {});
         graph.addPass(
                 "show",
                 [&](PassBuilder& b) {

@@ -210,7 +210,7 @@ TEST_F(GraphRulesDeathTest, RangesThatLeaveTheTexture) {
 
 TEST_F(GraphRulesDeathTest, ResolvingToTheLevelThatIsSampled) {
     const TextureId ms = color("ms", 64, 4), a = chain("bloom", 2);
-    pass("fill", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = { {} } }); });
+    pass("fill", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = std::array<float, 4>{} }); });
     pass("draw", [&](PassBuilder& p) {
         p.readSampled(a, backend::oneLevel(0));
         p.writeColor(0, ms, { .resolve = a });

@@ -256,7 +256,8 @@ DRIVER_TEST(Graph, FortyPassesHaveFortyTimes) {
     FrameGraph& graph = frames.graph();
     TextureId from = graph.createTexture(pictureOf("start"));
     graph.addPass(
-            "start", [&](PassBuilder& b) { b.writeColor(0, from, { .clear = { {} } }); }, [](PassContext&) {});
+            "start", [&](PassBuilder& b) { b.writeColor(0, from, { .clear = std::array<float, 4>{} }); },
+            [](PassContext&) {});
     for (int i = 1; i < 40; ++i) {
         const TextureId to =
                 i == 39 ? graph.importTexture(target, pictureOf("target"), framegraph::InitialContents::Undefined)
