@@ -148,9 +148,9 @@ private:
     }
 
     /// Of a texture that repeats, Mesa's CPU drivers find the texels by one of two formulas: c * size - 0.5, wrapped as
-    /// an integer, where the size is a power of two and they know it when they compile; fract(c) * size - 0.5 otherwise.
+    /// an integer, where the size is a power of two that they know when they compile; fract(c) * size - 0.5 otherwise.
     /// lavapipe 23.2 to 25.0 always takes the second (lp_build_sample_wrap_linear, lp_texture_handle.c). From 0 on both
-    /// are exact, and so the same. (c - 0.5) + 0.5 takes the bits of a negative coordinate that either could round away.
+    /// are exact, and so the same. (c - 0.5) + 0.5 takes the bits of a negative coordinate that one could round away.
     Value lookUp() const {
         const Value c = operand(1); // the layer of an array is never negative
         std::vector<uint32_t> operands(mAt.operands.begin(), mAt.operands.end());

@@ -105,7 +105,7 @@ private:
         case spv::OpVectorTimesScalar:
             return mayKnow(at.operands[0], component) && mayKnow(at.operands[1], 0);
         case spv::OpLoad:
-            return isLocal(at.operands[0]);
+            return mayKnowMemory(at.operands[0]);
         case spv::OpPhi:
             return mayKnowPhi(at, component);
         case spv::OpUndef:
@@ -144,13 +144,20 @@ private:
         return true;
     }
 
-    /// Local and private variables may hold constants.
-    bool isLocal(SpirvId pointer) const {
+    /// Local and private variables may hold constants. What is read of uniforms by indices that are known is the same
+    /// for all vertices.
+    bool mayKnowMemory(SpirvId pointer) {
         Defined const* at = &mDefinitions.of(pointer);
-        while (at->op == spv::OpAccessChain || at->op == spv::OpInBoundsAccessChain)
+        bool knowsIndices = true;
+        while (at->op == spv::OpAccessChain || at->op == spv::OpInBoundsAccessChain) {
+            const auto indices = at->operands.subspan(1);
+            knowsIndices = knowsIndices && std::ranges::all_of(indices, [&](SpirvId id) { return mayKnow(id, 0); });
             at = &mDefinitions.of(at->operands[0]);
+        }
         if (at->op != spv::OpVariable) return true;
-        return at->operands[0] == spv::StorageClassFunction || at->operands[0] == spv::StorageClassPrivate;
+        const auto storage = static_cast<spv::StorageClass>(at->operands[0]);
+        if (storage == spv::StorageClassFunction || storage == spv::StorageClassPrivate) return true;
+        return storage == spv::StorageClassUniform && knowsIndices;
     }
 
     /// Component by component where the operand has as many; otherwise all components count.
