@@ -96,6 +96,7 @@ private:
         drawLight();
         read(mLight, kLightTicket);
         if (mInfo.features.mergedPasses) read(mNegative, kNegativeTicket);
+        mCommands.append(std::move(mDraws));
         destroyObjects();
     }
 
@@ -135,7 +136,7 @@ private:
         mCommands.record(CmdCreateProgram{ desc.program, program });
         const auto pipeline = handle<PipelineHandle>(mPipelines);
         mCommands.record(CmdCreatePipeline{ pipeline, desc });
-        mCommands.record(CmdBindPipeline{ pipeline });
+        mDraws.record(CmdBindPipeline{ pipeline });
     }
 
     std::span<const std::byte> shader(std::string_view file) const {
@@ -145,7 +146,7 @@ private:
     void bindGroup(BindGroupLayout const& layout, BindGroupEntry const& entry, uint8_t index) {
         const auto group = handle<BindGroupHandle>(++mGroups);
         mCommands.record(CmdCreateBindGroup{ group, { .layout = layout, .entries = { &entry, 1 } } });
-        mCommands.record(CmdBindGroup{ .group = group, .index = index });
+        mDraws.record(CmdBindGroup{ .group = group, .index = index });
     }
 
     static BindGroupLayout colorsLayout(ShaderStage stage) {
@@ -163,25 +164,25 @@ private:
         program.layout[0] = colorsLayout(ShaderStage::Compute);
         bindPipeline({}, program);
         bindColors(ShaderStage::Compute);
-        mCommands.record(CmdDispatch{});
+        mDraws.record(CmdDispatch{});
     }
 
     void drawDepth() {
         PassDesc pass{ .layout = { .depthFormat = Format::D32F }, .area = kArea, .debugName = "self-test" };
         pass.depth = { .texture = mDepth, .clear = { 1.0f } };
-        mCommands.record(CmdBeginPass{ pass });
+        mDraws.record(CmdBeginPass{ pass });
         bindPipeline({ .pass = pass.layout,
                        .raster = kBothSides,
                        .depthStencil = { .depthCompare = CompareOp::Always, .depthWrite = true } },
                      { .vertex = shader("full_screen.vert"), .fragment = shader("depth.frag") });
-        mCommands.record(CmdDraw{ .vertexCount = 3 });
-        mCommands.record(CmdEndPass{});
+        mDraws.record(CmdDraw{ .vertexCount = 3 });
+        mDraws.record(CmdEndPass{});
     }
 
     /// Adds the colours to the background where the depth of before is greater: in the left half.
     void drawLight() {
         const PassDesc pass = lightPass();
-        mCommands.record(CmdBeginPass{ pass });
+        mDraws.record(CmdBeginPass{ pass });
         ProgramDesc program{ .vertex = shader("full_screen.vert"), .fragment = shader("light.frag") };
         program.layout[0] = colorsLayout(ShaderStage::Fragment);
         PipelineDesc desc{ .pass = pass.layout,
@@ -190,9 +191,9 @@ private:
         desc.blend[0] = { .enabled = true, .dstColor = BlendFactor::One, .writeMask = 0b0111 };
         bindPipeline(desc, program);
         bindColors(ShaderStage::Fragment);
-        mCommands.record(CmdDraw{ .vertexCount = 3 });
+        mDraws.record(CmdDraw{ .vertexCount = 3 });
         if (pass.layout.subpassCount > 1) drawNegative(pass);
-        mCommands.record(CmdEndPass{});
+        mDraws.record(CmdEndPass{});
     }
 
     PassDesc lightPass() const {
@@ -215,25 +216,25 @@ private:
     }
 
     void drawNegative(PassDesc const& pass) {
-        mCommands.record(CmdNextSubpass{});
+        mDraws.record(CmdNextSubpass{});
         ProgramDesc program{ .vertex = shader("full_screen.vert"), .fragment = shader("negative.frag") };
         BindGroupLayout layout{ .count = 1 };
         layout.bindings[0] = { .type = BindingType::InputAttachment, .stages = ShaderStage::Fragment };
         program.layout[1] = layout;
         bindPipeline({ .pass = pass.layout, .subpass = 1, .raster = kBothSides }, program);
         bindGroup(layout, { .texture = mLight }, 1);
-        mCommands.record(CmdDraw{ .vertexCount = 3 });
+        mDraws.record(CmdDraw{ .vertexCount = 3 });
     }
 
     void read(TextureHandle texture, Ticket ticket) {
-        mCommands.record(CmdReadTexture{ .texture = texture, .rect = kArea, .ticket = ticket });
+        mDraws.record(CmdReadTexture{ .texture = texture, .rect = kArea, .ticket = ticket });
     }
 
     static constexpr Rect kArea{ 0, 0, kSide, kSide };
     static constexpr RasterState kBothSides{ .cull = CullMode::None };
 
     DeviceInfo const& mInfo;
-    CommandBuffer mCommands;
+    CommandBuffer mCommands, mDraws; // objects are created outside of passes: before all of them
     const TextureHandle mDepth = handle<TextureHandle>(1), mLight = handle<TextureHandle>(2),
                         mNegative = handle<TextureHandle>(3);
     const BufferHandle mColors = handle<BufferHandle>(1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/create/SelfTest.h"
 #include "backend/create/CreateDriver.h"
+#include "backend/layers/Validated.h"
 #include "backend/null/NullDriver.h"
 #include "backend/stream/CommandBuffer.h"
 #include "tools/paths/Paths.h"
@@ -93,6 +94,18 @@ TEST_P(SelfTest, ItsUserGetsTheResultsOfALaterFrame) {
     (*driver)->waitIdle();
     EXPECT_EQ(sink.readbacks, 1u);
     EXPECT_EQ((*driver)->statistics().commands, 3u);
+}
+
+TEST_P(SelfTest, ItsFrameKeepsTheRulesOfStreams) {
+    SilentSink sink;
+    const auto driver = makeTestedDriver(
+            [](ResultSink& results) -> Result<std::unique_ptr<Driver>> {
+                auto made = createDriver(GetParam(), {}, results);
+                if (!made) return made;
+                return validate(std::move(*made), results);
+            },
+            sink, {});
+    EXPECT_TRUE(driver) << driver.error().message;
 }
 
 /// Every byte of both pictures is one that the test looks at.
