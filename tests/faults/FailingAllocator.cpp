@@ -6,6 +6,7 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <link.h>
 #include <pthread.h>
 
 #include <array>
@@ -66,10 +67,10 @@ bool isCalledByThisProgramOnly(const void* caller) {
     const int depth = backtrace(stack.data(), kFrames);
     bool isOurs = true;
     for (int i = 0; i < depth && isOurs; ++i) {
-        Dl_info place{};
-        if (isOfThisProgram(stack[static_cast<size_t>(i)])) continue;
-        if (dladdr(stack[static_cast<size_t>(i)], &place) == 0 || !place.dli_fname) continue;
-        const std::string_view library(place.dli_fname);
+        void* const frame = stack[static_cast<size_t>(i)];
+        dl_find_object place{}; // dladdr() would also search the symbols, of which LLVM has 100 000
+        if (isOfThisProgram(frame) || _dl_find_object(frame, &place) != 0) continue;
+        const std::string_view library(place.dlfo_link_map->l_name);
         isOurs = library.find("libstdc++") != library.npos || library.find("libc.so") != library.npos;
     }
     tIsInside = false;
