@@ -2,11 +2,11 @@
 #include "tests/shaders/exact/MaterialRig.h"
 
 #include "filament_core/assets/tables/DfgTable.h"
-#include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/ParameterLayout.h"
 #include "shaders/package/RemoveUnusedTextures.h"
+#include "tools/packages/PackageCache.h"
 
 #include <cmath>
 #include <cstring>
@@ -318,12 +318,10 @@ Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
         if (read && scene.removesUnusedTextures) removeUnusedTextures(*read, constantsOf(*read, scene));
         return read;
     }
-    const std::pair key(scene.source, scene.variant);
-    const auto known = mCompiled.find(key);
-    if (known != mCompiled.end()) return known->second;
-    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat", { .onlyVariant = scene.variant });
-    if (compiled) mCompiled.emplace(key, *compiled);
-    return compiled;
+    const Result<tools::CompiledPackage> compiled = // for both devices, and for the next run
+            tools::compilePackage(scene.source, "test.mat", { .onlyVariant = scene.variant });
+    if (!compiled) return compiled.error();
+    return readPackage(compiled->bytes);
 }
 
 Result<std::vector<float>> MaterialRig::render(MaterialScene const& scene) {

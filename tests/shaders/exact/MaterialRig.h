@@ -61,7 +61,6 @@ private:
     backend::SamplerHandle mSampler;
     backend::BufferHandle mVertices, mIndices, mInstance, mObjects;
     uint32_t mIndexCount = 0;
-    std::map<std::pair<std::string, uint16_t>, MaterialPackage> mCompiled; ///< by source and variant
 };
 
 } // namespace filament::shader::test
