@@ -20,10 +20,18 @@ constexpr uint2 kMeasuredSize{ 96, 54 };
 CostPlot waitFor(CostMeasurement& measurement) {
     CostPlot plot;
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
-    while (measurement.isBusy() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    while (measurement.isBusy() && std::chrono::steady_clock::now() < end) letOthersWork();
     EXPECT_FALSE(measurement.isBusy());
     (void)measurement.poll(plot);
     return plot;
+}
+
+/// Until so many steps are done.
+void pollUntil(CostMeasurement& measurement, CostPlot& plot, uint32_t done) {
+    while (measurement.isBusy() && plot.done < done) {
+        (void)measurement.poll(plot);
+        letOthersWork();
+    }
 }
 
 QualitySetting withSetting(Document const& document, std::string_view name, std::string_view value) {
@@ -106,7 +114,7 @@ TEST(CostMeasurement, EndsWhenItIsCancelledAndKeepsWhatThereIs) {
     CostMeasurement measurement;
     measurement.start(document, options);
     CostPlot plot;
-    while (measurement.isBusy() && plot.done == 0) (void)measurement.poll(plot);
+    pollUntil(measurement, plot, 1);
     measurement.cancel();
     plot = waitFor(measurement);
     EXPECT_EQ(plot.state, CostPlot::State::Cancelled);
@@ -136,7 +144,7 @@ TEST(CostMeasurement, ItsEndDoesNotWaitForTheLastRound) {
     std::optional<CostMeasurement> measurement(std::in_place);
     measurement->start(showcaseDocument(kMeasuredSize), options);
     CostPlot plot;
-    while (measurement->isBusy() && plot.done < 20) (void)measurement->poll(plot);
+    pollUntil(*measurement, plot, 20);
     ASSERT_LT(plot.done, plot.total / 100) << plot.error;
     const double soFar = secondsSince(begin);
     const auto end = std::chrono::steady_clock::now();

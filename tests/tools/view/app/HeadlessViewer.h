@@ -25,11 +25,14 @@ struct Headless {
         if (!made) ADD_FAILURE() << made.error().message;
         if (made) viewer = std::move(*made);
     }
+    void stepOrWait() {
+        if (!viewer->step(0.01)) letOthersWork();
+    }
     void settle(std::string const& when = "settle") {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        viewer->step(0.01);
+        stepOrWait();
         while ((viewer->isLoading() || viewer->idleSeconds() < 0.1) && std::chrono::steady_clock::now() < end)
-            viewer->step(0.01);
+            stepOrWait();
         if (std::chrono::steady_clock::now() < end) return;
         ADD_FAILURE() << when << ": still busy after a minute; loading: " << viewer->stage().progress().what;
     }
@@ -37,7 +40,7 @@ struct Headless {
     template <class Condition>
     bool stepUntil(Condition&& isSo, std::chrono::seconds most = std::chrono::seconds(60)) {
         const auto end = std::chrono::steady_clock::now() + most;
-        while (!isSo() && std::chrono::steady_clock::now() < end) viewer->step(0.01);
+        while (!isSo() && std::chrono::steady_clock::now() < end) stepOrWait();
         return isSo();
     }
     Image picture(std::string const& when = "picture") {

@@ -35,7 +35,10 @@ Image drawWith(Document const& document, Backend backend, std::string_view defec
     auto source = ApiPicture::create(backend, { .workers = 1, .validation = true }, defect);
     EXPECT_TRUE(source);
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(5);
-    while (source && !(*source)->picture() && std::chrono::steady_clock::now() < end) (*source)->follow(document, 1);
+    while (source && !(*source)->picture() && std::chrono::steady_clock::now() < end) {
+        (*source)->follow(document, 1);
+        letOthersWork();
+    }
     EXPECT_TRUE(source && (*source)->picture()) << defect;
     return source && (*source)->picture() ? (*source)->picture()->image : Image{};
 }

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 namespace filament::view {
 
@@ -28,6 +30,9 @@ inline Document showcaseDocument(uint2 size) {
     document.view.size = size;
     return document;
 }
+
+/// What a loop does that has nothing to do: a core for the threads that it waits for.
+inline void letOthersWork() { std::this_thread::sleep_for(std::chrono::microseconds(200)); }
 
 /// With the checks of all commands.
 inline ViewerOptions testOptions(Backend backend) {
