@@ -27,14 +27,16 @@ double errorOf(Image const& image, Image const& exact) {
     return std::sqrt(sum / count);
 }
 
-/// The fewest rounds: only errors are looked at, and times only have to be some.
+/// The fewest rounds of small pictures: only errors are looked at, and times only have to be some.
 constexpr uint32_t kRounds = 15;
+constexpr uint2 kSize{ 96, 96 };
 constexpr QualityPreset kPresets[] = { QualityPreset::Low, QualityPreset::High, QualityPreset::Reference };
 
 TEST_P(QualityMeasurementTest, ErrorsAreThoseOfThePicturesAndTheMostExactValueHasNone) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
     test::Floor floor(*engine);
+    floor.view().size = kSize;
     const Result<QualityCosts> costs = measureQualityCosts(*engine, floor.scene(), floor.view(),
                                                            { .rounds = kRounds, .choices = { "textureFilter" } });
     ASSERT_TRUE(costs) << costs.error().message;
@@ -57,6 +59,7 @@ TEST_P(QualityMeasurementTest, AnUnknownChoiceOrTooFewRoundsAreRefused) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
     test::Floor floor(*engine);
+    floor.view().size = kSize;
     EXPECT_FALSE(measureQualityCosts(*engine, floor.scene(), floor.view(), { .rounds = kRounds - 1 }));
     const Result<QualityCosts> costs =
             measureQualityCosts(*engine, floor.scene(), floor.view(), { .choices = { "textureFilters" } });
@@ -72,6 +75,7 @@ TEST_P(QualityMeasurementTest, WhatABudgetBuysIsPredictedToKeepItAndIsNoWorseTha
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
     test::Floor floor(*engine);
+    floor.view().size = kSize;
     const auto pictureOf = [&](Quality const& quality) {
         floor.view().quality = quality;
         return test::renderLinear(*engine, floor.scene(), floor.view());
