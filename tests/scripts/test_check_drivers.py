@@ -21,7 +21,6 @@ def load():
 
 
 check_drivers = load()
-DRIVERS = {each.name: each for each in check_drivers.DRIVERS}
 STORED = {"machine": {"device": "d", "driver": "Mesa 22.3.6", "cpuFeatures": "avx fma"},
           "cases": {"a": {"hash": "1", "thumbnail": ""}, "b": {"hash": "2", "thumbnail": ""}}}
 DOCUMENT = f"before\n{check_drivers.BEGIN}{check_drivers.HEAD}{check_drivers.END}after\n"
@@ -47,7 +46,7 @@ class Tables(unittest.TestCase):
         rows = {}
         for name, result in results.items():
             name = name.replace("_", "-")
-            rows[name] = check_drivers.row_of(DRIVERS[name], result, "2.41")
+            rows[name] = check_drivers.row_of(name, result, "2.41")
         check_drivers.write(rows)
         return rows
 
@@ -111,9 +110,9 @@ class Arguments(unittest.TestCase):
 
     def test_all_releases_are_drawn_unless_some_are_named(self):
         sys.argv = ["check_drivers", "debian-13"]
-        self.assertEqual([each.name for each in check_drivers.read_arguments()[1]], ["debian-13"])
+        self.assertEqual(check_drivers.read_arguments()[1], ["debian-13"])
         sys.argv = ["check_drivers"]
-        self.assertEqual(check_drivers.read_arguments()[1], check_drivers.DRIVERS)
+        self.assertEqual(check_drivers.read_arguments()[1], list(check_drivers.RELEASES))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/check_on makes a release once, runs ./run and ./check in it, and keeps one row of its table for each release."""
+"""scripts/check_on makes a release once (scripts/debian_root), runs ./run and ./check in it, and keeps one row of its table for each
+release."""
 import os
 import pathlib
 import shutil
@@ -11,7 +12,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 PROGRAMS = {
     "id": "echo ${USER_ID:-0}",
     # as on a machine: the folder grows while it works, and is half done if the mirror is gone
-    "debootstrap": 'for folder; do case $folder in /*.new) break ;; esac; done; mkdir -p "$folder/proc" "$folder/dev" "$folder/etc"\n'
+    "debootstrap": 'for folder; do case $folder in /*.new) break ;; esac; done; mkdir -p "$folder/proc" "$folder/dev" "$folder/etc/apt"\n'
                    'echo "$*" >> "$CALLS"; [ -z "${NO_MIRROR:-}" ] || { echo "E: Failed getting release file"; exit 1; }\n'
                    'mkdir -p "$folder/usr/bin"; touch "$folder/usr/bin/git"; chmod +x "$folder/usr/bin/git"',
     "unshare": 'while [ "${1#-}" != "$1" ]; do [ "$1" != --propagation ] || shift; shift; done; exec "$@"',
@@ -34,7 +35,7 @@ class Releases(unittest.TestCase):
         self.root, self.roots, self.calls = work / "checkout", work / "roots", work / "calls"
         (self.root / "scripts").mkdir(parents=True)
         (work / "bin").mkdir()
-        for name in ("asset_dir", "check_on"):
+        for name in ("asset_dir", "check_on", "debian_root"):
             shutil.copy(SCRIPTS / name, self.root / "scripts" / name)
         for name, text in PROGRAMS.items():
             (work / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
@@ -101,6 +102,14 @@ class Releases(unittest.TestCase):
         self.assertIn("FILAMENT_MIRROR names another one", said)
         self.assertIn("E: Failed getting release file", said)
 
+    def test_packages_of_backports_come_from_there(self):
+        self.calls.write_text("")
+        folder = self.roots / "root"
+        subprocess.run([self.root / "scripts/debian_root", "bookworm-backports", folder, "libvulkan1"], env=self.environment, check=True, capture_output=True)
+        self.assertRegex(self.calls.read_text(), r"--include=ca-certificates bookworm \S+ http://deb.debian.org/debian /usr/share/")
+        self.assertIn("apt-get -q install -y --no-install-recommends -t bookworm-backports libvulkan1", self.calls.read_text())
+        self.assertEqual((folder / "etc/apt/sources.list").read_text(), "deb http://deb.debian.org/debian bookworm-backports main\n")
+
     def test_a_release_that_is_half_made_is_made_again(self):
         self.refused("trixie", NO_MIRROR="1")
         self.assertEqual(self.check_on("trixie").returncode, 0)
@@ -108,7 +117,7 @@ class Releases(unittest.TestCase):
     def test_without_debootstrap_it_names_the_package(self):
         (self.root.parent / "bin/debootstrap").unlink()
         beside = self.root.parent / "bin"
-        for name in ("bash", "env", "dirname", "readlink", "realpath", "sh", "cat"):
+        for name in ("bash", "env", "dirname", "readlink", "realpath", "sh", "cat", "mkdir"):
             (beside / name).symlink_to(shutil.which(name))
         self.assertIn("apt-get install debootstrap", self.refused("trixie", PATH=str(beside)))
 
