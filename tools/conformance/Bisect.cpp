@@ -54,15 +54,42 @@ std::optional<At> firstDifferent(CapturedFrame const& a, CapturedFrame const& b)
     return std::nullopt;
 }
 
-Disagreement describe(CapturedFrame const& a, CapturedFrame const& b, At at) {
-    CapturedPass const& pass = a.passes[at.pass];
-    CapturedAttachment const& attachment = attachmentAt(a, at);
+Disagreement describe(CapturedPass const& pass, CapturedAttachment const& attachment, PixelDifference const& pixel) {
     return { .pass = pass.name,
              .attachment = attachment.name,
              .passFirst = pass.first,
              .passLast = pass.last,
              .format = attachment.format,
-             .pixel = *difference(a, b, at) };
+             .pixel = pixel };
+}
+
+Disagreement describe(CapturedFrame const& a, CapturedFrame const& b, At at) {
+    return describe(a.passes[at.pass], attachmentAt(a, at), *difference(a, b, at));
+}
+
+bool isMergedOtherwise(CapturedFrame const& a, CapturedFrame const& b) {
+    return a.passes.size() != b.passes.size() && a.draws.size() == b.draws.size();
+}
+
+/// What the attachment of that name holds at the end of the frame.
+CapturedAttachment const* lastContents(CapturedFrame const& frame, std::string const& name) {
+    CapturedAttachment const* last = nullptr;
+    for (CapturedPass const& pass : frame.passes)
+        for (CapturedAttachment const& attachment : pass.attachments)
+            if (attachment.name == name) last = &attachment;
+    return last;
+}
+
+std::optional<Disagreement> compareLastContents(CapturedFrame const& a, CapturedFrame const& b) {
+    for (CapturedPass const& pass : a.passes) {
+        for (CapturedAttachment const& x : pass.attachments) {
+            CapturedAttachment const* const y = lastContents(b, x.name);
+            if (&x != lastContents(a, x.name) || !y || y->bytes.size() != x.bytes.size()) continue;
+            if (const auto pixel = firstDifference(x.format, x.width, x.bytes, y->bytes))
+                return describe(pass, x, *pixel);
+        }
+    }
+    return std::nullopt;
 }
 
 /// How the attachment differs if both frames end after `draws` draws.
@@ -111,6 +138,7 @@ std::string Disagreement::line() const {
 }
 
 Result<std::optional<Disagreement>> compareFrames(CapturedFrame const& a, CapturedFrame const& b) {
+    if (isMergedOtherwise(a, b)) return compareLastContents(a, b);
     if (const Result<void> equal = requireEqualPasses(a, b); !equal) return equal.error();
     const std::optional<At> at = firstDifferent(a, b);
     return at ? std::optional(describe(a, b, *at)) : std::nullopt;
@@ -121,6 +149,7 @@ Result<std::optional<Disagreement>> bisect(FrameSource const& a, FrameSource con
     if (!x) return x.error();
     Result<CapturedFrame> y = b(backend::kAllDraws);
     if (!y) return y.error();
+    if (isMergedOtherwise(*x, *y)) return compareLastContents(*x, *y);
     if (const Result<void> equal = requireEqualPasses(*x, *y); !equal) return equal.error();
     const std::optional<At> at = firstDifferent(*x, *y);
     if (!at) return std::optional<Disagreement>();

@@ -4,7 +4,9 @@
 ///   Out     nothing if every attachment of every pass has the same bits.
 ///   Method  compares all attachments of both in the order of the passes; then finds N by binary search, cutting frames
 ///           off after N draws and comparing the attachment again.
-///   Fails   errors of the sources; Unsupported if the two frames have different passes.
+///           Where one device merges passes that the other one cannot merge, as without framebuffer fetch, what both
+///           hold at the end of the frame is compared by the names of the attachments, and no draw is searched for.
+///   Fails   errors of the sources; Unsupported if the two frames have different passes for another reason.
 ///   Cost    one frame per source, and one more for every step of the search.
 #pragma once
 
