@@ -139,6 +139,30 @@ class Measured(unittest.TestCase):
         self.assertEqual(data["notices"][0], {"mutant": "base/A.cpp:1", "operator": "operator", "was": "<", "now": "<=", "cases": 1,
                                               "suite": "device", "case": "A.Sees", "seconds": 1.5})
 
+    def test_what_another_tree_gave_is_not_asked_again_and_stays_in_the_report(self):
+        row = {"mutant": "base/A.cpp:1", "operator": "operator", "was": "<", "now": "<=", "cases": 3}
+        counts = {"seconds": 2, "cases": 3, "skipped": 0, "reached": 5}
+        before = {"commit": "c0ffee",
+                  "suites": {"device": {"label": "gpu", "part": 0.25} | counts, "unit": {"label": "unit", "part": 1} | counts},
+                  "notices": [row | {"suite": "device", "case": "A.Saw", "seconds": 0.5}, row | {"mutant": "base/A.cpp:2", "untried": 1},
+                              row | {"mutant": "base/A.cpp:4"}, row | {"mutant": "base/B.cpp:1"}]}
+        known = self.folder / "known.json"
+        known.write_text(json.dumps(before), encoding="utf-8")
+        self.add("device", "gpu", Sees=(1500, [1, 2, 3], [1, 3]))
+        self.measure("reach", "--shard", "0/4")
+        self.measure("notice", "--known", str(known))
+        self.assertNotIn("device_tests 1 ", self.asked())
+        file = self.folder / "measured.json"
+        self.measure("report", str(file), "--known", str(known), "--commit", "c0ffee")
+        data = json.loads(file.read_text(encoding="utf-8"))
+        rows = {row["mutant"]: row for row in data["notices"]}
+        self.assertEqual(rows["base/A.cpp:1"]["case"], "A.Saw")
+        self.assertEqual((rows["base/A.cpp:2"]["cases"], rows["base/A.cpp:2"]["untried"]), (4, 1))
+        self.assertEqual(rows["base/A.cpp:3"]["case"], "A.Sees")
+        self.assertNotIn("base/B.cpp:1", rows)
+        self.assertEqual(data["suites"]["unit"]["cases"], 3)
+        self.assertEqual((data["suites"]["device"]["cases"], data["suites"]["device"]["part"]), (4, 0.5))
+
 
 RULES = {"rooms": ["room"], "cheapSeconds": 1, "longestSeconds": 10, "divided": {"large": "takes long"},
          "wholeSeconds": 20, "missed": {}, "always": {"format": ""}}
