@@ -6,6 +6,7 @@ import copy
 import json
 import pathlib
 import random
+import re
 import sys
 import unittest
 
@@ -20,6 +21,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MANIFESTS = sorted((ROOT / "scripts/cluster/kubernetes").glob("*.yaml"))
 SCHEMA = json.loads((ROOT / "tests/cluster/job_schema.json").read_text())
 VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
+NUMBERS = dict(re.findall(r"#define FILAMENT_CORE_VERSION_(\w+) (\d+)", (ROOT / "base/include/filament/Version.h").read_text()))
+IMAGE = f"filament-core:{NUMBERS['MAJOR']}.{NUMBERS['MINOR']}.{NUMBERS['PATCH']}"  # of this version
+CONTAINERFILE = (ROOT / "Containerfile").read_text()
 
 
 class StrictLoader(yaml.SafeLoader):
@@ -82,12 +86,26 @@ class Manifests(unittest.TestCase):
             for container in (shard, merger):
                 script = ROOT / container["command"][0].removeprefix("/filament/")
                 self.assertTrue(script.is_file(), script)
+                self.assertEqual(container["image"], IMAGE)
             self.assertEqual(shards["spec"]["completionMode"], "Indexed")
             self.assertEqual(option(shard, "--shards"), str(shards["spec"]["completions"]))
             self.assertGreaterEqual(shards["spec"]["backoffLimitPerIndex"], int(option(shard, "--attempts")))
             for name in ("--out", "--tool", "--shards", "--attempts"):
                 self.assertEqual(option(shard, name), option(merger, name))
             self.assertGreater(merge["spec"]["activeDeadlineSeconds"], int(option(merger, "--wait")))
+
+
+class Image(unittest.TestCase):
+    def test_has_the_name_of_the_manifests(self):
+        self.assertIn(f"build -t {IMAGE} .", CONTAINERFILE)
+
+    def test_has_what_the_manifests_start_and_what_that_reads(self):
+        copied = re.findall(r"^COPY (\S+) /filament/\1$", CONTAINERFILE, re.MULTILINE)
+        for path in (job["spec"]["template"]["spec"]["containers"][0]["command"][0] for path in MANIFESTS for job in jobs_of(path)):
+            self.assertIn(path.split("/")[2], copied)
+        self.assertIn("tests/conformance", copied)
+        for path in copied:
+            self.assertTrue((ROOT / path).is_dir(), path)
 
 
 class Schema(unittest.TestCase):
