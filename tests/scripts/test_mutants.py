@@ -170,6 +170,20 @@ class Refused(unittest.TestCase):
                 if mutant["file"] != "base/Text.cpp":
                     self.assertEqual(kept[mutant["key"]], mutant["number"])
 
+    def test_lines_with_the_same_text_keep_numbers_of_their_own(self):
+        same = "int f{0}(int a) {{\n    return a + 7;\n}}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            root = make_tree(folder, **{"base/Same.cpp": "".join(map(same.format, range(4))), "jobsystem/Program.cpp": SOURCE})
+            copy = pathlib.Path(folder, "copy")
+            mutate(root, copy, "--count", "8")
+            before = mutants_of(copy)
+            self.assertGreater(len([mutant for mutant in before if mutant["file"] == "base/Same.cpp"]), 1)
+            log = pathlib.Path(folder, "log")
+            log.write_text(f"{copy}/jobsystem/Program.cpp:{before[-1]['line']}:1: error: no\n", encoding="utf-8")
+            mutate(root, copy, "--drop", log)
+            numbers = [mutant["number"] for mutant in mutants_of(copy)]
+            self.assertEqual(len(numbers), len(set(numbers)))
+
     def test_a_log_without_errors_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             root = make_tree(folder, **{"base/Program.cpp": SOURCE})
