@@ -4,8 +4,8 @@
 ///   Out     nothing if every attachment of every pass has the same bits.
 ///   Method  compares all attachments of both in the order of the passes; then finds N by binary search, cutting frames
 ///           off after N draws and comparing the attachment again.
-///           Where one device merges passes that the other one cannot merge, as without framebuffer fetch, what both
-///           hold at the end of the frame is compared by the names of the attachments, and no draw is searched for.
+///           Where one device merges passes that the other one cannot merge, as without framebuffer fetch, attachments
+///           are compared by name: after some pass they must hold the same. No draw is searched for.
 ///   Fails   errors of the sources; Unsupported if the two frames have different passes for another reason.
 ///   Cost    one frame per source, and one more for every step of the search.
 #pragma once
