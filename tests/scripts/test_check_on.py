@@ -105,7 +105,9 @@ class Releases(unittest.TestCase):
     def test_packages_of_backports_come_from_there(self):
         self.calls.write_text("")
         folder = self.roots / "root"
-        subprocess.run([self.root / "scripts/debian_root", "bookworm-backports", folder, "libvulkan1"], env=self.environment, check=True, capture_output=True)
+        folder.mkdir(parents=True)  # an empty one is as good as none
+        subprocess.run([self.root / "scripts/debian_root", "bookworm-backports", folder, "libvulkan1"], env=self.environment,
+                       check=True, capture_output=True)
         self.assertRegex(self.calls.read_text(), r"--include=ca-certificates bookworm \S+ http://deb.debian.org/debian /usr/share/")
         self.assertIn("apt-get -q install -y --no-install-recommends -t bookworm-backports libvulkan1", self.calls.read_text())
         self.assertEqual((folder / "etc/apt/sources.list").read_text(), "deb http://deb.debian.org/debian bookworm-backports main\n")

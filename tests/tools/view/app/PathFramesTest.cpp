@@ -197,7 +197,7 @@ TEST(PathRecorder, DrawsBesideItsCallerAndStops) {
     PathRequest lasting = requestFor(folder / "some", Backend::Vulkan);
     lasting.series.framesPerSecond = 1000;
     ASSERT_TRUE(recorder.start(lasting));
-    while (recorder.progress().done < 2) std::this_thread::yield();
+    while (recorder.progress().done < 2) letOthersWork();
     recorder.cancel();
     EXPECT_THAT(lines(), testing::ElementsAre(testing::HasSubstr("stopped after")));
     EXPECT_FALSE(recorder.isBusy());
