@@ -11,6 +11,7 @@
 
 #include <filament/Engine.h>
 
+#include <concepts>
 #include <memory>
 #include <string_view>
 
@@ -47,7 +48,10 @@ public:
 
     /// Of something that belongs to an engine; null: it was moved from. It has `engine`, a reference, and `link`.
     template <class Pointer>
-    requires requires(Pointer const& part) { part->link.isAlive(); }
+    requires(!std::same_as<Pointer, std::shared_ptr<Engine::Impl>>) && // incomplete here: g++ 16 warns
+            requires(Pointer const& part) {
+        part->link.isAlive();
+    }
     PublicCall(Pointer const& part, const char* function, std::string_view object = {}) : mCall(function, object) {
         if (!part) movedFrom();
         if (!part->link.isAlive()) outlived();

@@ -2,6 +2,7 @@
 #include "tools/conformance/DefectTrace.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>

@@ -17,6 +17,7 @@
 #include <filament/Look.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -7,6 +7,7 @@
 #include "tools/replay/Attachments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include "tools/reference/LoadScene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -5,6 +5,7 @@
 #include "tools/view/panels/Panels.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
