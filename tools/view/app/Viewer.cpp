@@ -429,6 +429,7 @@ bool Viewer::step(double seconds) {
     pollLatency();
     pollInspector();
     if (mNumerics.poll(*mStage)) touch();
+    if (mPanels.poll()) touch();
     const double polled = threadSeconds();
     const bool hasDrawn = drawIfDue(seconds);
     mStepTime = { .other = polled - begin, .drawing = hasDrawn ? threadSeconds() - polled : 0 };

@@ -22,14 +22,20 @@ std::string reportOf(std::filesystem::path const& file) {
 
 } // namespace
 
+bool MaterialCost::has(std::filesystem::path const& file) { return file.extension() == ".mat"; }
+
+bool MaterialCost::poll() {
+    if (!isCompiling() || mPending.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    mText = mPending.get();
+    return true;
+}
+
 void MaterialCost::follow(std::filesystem::path const& file) {
-    if (mPending.valid()) {
-        if (mPending.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-        mText = mPending.get();
-    }
-    if (file.extension() != ".mat") {
+    poll();
+    if (isCompiling()) return;
+    if (file != mFile) mText.clear();
+    if (!has(file)) {
         mFile.clear();
-        mText.clear();
         return;
     }
     std::error_code error;

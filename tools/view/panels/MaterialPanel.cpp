@@ -109,11 +109,13 @@ void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow 
     ImGui::PopID();
 }
 
-/// Of a .mat file: folded, because it is a table of many lines.
-void drawMaterialCost(MaterialCost const& cost) {
-    if (cost.text().empty() || !ImGui::CollapsingHeader("cost, as matc --cost")) return;
+/// Of a .mat file: folded, because it is a table of many lines. Compiled when it is seen: that takes a second or two.
+void drawMaterialCost(PanelFrame& frame) {
+    if (!MaterialCost::has(frame.stage.shownFile()) || !ImGui::CollapsingHeader("cost, as matc --cost")) return;
+    frame.materialCost.follow(frame.stage.shownFile());
+    std::string const& text = frame.materialCost.text();
     if (ImGui::BeginChild("cost", { 0, ImGui::GetFontSize() * 12 }, true, ImGuiWindowFlags_HorizontalScrollbar))
-        ImGui::TextUnformatted(cost.text().c_str());
+        ImGui::TextUnformatted(text.empty() ? "compiling" : text.c_str());
     ImGui::EndChild();
 }
 
@@ -131,7 +133,7 @@ void drawMaterialPanel(PanelFrame& frame) {
     ImGui::PushStyleColor(ImGuiCol_Text, kQuietColor);
     ImGui::TextWrapped("%s", describeMaterial(frame.stage.engine().describe(selected->material)).c_str());
     ImGui::PopStyleColor();
-    drawMaterialCost(frame.materialCost);
+    drawMaterialCost(frame);
     if (ImGui::BeginTable("parameters", 2, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1);
         ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1.3f);

@@ -22,7 +22,7 @@ struct PanelFrame {
     std::vector<Option> const& options;
     FrameHistory const& history;
     ChangeMeter& changes;
-    MaterialCost const& materialCost;
+    MaterialCost& materialCost;
     LatencyMeter const& latency;
     PixelReport const& pixel;
     FileDialog& fileDialog;

@@ -69,7 +69,6 @@ void Panels::readScene(Stage& stage) {
 
 void Panels::draw(Document& document, Stage& stage) {
     readScene(stage);
-    mMaterialCost.follow(stage.shownFile());
     ImGuiIO const& io = ImGui::GetIO();
     const float scale = ImGui::GetFontSize() / 13; // of ImGui's own font
     mLayout = layOutPanels(uint2(float2(io.DisplaySize.x, io.DisplaySize.y)), scale, state.showsPanels);

@@ -111,6 +111,9 @@ public:
     Panels();
 
     void draw(Document& document, Stage& stage);
+    /// Takes what was found beside the interface; true: the panels look different now.
+    bool poll() { return mMaterialCost.poll(); }
+    bool isCompiling() const { return mMaterialCost.isCompiling(); } ///< the report of a material's cost
     /// Takes the timings of finished frames and the statistics of the last one.
     void collect(Stage& stage);
 

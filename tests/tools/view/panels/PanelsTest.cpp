@@ -5,8 +5,11 @@
 #include "tools/view/ui/ImGuiVersions.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <set>
+#include <thread>
 
 namespace filament {
 namespace {
@@ -274,6 +277,30 @@ TEST(Panels, TypingAPathGivesATextureAPicture) {
     const auto files = stage.document.textures;
     stage.interfaceFrame();
     EXPECT_EQ(stage.document.textures, files) << "only Enter changes it";
+}
+
+TEST(Panels, TheCostOfAMaterialIsCompiledWhenItIsSeen) {
+    PanelStage stage(Backend::Vulkan);
+    stage.open("Materials");
+    stage.document.model.file = test::folderOfThisTest() / "a.mat";
+    std::ofstream(stage.document.model.file)
+            << "material { name : a, shadingModel : unlit }\n"
+               "fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }";
+    stage.stage->apply(stage.document);
+    stage.stage->finishLoading();
+    stage.stage->poll();
+    stage.panels.state.selectedMaterial = "a";
+    for (int i = 0; i < 3; ++i) stage.interfaceFrame();
+    EXPECT_FALSE(stage.panels.isCompiling()) << "folded";
+    for (const ImVec2 place : widgetsOf(stage, stage.panels.layout().left)) {
+        stage.click(place);
+        if (stage.panels.isCompiling()) break;
+    }
+    ASSERT_TRUE(stage.panels.isCompiling()) << "no header of costs was found";
+    while (!stage.panels.poll()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_FALSE(stage.panels.poll()) << "once";
+    stage.interfaceFrame();
+    EXPECT_FALSE(stage.panels.isCompiling()) << "the file has not changed";
 }
 
 TEST(Panels, WorkAtAnySizeAndScale) {
