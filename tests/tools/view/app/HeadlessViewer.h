@@ -15,6 +15,7 @@ namespace filament::view {
 
 inline constexpr int kEscape = 256; ///< of GLFW
 inline constexpr uint2 kPictureSize{ 640, 360 };
+inline constexpr uint2 kSmallPicture{ 192, 108 }; ///< less to shade, where no place in the picture matters
 
 struct Headless {
     std::unique_ptr<Viewer> viewer;

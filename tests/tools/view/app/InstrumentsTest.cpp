@@ -20,8 +20,6 @@
 namespace filament::view {
 namespace {
 
-constexpr uint2 kSmall{ 192, 108 };
-
 class InstrumentsTest : public testing::TestWithParam<Backend> {};
 INSTANTIATE_TEST_SUITE_P(Apis, InstrumentsTest, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& api) { return std::string(toString(api.param)); });
@@ -73,8 +71,10 @@ std::map<std::string_view, Place> const& expectedPlaces() {
 
 /// The middle third, both ways.
 bool isInMiddle(size_t pixel) {
-    const uint32_t x = static_cast<uint32_t>(pixel) % kSmall.x, y = static_cast<uint32_t>(pixel) / kSmall.x;
-    return 3 * x >= kSmall.x && 3 * x < 2 * kSmall.x && 3 * y >= kSmall.y && 3 * y < 2 * kSmall.y;
+    const uint32_t x = static_cast<uint32_t>(pixel) % kSmallPicture.x,
+                   y = static_cast<uint32_t>(pixel) / kSmallPicture.x;
+    return 3 * x >= kSmallPicture.x && 3 * x < 2 * kSmallPicture.x && 3 * y >= kSmallPicture.y &&
+           3 * y < 2 * kSmallPicture.y;
 }
 
 void expectPlace(std::string const& defect, Place place, std::vector<bool> const& pixels,
@@ -101,7 +101,7 @@ void expectMapOf(Image const& a, Image const& b, std::vector<bool> const& pixels
 
 /// All that the scene shows, on an engine of the backend, against a clean picture of the other one.
 void expectDefectsOn(Backend backend, std::function<bool(std::string_view)> const& isAskedFor) {
-    Document document = showcaseDocument(kSmall);
+    Document document = showcaseDocument(kSmallPicture);
     document.view.effects.vignette.enabled = true;
     const Image clean = drawWith(document, otherThan(backend), "");
     EXPECT_EQ(compare(clean, drawWith(document, backend, ""))->percentage(), "100.0000 %");
@@ -141,7 +141,7 @@ TEST(Defects, AreThoseOfTheSuiteThatFitTheApi) {
 }
 
 TEST_P(InstrumentsTest, AnInjectedDefectIsSeenAndGoesAgain) {
-    Headless headless(GetParam(), kSmall);
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.settle();
     Viewer& viewer = *headless.viewer;

@@ -104,7 +104,7 @@ TEST_P(ViewerPixelTest, WithoutItsPanelNothingIsInspected) {
 }
 
 TEST_P(ViewerPixelTest, TheNumericsViewCountsItsMarks) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.viewer->panels().state.showsPanels = false;
     headless.settle();
@@ -119,7 +119,7 @@ TEST_P(ViewerPixelTest, TheNumericsViewCountsItsMarks) {
         EXPECT_EQ(*headless.viewer->numerics().counts(), countNumerics(marked.pixels)) << exposure;
         uint64_t all = 0;
         for (const uint64_t pixels : *headless.viewer->numerics().counts()) all += pixels;
-        EXPECT_EQ(all, uint64_t{ kPictureSize.x } * kPictureSize.y);
+        EXPECT_EQ(all, uint64_t{ kSmallPicture.x } * kSmallPicture.y);
     }
     EXPECT_GT((*headless.viewer->numerics().counts())[static_cast<size_t>(NumericsMark::Clipped)], 0u);
     if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES")) {

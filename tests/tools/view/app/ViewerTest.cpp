@@ -70,14 +70,14 @@ TEST_P(ViewerTest, ClicksSelectWhatIsUnderThem) {
 }
 
 TEST_P(ViewerTest, EveryActionLeavesAViewerThatDraws) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     for (Shortcut const& shortcut : shortcuts()) {
         const bool hasOwnTest = shortcut.action == Action::SaveFrame || shortcut.action == Action::CompareWith;
         if (shortcut.action == Action::Quit || hasOwnTest) continue;
         headless.viewer->perform(shortcut.action);
         const Image image = headless.picture(labelOf(shortcut));
-        EXPECT_EQ(uint2(image.width, image.height), kPictureSize) << labelOf(shortcut);
+        EXPECT_EQ(uint2(image.width, image.height), kSmallPicture) << labelOf(shortcut);
         EXPECT_FALSE(headless.viewer->isClosed());
     }
     headless.viewer->perform(Action::Quit);
@@ -133,7 +133,7 @@ TEST_P(ViewerTest, PicturesFollowTheSizeOfTheWindow) {
 }
 
 TEST_P(ViewerTest, DroppedFilesAreShownOrNamed) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     const Image before = headless.picture();
     headless.viewer->handle(DropEvent{ { "/nowhere/at.all", "/nowhere/model.glb" } });
@@ -141,7 +141,7 @@ TEST_P(ViewerTest, DroppedFilesAreShownOrNamed) {
     const std::vector<std::string> messages = headless.viewer->takeMessages();
     EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("/nowhere/at.all")));
     EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("/nowhere/model.glb")));
-    EXPECT_EQ(uint2(before.width, before.height), kPictureSize);
+    EXPECT_EQ(uint2(before.width, before.height), kSmallPicture);
     headless.viewer->handle(DropEvent{ { showcaseFiles().model } });
     headless.settle();
     EXPECT_EQ(headless.viewer->stage().shownFile(), showcaseFiles().model);
@@ -188,7 +188,7 @@ TEST_P(ViewerTest, TheLineOfAWipeIsDraggedAndTheCameraStays) {
 }
 
 TEST_P(ViewerTest, ThePathTracerDrawsBesideTheViewer) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.viewer->handle(ResizeEvent{ { 96, 54 }, 1 });
     headless.settle();
@@ -201,7 +201,7 @@ TEST_P(ViewerTest, ThePathTracerDrawsBesideTheViewer) {
 }
 
 TEST_P(ViewerTest, WhatItIsComparedWithMayChangeWhileThatStarts) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.settle();
     headless.viewer->perform(Action::Compare);
@@ -217,7 +217,7 @@ TEST_P(ViewerTest, WhatItIsComparedWithMayChangeWhileThatStarts) {
 }
 
 TEST_P(ViewerTest, ChangingTheApiKeepsThePicture) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.viewer->panels().state.showsPanels = false; // they name the device
     const Image before = headless.picture();
@@ -231,7 +231,7 @@ TEST_P(ViewerTest, ChangingTheApiKeepsThePicture) {
 }
 
 TEST_P(ViewerTest, SavedFramesDrawThemselvesAgain) {
-    Headless headless(GetParam());
+    Headless headless(GetParam(), kSmallPicture);
     if (!headless.viewer) return;
     headless.settle();
     headless.viewer->perform(Action::SaveFrame);
