@@ -25,9 +25,12 @@ struct PictureCopyTest : testing::Test, BoxScene {
         return prepareFrame(jobs, arena, scene, views, {});
     }
 
+    /// Of frame(), until the next one.
+    ViewPacket const& mainView() { return frame().views[0]; }
+
     /// Of the one copy of the view; 0: there is none.
     uint32_t copiedPixels() {
-        ViewPacket const& packet = frame().mainView();
+        ViewPacket const& packet = mainView();
         return packet.pictures.empty() ? 0 : packet.pictures.front().pixels();
     }
 
@@ -118,7 +121,7 @@ TEST_F(PictureCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
         material(shader::Blending::Transparent), onTop, glass(), late, material(), glass(shader::Blending::Fade)
     };
     for (int i = 0; i < 6; ++i) add(double3(i - 3, 0, 0), looks[i], 1 + static_cast<uint32_t>(i));
-    ViewPacket const& packet = frame().mainView();
+    ViewPacket const& packet = mainView();
     ASSERT_EQ(packet.opaque.size(), 1u);
     ASSERT_EQ(packet.blended.size(), 5u);
     ASSERT_EQ(packet.pictures.size(), 1u);
@@ -133,7 +136,7 @@ TEST_F(PictureCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
     view.quality.refraction = RefractionSource::Environment;
     add(double3(0, 0, 0), material());
     add(double3(1, 0, 0), glass());
-    ViewPacket const& packet = frame().mainView();
+    ViewPacket const& packet = mainView();
     EXPECT_EQ(packet.opaque.size(), 2u);
     EXPECT_TRUE(packet.blended.empty());
     EXPECT_TRUE(packet.pictures.empty());
@@ -143,7 +146,7 @@ TEST_F(PictureCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
 TEST_F(PictureCopyTest, RefractingObjectsAreFrontToBack) {
     scene::MaterialInstance* const look = glass();
     for (const double z : { -3.0, 2.0, -1.0 }) add(double3(0, 0, z), look, 1);
-    ViewPacket const& packet = frame().mainView();
+    ViewPacket const& packet = mainView();
     ASSERT_EQ(packet.objects.order.size(), 3u);
     EXPECT_LT(packet.objects.order[0].key, packet.objects.order[1].key);
     EXPECT_EQ(packet.objects.order[0].renderable, 1u);
@@ -160,7 +163,7 @@ TEST_F(PictureCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
     add(double3(0, 0, 3), late, 3);
     for (const uint8_t layers : { uint8_t{ 2 }, uint8_t{ 3 }, uint8_t{ 5 }, uint8_t{ 8 }, uint8_t{ 255 } }) {
         view.quality.refractionLayers = layers;
-        ViewPacket const& packet = frame().mainView();
+        ViewPacket const& packet = mainView();
         ASSERT_EQ(packet.blended.size(), 7u) << "none is an instance of another";
         for (uint32_t i = 0; i < 5; ++i) {
             constexpr uint32_t kByDistance[] = { 0, 2, 3, 4, 1 };
@@ -177,9 +180,9 @@ TEST_F(PictureCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
 TEST_F(PictureCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
     view.quality.refractionLayers = 4;
     add(double3(0, 0, 0), glass(shader::Blending::Fade), 1);
-    EXPECT_EQ(frame().mainView().pictures.size(), 1u);
+    EXPECT_EQ(mainView().pictures.size(), 1u);
     add(double3(1, 0, 0), glass(), 2);
-    EXPECT_EQ(frame().mainView().pictures.size(), 1u);
+    EXPECT_EQ(mainView().pictures.size(), 1u);
 }
 
 TEST_F(PictureCopyTest, LevelsAreThoseThatTheRoughnessReads) {
@@ -201,11 +204,11 @@ TEST_F(PictureCopyTest, FewerLevelsLieInTheSameRectangle) {
     scene::MaterialInstance* const look = glass();
     look->parameters.resize(16);
     add(double3(0, 0, 0), look, 1);
-    const PictureCopy all = frame().mainView().pictures[0];
+    const PictureCopy all = mainView().pictures[0];
     look->material->roughnessBound = 4;
     for (const float roughness : { 0.0f, 0.05f, 1.0f, std::numeric_limits<float>::quiet_NaN() }) {
         std::memcpy(look->parameters.data() + 4, &roughness, sizeof(float));
-        const PictureCopy copy = frame().mainView().pictures[0];
+        const PictureCopy copy = mainView().pictures[0];
         EXPECT_EQ(copy.rect, all.rect);
         if (roughness < 0.1f)
             EXPECT_LT(copy.levels, all.levels) << roughness;
