@@ -16,8 +16,8 @@ class MaterialCost {
 public:
     /// Whether there is a report of this file: it is a .mat file.
     static bool has(std::filesystem::path const& file);
-    /// Of this file, as it is now on the disk; if has() is false: nothing. For each frame that shows the text: looks at the
-    /// time of the file and compiles what is new.
+    /// Of this file, as it is now on the disk; if has() is false: nothing. For each frame that shows the text: looks at
+    /// the time of the file and compiles what is new.
     void follow(std::filesystem::path const& file);
     /// Takes what a compilation has found; false: it found nothing since the last call.
     bool poll();
