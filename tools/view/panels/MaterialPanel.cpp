@@ -113,9 +113,9 @@ void drawParameter(PanelFrame& frame, MaterialRow const& material, ParameterRow 
 void drawMaterialCost(PanelFrame& frame) {
     if (!MaterialCost::has(frame.stage.shownFile()) || !ImGui::CollapsingHeader("cost, as matc --cost")) return;
     frame.materialCost.follow(frame.stage.shownFile());
-    std::string const& text = frame.materialCost.text();
+    MaterialCost const& cost = frame.materialCost;
     if (ImGui::BeginChild("cost", { 0, ImGui::GetFontSize() * 12 }, true, ImGuiWindowFlags_HorizontalScrollbar))
-        ImGui::TextUnformatted(text.empty() ? "compiling" : text.c_str());
+        ImGui::TextUnformatted(cost.text().empty() && cost.isCompiling() ? "compiling" : cost.text().c_str());
     ImGui::EndChild();
 }
 
