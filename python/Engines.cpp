@@ -75,8 +75,8 @@ std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem
                                        std::string const& files) {
     GltfLoadOptions options{ .deformable = deformable };
     options.positions =
-            named(positionStorageFromName(positions), "positions", positions, "asAuthored, half or unorm16");
-    options.tangents = named(tangentStorageFromName(tangents), "tangents", tangents, "snorm16, snorm8 or float");
+            named(enumFromName<PositionStorage>(positions), "positions", positions, "asAuthored, half or unorm16");
+    options.tangents = named(enumFromName<TangentStorage>(tangents), "tangents", tangents, "snorm16, snorm8 or float");
     if (files != "folder" && files != "anywhere") raiseInvalid("files: '{}' is not folder or anywhere", files);
     options.filesFromAnywhere = files == "anywhere";
     const Owner::Call call(*self.owner);
@@ -92,8 +92,8 @@ std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesy
     if (samples < 1 || samples > 65536) raiseInvalid("samples: {} is not from 1 to 65536", samples);
     EnvironmentLoadOptions options{ .faceSize = static_cast<uint32_t>(faceSize) };
     options.format = named(environmentFormatFromName(format), "format", format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM");
-    options.roughnessMapping = named(roughnessMappingFromName(roughnessMapping), "roughness_mapping", roughnessMapping,
-                                     "quadratic, logarithmic or linear");
+    options.roughnessMapping = named(enumFromName<RoughnessMapping>(roughnessMapping), "roughness_mapping",
+                                     roughnessMapping, "quadratic, logarithmic or linear");
     options.samples = static_cast<uint32_t>(samples);
     const Owner::Call call(*self.owner);
     Result<Environment> sky = released([&] { return loadEnvironment(call.engine(), path, options); });

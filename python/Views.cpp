@@ -55,81 +55,35 @@ const char* elsewhere(std::string_view name) {
     return nullptr;
 }
 
-std::vector<std::string_view> optionNames() {
-    std::vector<std::string_view> names;
-    for (QualityChoice const& choice : qualityChoices()) names.push_back(choice.name);
-    for (EffectOption const& option : effectOptions()) names.push_back(option.name);
-    for (ColorGradingOption const& option : colorGradingOptions()) names.push_back(option.name);
-    names.insert(names.end(), { "toneMapper", "dither", "debugView", "samples" });
-    return names;
-}
-
 [[noreturn]] void raiseUnknown(std::string const& name) {
     if (const char* place = elsewhere(name))
         raise(fail(ErrorCode::NotFound, "'{}' is no option of a view: {}", name, place));
-    const std::vector<std::string_view> names = optionNames();
     raise(fail(ErrorCode::NotFound, "there is no option '{}'{}; filament_core.options() lists all", name,
-               suggestion(name, names)));
+               suggestion(name, namesOf(optionsOf<View>()))));
 }
 
 void setOption(ViewObject& self, std::string const& name, py::handle given) {
-    View& view = self.view;
     const std::string value = optionText(given, name.c_str());
-    if (name == "toneMapper") {
-        const auto known = toneMapperFromName(value);
-        if (!known) raiseInvalid("toneMapper: '{}' is not {}", value, toneMapperNames());
-        view.colorGrading.toneMapper = *known;
-    } else if (name == "dither") {
-        if (value != "on" && value != "off") raiseInvalid("dither: '{}' is not off or on", value);
-        view.colorGrading.dither = value == "on";
-    } else if (name == "debugView") {
-        const auto known = debugViewFromName(value);
-        if (!known) raiseInvalid("debugView: '{}' is not {}", value, debugViewNames());
-        view.debugView = *known;
-    } else if (name == "samples") {
-        if (value != "1" && value != "4") raiseInvalid("samples: '{}' is not 1 or 4 samples a pixel", value);
-        view.samples = value == "1" ? 1 : 4;
-    } else if (effectValue(view.effects, name)) {
-        check(setEffect(view.effects, name, value));
-    } else if (colorGradingValue(view.colorGrading, name)) {
-        check(setColorGrading(view.colorGrading, name, value));
-    } else if (qualityValue(view.quality, name)) {
-        check(setQuality(view.quality, name, value));
-    } else {
-        raiseUnknown(name);
-    }
+    const Result<void> done = filament::setOption(self.view, name, value);
+    if (!done && done.error().code == ErrorCode::NotFound) raiseUnknown(name);
+    check(done);
 }
 
 std::string optionValue(ViewObject const& self, std::string const& name) {
-    if (name == "toneMapper") return toString(self.view.colorGrading.toneMapper);
-    if (name == "dither") return self.view.colorGrading.dither ? "on" : "off";
-    if (name == "debugView") return toString(self.view.debugView);
-    if (name == "samples") return std::to_string(self.view.samples);
-    if (auto value = effectValue(self.view.effects, name)) return *value;
-    if (auto value = colorGradingValue(self.view.colorGrading, name)) return *value;
-    if (auto value = qualityValue(self.view.quality, name)) return *value;
+    if (auto value = filament::optionValue(self.view, name)) return *value;
     raiseUnknown(name);
 }
 
 py::dict allOptions() {
     py::dict all;
-    for (QualityChoice const& choice : qualityChoices())
-        all[py::str(std::string(choice.name))] = fmt::format("{}", fmt::join(choice.values, ", "));
-    for (EffectOption const& option : effectOptions())
-        all[py::str(std::string(option.name))] = std::string(option.range);
-    for (ColorGradingOption const& option : colorGradingOptions())
-        all[py::str(std::string(option.name))] = std::string(option.range);
-    all["toneMapper"] = toneMapperNames();
-    all["dither"] = "off or on";
-    all["debugView"] = debugViewNames();
-    all["samples"] = "1 or 4";
+    for (Option const& option : optionsOf<View>()) all[py::str(std::string(option.name))] = rangeOf(option);
     return all;
 }
 
-py::dict optionsOf(ViewObject const& self) {
+py::dict optionsOfView(ViewObject const& self) {
     py::dict values;
-    for (const std::string_view name : optionNames())
-        values[py::str(std::string(name))] = optionValue(self, std::string(name));
+    for (Option const& option : optionsOf<View>())
+        values[py::str(std::string(option.name))] = filament::optionValue(option, &self.view);
     return values;
 }
 
@@ -158,14 +112,14 @@ void setExposure(ViewObject& self, double aperture, double shutter, double iso) 
 }
 
 void setPreset(ViewObject& self, std::string const& name) {
-    const auto preset = renderPresetFromName(name);
-    if (!preset) raiseInvalid("preset: '{}' is not fast, balanced, fine or cinematic", name);
+    const auto preset = enumFromName<RenderPreset>(name);
+    if (!preset) raiseInvalid("preset: '{}' is not {}", name, listed(enumNames<RenderPreset>()));
     applyPreset(self.view, *preset);
 }
 
 void setQualityPreset(ViewObject& self, std::string const& name) {
-    const auto preset = qualityPresetFromName(name);
-    if (!preset) raiseInvalid("quality: '{}' is not low, medium, high or reference", name);
+    const auto preset = enumFromName<QualityPreset>(name);
+    if (!preset) raiseInvalid("quality: '{}' is not {}", name, listed(enumNames<QualityPreset>()));
     self.view.quality = qualityPreset(*preset);
 }
 
@@ -193,7 +147,7 @@ void bindOptions(py::class_<ViewObject, std::shared_ptr<ViewObject>>& view) {
             .def("__setitem__", &setOption, py::arg("name"), py::arg("value"))
             .def("get", &optionValue, py::arg("name"), "The value of an option, as text that set() accepts.")
             .def("__getitem__", &optionValue, py::arg("name"))
-            .def("options", &optionsOf, "All options and their values.")
+            .def("options", &optionsOfView, "All options and their values.")
             .def("preset", &setPreset, py::arg("name"),
                  "Approximations and effects by one name: fast, balanced, fine or cinematic.")
             .def("quality", &setQualityPreset, py::arg("name"),

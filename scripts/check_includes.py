@@ -49,7 +49,7 @@ ROOMS = {
                                   "filament_core/assets/environment", "filament_core/assets/tables",
                                   "filament_core/assets/geometry"],
     "filament_core/prepare": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface", "shaders/lib",
-                              "filament_core/include", "filament_core/scene"],
+                              "filament_core/include", "filament_core/values", "filament_core/scene"],
     "filament_core/passes": ["base", "base/math", "jobsystem", "backend/api", "backend/stream", "framegraph",
                              "shaders/interface", "shaders/package", "filament_core/include", "filament_core/values",
                              "filament_core/scene", "filament_core/prepare"],

@@ -39,7 +39,7 @@ enum class Moving { Nothing, Model, Camera }; ///< the model turns by a degree a
 
 /// A model under a light, and the two views or scenes that are compared.
 struct Pair {
-    const char* name = nullptr; ///< none: passes are timed
+    std::string name{}; ///< empty: passes are timed
     const char* file = nullptr;
     std::function<void(Scene&, View&)> plain{};  ///< the frame to compare with
     std::function<void(Scene&, View&)> effect{}; ///< the same with the effect
@@ -103,13 +103,10 @@ void addContactPairs(std::vector<Pair>& all, const char* file) {
     all.push_back({ "contact shadows of a lamp out of reach", file, lamp(false), lamp(true), true });
 }
 
-std::function<void(Scene&, View&)> withOcclusion(AmbientOcclusionTerm term, AmbientOcclusionResolution resolution,
-                                                 bool bentNormals = false) {
+std::function<void(Scene&, View&)> withOcclusion(AmbientOcclusion const& occlusion) {
     return [=](Scene&, View& view) {
         view.quality.shadows = ShadowFilter::Off;
-        view.quality.ao = term;
-        view.quality.aoResolution = resolution;
-        view.quality.aoBentNormals = bentNormals;
+        view.effects.ambientOcclusion = occlusion;
         view.effects.ambientOcclusion.radiusMeters = 0.1f; // the model is 1 m large
     };
 }
@@ -117,47 +114,53 @@ std::function<void(Scene&, View&)> withOcclusion(AmbientOcclusionTerm term, Ambi
 void addOcclusion(std::vector<Pair>& all) {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
-    using Term = AmbientOcclusionTerm;
+    using Method = AmbientOcclusionMethod;
     using Resolution = AmbientOcclusionResolution;
-    const auto plain = withOcclusion(Term::Off, Resolution::Full);
+    const auto plain = withOcclusion({});
     for (const char* file : { kHelmet, kTokyo }) {
-        all.push_back({ "ao=sao, full", file, plain, withOcclusion(Term::Sao, Resolution::Full) });
-        all.push_back({ "ao=sao, half", file, plain, withOcclusion(Term::Sao, Resolution::Half) });
-        all.push_back({ "ao=gtao, full", file, plain, withOcclusion(Term::Gtao, Resolution::Full) });
-        all.push_back({ "ao=gtao, half", file, plain, withOcclusion(Term::Gtao, Resolution::Half) });
+        for (const Method method : { Method::Sao, Method::Gtao }) {
+            for (const Resolution resolution : { Resolution::Full, Resolution::Half })
+                all.push_back({ fmt::format("ambientOcclusion.method={}, {}", toString(method), toString(resolution)),
+                                file, plain,
+                                withOcclusion({ .enabled = true, .method = method, .resolution = resolution }) });
+        }
     }
-    all.push_back({ "ao=gtao, checkerboard", kHelmet, plain, withOcclusion(Term::Gtao, Resolution::Checkerboard) });
-    all.push_back({ "ao=gtao, full, bent", kHelmet, plain, withOcclusion(Term::Gtao, Resolution::Full, true) });
-    const auto withoutSky = [](Term term) {
+    all.push_back({ "ambientOcclusion.method=gtao, checkerboard", kHelmet, plain,
+                    withOcclusion({ .enabled = true, .resolution = Resolution::Checkerboard }) });
+    all.push_back({ "ambientOcclusion.method=gtao, full, bent normals", kHelmet, plain,
+                    withOcclusion({ .enabled = true, .resolution = Resolution::Full, .bentNormals = true }) });
+    const auto withoutSky = [](bool isOn) {
         return [=](Scene& scene, View& view) {
             scene.setIndirectLight({}, {});
             scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
             view.quality.shadows = ShadowFilter::Off;
-            view.quality.ao = term;
+            view.effects.ambientOcclusion.enabled = isOn;
         };
     };
-    all.push_back({ "ao, no indirect light", kHelmet, withoutSky(Term::Off), withoutSky(Term::Gtao), true });
+    all.push_back({ "ambientOcclusion, no indirect light", kHelmet, withoutSky(false), withoutSky(true), true });
 }
 
 auto reflecting(bool isOn) {
     return [isOn](Scene&, View& view) {
         view.quality.shadows = ShadowFilter::Off;
-        view.quality.ssr = isOn;
-        view.effects.reflections = { .distanceMeters = 2, .thicknessMeters = 0.1f };
+        view.effects.screenSpaceReflections = { .enabled = isOn, .distanceMeters = 2, .thicknessMeters = 0.1f };
     };
 }
 
 void addReflections(std::vector<Pair>& all, const char* file) {
     const auto on = reflecting(true), off = reflecting(false);
-    all.push_back(
-            { .name = "ssr=on, with a metal floor", .file = file, .plain = off, .effect = on, .hasMirror = true });
-    all.push_back({ .name = "ssr=on, with a metal floor, and the model turns",
+    all.push_back({ .name = "screenSpaceReflections=on, with a metal floor",
+                    .file = file,
+                    .plain = off,
+                    .effect = on,
+                    .hasMirror = true });
+    all.push_back({ .name = "screenSpaceReflections=on, with a metal floor, and the model turns",
                     .file = file,
                     .plain = off,
                     .effect = on,
                     .hasMirror = true,
                     .moving = Moving::Model });
-    all.push_back({ .name = "ssr=on", .file = file, .plain = off, .effect = on });
+    all.push_back({ .name = "screenSpaceReflections=on", .file = file, .plain = off, .effect = on });
 }
 
 void addBloom(std::vector<Pair>& all, const char* file) {
@@ -199,7 +202,7 @@ void addResolutions(std::vector<Pair>& all, const char* file) {
     const auto drawn = [](Upscaling filter, AntiAliasing antiAliasing, float scale) {
         return [=](Scene&, View& view) {
             view.quality.shadows = ShadowFilter::Off;
-            view.quality.upscale = filter;
+            view.effects.resolution.upscaling = filter;
             view.quality.antiAliasing = antiAliasing;
             view.effects.resolution.scale = float2(scale);
         };
@@ -269,16 +272,17 @@ void addChain(std::vector<Pair>& all, const char* file) {
         return [samples, bloom](Scene& scene, View& view) {
             scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
             view.samples = samples;
-            view.quality.ao = AmbientOcclusionTerm::Sao;
+            view.effects.ambientOcclusion.enabled = true;
+            view.effects.ambientOcclusion.method = AmbientOcclusionMethod::Sao;
             view.effects.ambientOcclusion.radiusMeters = 0.1f;
             view.effects.bloom.enabled = true;
-            view.quality.bloomResolution = bloom;
+            view.effects.bloom.resolution = bloom;
             view.quality.antiAliasing = AntiAliasing::Fxaa;
         };
     };
     const auto plain = withEffects([](View&) {});
     all.push_back({ "sun, pcf3, sao, bloom, fxaa", file, plain, chain(1) });
-    all.push_back({ "the same with bloomResolution=quarter", file, plain, chain(1, BloomResolution::Quarter) });
+    all.push_back({ "the same with bloom.resolution=quarter", file, plain, chain(1, BloomResolution::Quarter) });
     all.push_back({ "the same with four samples", file, plain, chain(4) });
     all.push_back({ "four samples", file, plain, withEffects([](View& view) { view.samples = 4; }) });
 }
@@ -396,7 +400,7 @@ class Side {
 public:
     Side(Engine& engine, Subject const& subject, Pair const& pair, std::function<void(Scene&, View&)> const& set,
          uint2 size)
-            : mEngine(engine), mScene(engine), mRenderer(engine, { .passTimers = pair.name == nullptr }),
+            : mEngine(engine), mScene(engine), mRenderer(engine, { .passTimers = pair.name.empty() }),
               mMoving(pair.moving), mPlace(fitToUnitCube(subject.model.bounds())) {
         mRoot = mScene.add(subject.model, mPlace);
         mScene.setEnvironment(subject.environment);
@@ -509,7 +513,7 @@ Result<double> millisecondsOfOneFetch(Backend backend, Options const& options) {
 }
 
 void print(Pair const& pair, Backend backend, Measured const& m) {
-    std::printf("%-40s %-32s %-7s %8.1f   %6.3f  [%.3f, %.3f]%s\n", pair.name, pair.file, toString(backend),
+    std::printf("%-40s %-32s %-7s %8.1f   %6.3f  [%.3f, %.3f]%s\n", pair.name.c_str(), pair.file, toString(backend),
                 m.milliseconds, m.median, m.low, m.high,
                 !pair.isUnseen ? ""
                 : m.isSame     ? "  same"
@@ -540,7 +544,7 @@ int main(int argc, char** argv) {
     bool isGood = true;
     std::printf("%-40s %-32s %-7s %8s   %s\n", "effect", "model", "api", "plain ms", "ratio");
     for (Pair const& pair : pairs()) {
-        if (std::string_view(pair.name).find(only) == std::string_view::npos) continue;
+        if (pair.name.find(only) == std::string::npos) continue;
         if (isUnseenOnly && !pair.isUnseen) continue;
         for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
             const Result<Measured> measured = measure(backend, pair, options);

@@ -39,7 +39,7 @@ using passes::PipelineSource;
 
 /// `contents`: see ViewInput. `effects`: those of the view, within their ranges.
 prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t contents) {
-    const uint2 drawn = prepare::drawnSize(view.size, effects.resolution.scale, view.quality, view.debugView);
+    const uint2 drawn = prepare::drawnSize(view.size, effects.resolution, view.quality, view.debugView);
     const uint32_t band = prepare::guardBand(drawn, view.size, effects, view.quality, view.debugView);
     return { .camera = view.camera,
              .size = drawn + 2u * band,
@@ -49,7 +49,7 @@ prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t co
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = prepare::drawnQuality(view.quality, view.debugView),
-             .effects = effects,
+             .effects = prepare::drawnEffects(effects, view.debugView),
              .debugView = view.debugView,
              .visibleLayers = view.visibleLayers,
              .contents = contents };

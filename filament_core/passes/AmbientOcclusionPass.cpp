@@ -137,15 +137,14 @@ void addCoveredPass(FrameGraph& graph, OcclusionSource const& from, Rect const& 
 
 TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResult) {
     FrameContext const& context = from.context;
-    Quality const& quality = context.view->quality;
-    const AmbientOcclusion effect = context.packet.effects.ambientOcclusion;
+    AmbientOcclusion const& occlusion = context.packet.effects.ambientOcclusion;
     const uint2 size = context.settings.size;
     const float4 rays = raysOf(context.packet.mainView().uniforms.clipFromView, size);
-    const float radius = effect.radiusMeters;
+    const float radius = occlusion.radiusMeters;
     const std::array constants{
         EffectConstant{ "grid", from.grid.code },
-        EffectConstant{ "samples", quality.ao == AmbientOcclusionTerm::Sao ? int32_t{ quality.aoSamples } : 0 },
-        EffectConstant{ "slices", int32_t{ quality.aoSlices } }, EffectConstant{ "bentNormals", quality.aoBentNormals },
+        EffectConstant{ "samples", occlusion.method == AmbientOcclusionMethod::Sao ? int32_t{ occlusion.samples } : 0 },
+        EffectConstant{ "slices", int32_t{ occlusion.slices } }, EffectConstant{ "bentNormals", occlusion.bentNormals },
         EffectConstant{ "isParallel", isParallel(from.clip()) }
     };
     const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
@@ -153,7 +152,7 @@ TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResul
                              FullScreenValue{ "reach", float4(radius, 1 / radius, radius / std::abs(rays.x),
                                                               static_cast<float>(std::max(size.x, size.y)) / 2) },
                              FullScreenValue{ "last", lastOf(size) },
-                             FullScreenValue{ "intensity", effect.intensity },
+                             FullScreenValue{ "intensity", occlusion.intensity },
                              FullScreenValue{ "parallel", from.distanceOfInverse() } };
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = from.depth } };
     const TextureId target = from.texture(graph, isResult, "occlusion of points");
@@ -223,12 +222,12 @@ TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId 
 void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::AmbientOcclusion)) return;
     FILAMENT_ASSERT(targets.prepassDepth, "a frame with ambient occlusion has depths");
-    Quality const& quality = context.view->quality;
-    const OcclusionSource from{ context, targets.prepassDepth, gridOf(quality.aoResolution, context.settings.size),
-                                quality.aoBentNormals };
+    AmbientOcclusion const& occlusion = context.packet.effects.ambientOcclusion;
+    const OcclusionSource from{ context, targets.prepassDepth, gridOf(occlusion.resolution, context.settings.size),
+                                occlusion.bentNormals };
     const bool isUpsampled = from.grid.code != 0;
-    targets.occlusion = addPoints(graph, from, !quality.aoBlur && !isUpsampled);
-    if (quality.aoBlur) {
+    targets.occlusion = addPoints(graph, from, !occlusion.blur && !isUpsampled);
+    if (occlusion.blur) {
         targets.occlusion = addBlur(graph, from, targets.occlusion, true, false);
         targets.occlusion = addBlur(graph, from, targets.occlusion, false, !isUpsampled);
     }

@@ -44,7 +44,7 @@ void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, Te
                                               .range = backend::oneLevel(fromLevel) } };
     const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, from, fromLevel) },
                              FullScreenValue{ "threshold", context.packet.effects.bloom.threshold } };
-    const bool isQuarter = isFirst && context.view->quality.bloomResolution == BloomResolution::Quarter;
+    const bool isQuarter = isFirst && context.packet.effects.bloom.resolution == BloomResolution::Quarter;
     const EffectConstant constants[] = { { "isFirst", isFirst }, { "isQuarter", isQuarter } };
     addFullScreenPass(graph, context,
                       { .name = "bloom down",
@@ -88,7 +88,7 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
     const uint2 size = sizeOf(graph, targets.color);
     const uint2 inside = size - 2u * context.packet.band;
-    const BloomResolution resolution = context.view->quality.bloomResolution;
+    const BloomResolution resolution = context.packet.effects.bloom.resolution;
     const float radiusPixels = context.packet.effects.bloom.radius * static_cast<float>(inside.y);
     const uint8_t levels = bloomLevels(inside, radiusPixels, resolution);
     const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x >> firstLevel(resolution)),

@@ -118,7 +118,7 @@ uint32_t flareBlock(uint32_t height) {
 std::array<FlareGhost, kMostGhosts> flareGhosts(LensFlare const& flare, uint32_t height) {
     std::array<FlareGhost, kMostGhosts> ghosts{};
     const auto block = static_cast<float>(flareBlock(height));
-    const auto count = static_cast<size_t>(std::clamp(flare.ghostCount, 0.0f, static_cast<float>(kMostGhosts)));
+    const size_t count = std::min<size_t>(flare.ghostCount, kMostGhosts);
     for (size_t i = 0; i < count; ++i) {
         const float number = static_cast<float>(i + 1);
         const float place = 1 - flare.ghostSpacing * number; // of the lamp's distance from the middle

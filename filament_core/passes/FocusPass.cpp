@@ -92,7 +92,7 @@ private:
     void addBlur(TextureId half, TextureId tiles, TextureId blurred) {
         const std::array inputs{ FullScreenInput{ .name = "blurs", .texture = half },
                                  FullScreenInput{ .name = "tiles", .texture = tiles } };
-        const float blades = std::floor(mContext.packet.effects.depthOfField.blades);
+        const float blades = static_cast<float>(mContext.packet.effects.depthOfField.blades);
         const std::array values{ FullScreenValue{ "blades", blades } };
         const std::array constants{ EffectConstant{ "tile", mTile } };
         addFullScreenPass(mGraph, mContext,

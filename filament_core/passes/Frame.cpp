@@ -54,7 +54,7 @@ ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
     prepare::SceneDemand const& demand = packet.demand;
     const bool hasOcclusion = demand.needs(prepare::Effect::AmbientOcclusion);
     return { .hasOcclusion = hasOcclusion,
-             .hasBentNormals = hasOcclusion && view.quality.aoBentNormals,
+             .hasBentNormals = hasOcclusion && packet.effects.ambientOcclusion.bentNormals,
              .hasRefraction = demand.needs(prepare::Effect::Refraction),
              .hasReflections = demand.needs(prepare::Effect::Reflections),
              .showsLevels = view.debugView == DebugView::Refraction,

@@ -49,8 +49,8 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
     shader::PassUniforms block = uniformsOf(context, texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
-    const ScreenReflections reflections = context.packet.effects.reflections;
-    block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters,
+    const ScreenSpaceReflections reflections = context.packet.effects.screenSpaceReflections;
+    block.reflection = { reflections.steps, reflections.distanceMeters, reflections.thicknessMeters,
                          pyramidLevels(context.settings.size) - 1 };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }

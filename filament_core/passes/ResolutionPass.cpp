@@ -28,7 +28,8 @@ constexpr FullScreenInterface kSharpening{ .pass = "sharpening",
 } // namespace
 
 void addUpscalingPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
-    const auto filter = static_cast<int32_t>(std::max(context.view->quality.upscale, Upscaling::Bilinear));
+    const auto filter =
+            static_cast<int32_t>(std::max(context.packet.effects.resolution.upscaling, Upscaling::Bilinear));
     const std::array constants{ EffectConstant{ "filterKind", filter },
                                 EffectConstant{ "isSceneLinear", last.isSceneLinear },
                                 EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };

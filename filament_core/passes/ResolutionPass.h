@@ -3,7 +3,7 @@
 ///   Reads   display values, or light if the output is light: it is compressed first, so that a lamp is not all there
 ///           is.
 ///   Draws   `target`; the last pass of a frame also the grain and the dither, whose pixels are those of the output.
-///   How     Quality::upscale; Effects::sharpening. docs/resolution.md has the formulas.
+///   How     Resolution::upscaling; Effects::sharpening. docs/resolution.md has the formulas.
 ///   Cost    sharpening is a pass of its own: five look-ups of what another pass has made cost less than making it five
 ///           times.
 #pragma once
@@ -22,7 +22,7 @@ struct LastStep {
     bool hasGrain = false, dithers = false;
 };
 
-/// By a bilinear filter if Quality::upscale is off: nothing was gathered where nothing is visible.
+/// By a bilinear filter if Resolution::upscaling is off: nothing was gathered where nothing is visible.
 void addUpscalingPass(framegraph::FrameGraph& graph, FrameContext const& context, PictureStep const& step,
                       LastStep const& last);
 void addSharpeningPass(framegraph::FrameGraph& graph, FrameContext const& context, PictureStep const& step,

@@ -23,7 +23,8 @@ constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .val
 bool gathersLarger(FrameContext const& context) {
     prepare::FramePacket const& packet = context.packet;
     return packet.demand.needs(prepare::Effect::Taa) && packet.insideSize() != packet.shownSize &&
-           prepare::gathersLarger(context.view->quality, context.view->debugView);
+           prepare::gathersLarger(context.view->quality, context.packet.effects.resolution.upscaling,
+                                  context.view->debugView);
 }
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {

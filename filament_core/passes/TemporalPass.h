@@ -4,8 +4,8 @@
 ///           DebugView::HistoryWeight.
 ///   How     Karis 2014, "High-Quality Temporal Supersampling": the history is looked up where it shows the same
 ///           surface, limited to the colours around the pixel, and mixed with the new picture by Gathering::weight.
-///   Size    that of the output, if no filter of Quality::upscale enlarges the picture. Each pixel then gathers the
-///           samples that lie in it, weighted by their distances.
+///   Size    that of the output, if no filter of Resolution::upscaling enlarges the image. Each pixel then accumulates
+///           the samples that lie in it, weighted by their distances.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 

@@ -42,11 +42,11 @@ const char* describeSwitch(Effect effect) {
     case Effect::ColoredShadows:
         return "switched off: coloredShadows=off";
     case Effect::AmbientOcclusion:
-        return "switched off: ao=off";
+        return "switched off: ambientOcclusion=off";
     case Effect::Refraction:
         return "switched off: refraction=environment";
     case Effect::Reflections:
-        return "switched off: ssr=off";
+        return "switched off: screenSpaceReflections=off";
     case Effect::Transparency:
         return "switched off: transparency=sorted";
     case Effect::Fog:
@@ -73,7 +73,7 @@ const char* describeSwitch(Effect effect) {
     case Effect::Grain:
         return "switched off: grain=off";
     case Effect::Upscaling:
-        return "switched off: upscale=off";
+        return "switched off: resolution.upscaling=off";
     case Effect::Sharpening:
         return "switched off: sharpening=off";
     case Effect::MsaaResolve:

@@ -22,7 +22,8 @@ bool hasRefraction(scene::SceneData const& scene) {
 } // namespace
 
 bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, Effects const& effects) {
-    if (quality.ao != AmbientOcclusionTerm::Off || quality.ssr || quality.antiAliasing == AntiAliasing::Taa)
+    if (effects.ambientOcclusion.enabled || effects.screenSpaceReflections.enabled ||
+        quality.antiAliasing == AntiAliasing::Taa)
         return true;
     if (effects.bloom.enabled || effects.lensFlare.enabled) return true;
     if (effects.depthOfField.enabled || effects.motionBlur.enabled) return true;
@@ -31,7 +32,7 @@ bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, E
 }
 
 uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView) {
-    const bool isGatheredLarger = drawn != size && gathersLarger(quality, debugView);
+    const bool isGatheredLarger = drawn != size && gathersLarger(quality, effects.resolution.upscaling, debugView);
     if (!effects.guardBand.enabled || debugView != DebugView::None || isGatheredLarger) return 0;
     return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
 }

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/HashView.h"
 #include "filament_core/prepare/HashWords.h"
+#include "filament_core/values/OptionRows.h"
 
 namespace filament::prepare {
 namespace {
@@ -41,34 +42,9 @@ uint64_t hashValues(uint64_t seed, Values const&... values) {
     return seed;
 }
 
-uint64_t hashGrading(Grading const& grading, uint64_t seed) {
-    seed = hashWords(seed, grading.enabled, grading.gamutMapping);
-    seed = hashValues(seed, grading.nightAdaptation, grading.exposure, grading.temperature, grading.tint,
-                      grading.mixRed, grading.mixGreen, grading.mixBlue, grading.shadows, grading.midtones,
-                      grading.highlights, grading.tonalRanges);
-    return hashValues(seed, grading.slope, grading.offset, grading.power, grading.contrast, grading.saturation,
-                      grading.vibrance, grading.shadowGamma, grading.midPoint, grading.highlightScale);
-}
-
-// Fog and contact shadows are in the uniforms of the views, but for two switches.
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
-    auto const& [ao, reflections, fog, contact, bloom, focus, motion, exposure, grading, vignette, grain, aberration,
-                 resolution, sharpening, flare, guardBand] = effects;
-    seed = hashValues(seed, ao, reflections, bloom.strength, bloom.radius, bloom.threshold, bloom.dirtStrength);
-    seed = hashValues(seed, flare.threshold, flare.ghostStrength, flare.ghostCount, flare.ghostSpacing,
-                      flare.ghostRadius, flare.haloStrength, flare.haloRadius, flare.haloThickness, flare.dispersion);
-    seed = hashValues(seed, focus.focusMeters, focus.blurScale, focus.maxRadius, focus.blades);
-    seed = hashValues(seed, motion.shutterDegrees, motion.maxRadius);
-    seed = hashValues(seed, exposure.lowPercentile, exposure.highPercentile, exposure.compensation, exposure.minStops,
-                      exposure.maxStops, exposure.speedUp, exposure.speedDown);
-    seed = hashValues(seed, vignette.midPoint, vignette.roundness, vignette.feather, vignette.color, grain.strength,
-                      grain.size, aberration.strength);
-    seed = hashWords(seed, bloom.enabled, bloom.dirt.number(), flare.enabled, focus.enabled, motion.enabled,
-                     exposure.enabled, vignette.enabled, grain.enabled, aberration.enabled, resolution.dynamic,
-                     resolution.uniform, sharpening.enabled, guardBand.enabled);
-    seed = hashValues(seed, resolution.scale, resolution.targetMilliseconds, resolution.leastScale, resolution.headroom,
-                      resolution.history, sharpening.strength, guardBand.width);
-    return hashGrading(grading, hashWords(seed, fog.enabled, fog.colorFromEnvironment));
+    for (Option const& option : optionsOf<Effects>()) seed = hashBytes(bytesOf(option, &effects), seed);
+    return hashWords(seed, effects.bloom.dirt.number());
 }
 
 } // namespace

@@ -55,7 +55,7 @@ bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& vie
 /// By one whose gathered picture has the same size, too.
 bool LastFrame::isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const {
     const auto gatheredSize = [](ViewInput const& of) {
-        return gathersLarger(of.quality, of.debugView) ? of.shown() : of.size;
+        return gathersLarger(of.quality, of.effects.resolution.upscaling, of.debugView) ? of.shown() : of.size;
     };
     return isFollowedBy(scene, view) && gatheredSize(mSeen->view) == gatheredSize(view);
 }
@@ -77,7 +77,8 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
 
 Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
     Gathering gathering{ .jitterPixels = jitterPixels(scene, view) };
-    const bool isEnlarged = view.inside() != view.shown() && gathersLarger(view.quality, view.debugView);
+    const bool isEnlarged = view.inside() != view.shown() &&
+                            gathersLarger(view.quality, view.effects.resolution.upscaling, view.debugView);
     if (isEnlarged) gathering.ramp = kWidestRamp;
     if (!isGatheredBy(scene, view)) return gathering;
     gathering.isFixed = isFixed(view, packet);

@@ -59,7 +59,7 @@ EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
 }
 
 EffectDemand demandOfOcclusion(DemandInput const& input) {
-    if (input.quality.ao == AmbientOcclusionTerm::Off) return { .reason = DemandReason::SwitchedOff };
+    if (!input.effects.ambientOcclusion.enabled) return { .reason = DemandReason::SwitchedOff };
     if (input.effects.ambientOcclusion.intensity == 0) return { .reason = DemandReason::HasNoIntensity };
     if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
     if (!input.hasIndirectLight || input.counts.opaqueLitDraws == 0) return { .reason = DemandReason::NothingIndirect };
@@ -118,7 +118,7 @@ EffectDemand demandOfFlare(DemandInput const& input) {
     if (flare.enabled && !hasGhosts && !hasHalo) return { .reason = DemandReason::HasNoIntensity };
     EffectDemand demand = demandOfPictureEffect(input, flare.enabled, DemandReason::ReflectsLight);
     if (!demand.isNeeded) return demand;
-    demand.count = hasGhosts ? static_cast<uint32_t>(flare.ghostCount) : 0;
+    demand.count = hasGhosts ? uint32_t{ flare.ghostCount } : 0;
     demand.others = hasHalo ? 1 : 0;
     return demand;
 }
@@ -136,7 +136,8 @@ EffectDemand demandOfFxaa(DemandInput const& input) {
 }
 
 EffectDemand demandOfUpscaling(DemandInput const& input) {
-    const bool isOn = input.quality.upscale != Upscaling::Off || input.quality.antiAliasing == AntiAliasing::Taa;
+    const bool isOn =
+            input.effects.resolution.upscaling != Upscaling::Off || input.quality.antiAliasing == AntiAliasing::Taa;
     if (!isOn) return { .reason = DemandReason::SwitchedOff };
     if (input.debugView != DebugView::None) return { .reason = DemandReason::NothingAsks };
     if (input.size == input.shownSize) return { .reason = DemandReason::IsNeutral };
@@ -285,16 +286,22 @@ void leaveOutLight(SceneDemand& demand) {
 
 bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView) {
     return debugView == DebugView::Motion || (effects.motionBlur.enabled && debugView == DebugView::None) ||
-           (quality.ssr && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
+           (effects.screenSpaceReflections.enabled && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
 }
 
 Quality drawnQuality(Quality const& quality, DebugView debugView) {
     Quality drawn = quality;
     if (showsLight(debugView)) return drawn;
     drawn.shadows = ShadowFilter::Off;
-    drawn.ao = AmbientOcclusionTerm::Off;
     drawn.refraction = RefractionSource::Environment;
-    drawn.ssr = false;
+    return drawn;
+}
+
+Effects drawnEffects(Effects const& effects, DebugView debugView) {
+    Effects drawn = effects;
+    if (showsLight(debugView)) return drawn;
+    drawn.ambientOcclusion.enabled = false;
+    drawn.screenSpaceReflections.enabled = false;
     return drawn;
 }
 
@@ -305,10 +312,10 @@ float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView deb
     return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
 }
 
-uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView) {
-    const bool isEnlarged = quality.upscale != Upscaling::Off || gathersFrames(quality, debugView);
+uint2 drawnSize(uint2 size, Resolution const& resolution, Quality const& quality, DebugView debugView) {
+    const bool isEnlarged = resolution.upscaling != Upscaling::Off || gathersFrames(quality, debugView);
     if (!isEnlarged || debugView != DebugView::None) return size;
-    return min(max(uint2(float2(size) * scale + 0.5f), 1u), size);
+    return min(max(uint2(float2(size) * resolution.scale + 0.5f), 1u), size);
 }
 
 SceneDemand findDemand(DemandInput const& input) {
@@ -335,7 +342,7 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::AmbientOcclusion, demandOfOcclusion(input));
     set(Effect::Refraction, demandOfPicture(counts.refractiveDraws,
                                             input.quality.refraction == RefractionSource::Screen, input.copiedPixels));
-    set(Effect::Reflections, demandOfPicture(counts.reflectiveDraws, input.quality.ssr));
+    set(Effect::Reflections, demandOfPicture(counts.reflectiveDraws, input.effects.screenSpaceReflections.enabled));
     set(Effect::Motion, demandOfMotion(input));
     set(Effect::ContactShadows, demandOfContactShadows(counts));
     set(Effect::Fog, demandOfFog(input));

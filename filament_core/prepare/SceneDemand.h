@@ -185,10 +185,11 @@ inline bool showsLight(DebugView debugView) {
 
 /// Without the choices that only matter where surfaces are lit, if they are not.
 Quality drawnQuality(Quality const& quality, DebugView debugView);
+Effects drawnEffects(Effects const& effects, DebugView debugView);
 
 /// Whether gathering makes the picture as large as it is shown.
-inline bool gathersLarger(Quality const& quality, DebugView debugView) {
-    return gathersFrames(quality, debugView) && quality.upscale == Upscaling::Off;
+inline bool gathersLarger(Quality const& quality, Upscaling upscaling, DebugView debugView) {
+    return gathersFrames(quality, debugView) && upscaling == Upscaling::Off;
 }
 
 /// Whether the view composes what blends in any order, if that may overlap. One layer is what sorting draws.
@@ -206,7 +207,7 @@ constexpr bool overlaps(uint32_t objects) { return objects > 1; }
 float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView);
 
 /// The pixels that a view draws of `size`.
-uint2 drawnSize(uint2 size, float2 scale, Quality const& quality, DebugView debugView);
+uint2 drawnSize(uint2 size, Resolution const& resolution, Quality const& quality, DebugView debugView);
 
 /// Whether an effect of the view looks at the last picture, so that it matters what moved since.
 bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView);

@@ -118,7 +118,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.worldFromEnvironment = light.specular ? worldFromEnvironment(light) : worldFromEnvironment(scene.skybox);
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
     ContactShadows const& contact = view.effects.contactShadows;
-    frame.contactShadows = float4(contact.distanceMeters, contact.thicknessMeters, view.quality.contactSteps, 0);
+    frame.contactShadows = float4(contact.distanceMeters, contact.thicknessMeters, contact.steps, 0);
     writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular));
 }
 

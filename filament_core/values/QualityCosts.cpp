@@ -13,7 +13,7 @@ namespace filament {
 double QualityCosts::frameMilliseconds(Backend backend) const {
     std::vector<double> defaults;
     for (QualityEffect const& effect : effects) {
-        const std::optional<std::string> standard = qualityValue(Quality{}, effect.name);
+        const std::optional<std::string> standard = optionValue(Quality{}, effect.name);
         for (QualityCost const& cost : effect.values) {
             if (cost.value == standard) defaults.push_back(cost.on(backend).milliseconds);
         }

@@ -1,79 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/RenderPreset.h>
 
-#include <algorithm>
-#include <array>
-
 namespace filament {
 namespace {
 
-constexpr std::array<const char*, 4> kRenderPresets{ "fast", "balanced", "fine", "cinematic" };
-
-Quality fastQuality() {
-    Quality quality = qualityPreset(QualityPreset::Low);
-    quality.antiAliasing = AntiAliasing::Fxaa;
-    return quality;
+void applyFast(View& view) {
+    view.quality = qualityPreset(QualityPreset::Low);
+    view.quality.antiAliasing = AntiAliasing::Fxaa;
+    view.effects.bloom.resolution = BloomResolution::Quarter;
 }
 
-Quality balancedQuality() {
-    Quality quality = qualityPreset(QualityPreset::Medium);
-    quality.ao = AmbientOcclusionTerm::Sao;
-    quality.antiAliasing = AntiAliasing::Fxaa;
-    return quality;
+void applyBalanced(View& view) {
+    view.quality = qualityPreset(QualityPreset::Medium);
+    view.quality.antiAliasing = AntiAliasing::Fxaa;
+    view.effects.ambientOcclusion.enabled = true;
+    view.effects.ambientOcclusion.method = AmbientOcclusionMethod::Sao;
+    view.effects.bloom.enabled = true;
+    view.effects.bloom.resolution = BloomResolution::Quarter;
 }
 
-Quality fineQuality() {
-    Quality quality = qualityPreset(QualityPreset::High);
-    quality.shadowCascades = 3;
-    quality.ao = AmbientOcclusionTerm::Gtao;
-    quality.ssr = true;
-    quality.antiAliasing = AntiAliasing::Taa;
-    return quality;
+void applyFine(View& view) {
+    view.quality = qualityPreset(QualityPreset::High);
+    view.quality.shadowCascades = 3;
+    view.quality.antiAliasing = AntiAliasing::Taa;
+    view.effects.ambientOcclusion.enabled = true;
+    view.effects.screenSpaceReflections.enabled = true;
+    view.effects.bloom.enabled = true;
 }
 
-Quality cinematicQuality() {
-    Quality quality = qualityPreset(QualityPreset::Reference);
-    quality.ao = AmbientOcclusionTerm::Gtao;
-    quality.aoSlices = 3;
-    quality.aoResolution = AmbientOcclusionResolution::Full;
-    quality.aoBentNormals = true;
-    quality.refractionLayers = 3;
-    quality.ssr = true;
-    quality.ssrSteps = 128;
-    quality.contactSteps = 32;
-    quality.antiAliasing = AntiAliasing::Taa;
-    return quality;
+void applyCinematic(View& view) {
+    view.quality = qualityPreset(QualityPreset::Reference);
+    view.quality.refractionLayers = 3;
+    view.quality.antiAliasing = AntiAliasing::Taa;
+    AmbientOcclusion& occlusion = view.effects.ambientOcclusion;
+    occlusion.enabled = true;
+    occlusion.slices = 3;
+    occlusion.resolution = AmbientOcclusionResolution::Full;
+    occlusion.bentNormals = true;
+    view.effects.screenSpaceReflections.enabled = true;
+    view.effects.screenSpaceReflections.steps = 128;
+    view.effects.contactShadows.steps = 32;
+    view.effects.bloom.enabled = true;
+    view.effects.motionBlur.enabled = true;
 }
 
-Quality qualityOf(RenderPreset preset) {
-    switch (preset) {
-    case RenderPreset::Fast:
-        return fastQuality();
-    case RenderPreset::Balanced:
-        return balancedQuality();
-    case RenderPreset::Fine:
-        return fineQuality();
-    case RenderPreset::Cinematic:
-        return cinematicQuality();
-    }
-    return {};
+/// Switch and exactness of the effects that presets set, as a new view has them.
+void resetEffects(Effects& effects) {
+    effects.ambientOcclusion = { .radiusMeters = effects.ambientOcclusion.radiusMeters,
+                                 .intensity = effects.ambientOcclusion.intensity };
+    effects.screenSpaceReflections.enabled = false;
+    effects.screenSpaceReflections.steps = ScreenSpaceReflections{}.steps;
+    effects.contactShadows.steps = ContactShadows{}.steps;
+    effects.bloom.enabled = false;
+    effects.bloom.resolution = Bloom{}.resolution;
+    effects.motionBlur.enabled = false;
+    effects.resolution.upscaling = Upscaling::Off;
 }
 
 } // namespace
 
 void applyPreset(View& view, RenderPreset preset) {
-    view.quality = qualityOf(preset);
     view.samples = 1;
-    view.effects.bloom.enabled = preset != RenderPreset::Fast;
-    view.effects.motionBlur.enabled = preset == RenderPreset::Cinematic;
-}
-
-const char* toString(RenderPreset preset) { return kRenderPresets[static_cast<size_t>(preset)]; }
-
-std::optional<RenderPreset> renderPresetFromName(std::string_view name) {
-    const auto found = std::ranges::find(kRenderPresets, name);
-    if (found == kRenderPresets.end()) return std::nullopt;
-    return static_cast<RenderPreset>(found - kRenderPresets.begin());
+    resetEffects(view.effects);
+    switch (preset) {
+    case RenderPreset::Fast:
+        return applyFast(view);
+    case RenderPreset::Balanced:
+        return applyBalanced(view);
+    case RenderPreset::Fine:
+        return applyFine(view);
+    case RenderPreset::Cinematic:
+        return applyCinematic(view);
+    }
 }
 
 } // namespace filament

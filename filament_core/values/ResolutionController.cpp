@@ -45,7 +45,7 @@ void ResolutionController::add(Resolution const& options, FrameCost const& cost)
     if (!options.dynamic || !(cost.milliseconds > 0) || cost.scale != scale(options)) return;
     const uint32_t last = lastStep(options);
     mStep = std::min(mStep, last);
-    const uint32_t wanted = std::clamp(static_cast<uint32_t>(options.history), 1u, kMostFrames);
+    const uint32_t wanted = std::clamp(uint32_t{ options.history }, 1u, kMostFrames);
     if (mCount >= wanted) { // the oldest go
         std::copy(mTimes.begin() + (mCount - wanted + 1), mTimes.begin() + mCount, mTimes.begin());
         mCount = wanted - 1;

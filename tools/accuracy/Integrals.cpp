@@ -52,15 +52,15 @@ double reflected(double2 dfg, double f0) { return dfg.x * (1 - f0) + dfg.y * f0;
 ErrorFigures directionalAlbedoError(Settings const& settings, jobs::JobSystem& jobs) {
     constexpr int kSteps = 24;
     constexpr std::array kReflectances{ 0.04, 0.5, 1.0 };
-    const DfgSampler table(assets::bakeDfgTable(jobs, settings.quality.dfgTableSize));
+    const DfgSampler table(assets::bakeDfgTable(jobs, settings.view.quality.dfgTableSize));
     ErrorFigures figures;
     double sum = 0;
     for (int y = 0; y < kSteps; ++y) {
         for (int x = 0; x < kSteps; ++x) {
             const double roughness = 0.1 + 0.9 * y / (kSteps - 1), nov = 0.05 + 0.95 * x / (kSteps - 1);
             const auto n = static_cast<float>(nov), r = static_cast<float>(roughness);
-            const float2 dfg =
-                    settings.quality.splitSum == SplitSum::Analytic ? shader::lib::dfgAnalytic(n, r) : table.at(n, r);
+            const float2 dfg = settings.view.quality.splitSum == SplitSum::Analytic ? shader::lib::dfgAnalytic(n, r)
+                                                                                    : table.at(n, r);
             const double2 truth = reference::integrateDirectionalAlbedo(nov, roughness * roughness);
             for (const double f0 : kReflectances) {
                 const double exact = reflected(truth, f0);

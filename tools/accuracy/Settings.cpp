@@ -17,7 +17,7 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
-/// A setting that is not part of Quality.
+/// A setting that is no option of View.
 struct Choice {
     std::string_view name;
     Words values; ///< those worth measuring
@@ -26,9 +26,6 @@ struct Choice {
     std::string Settings::*key = nullptr; ///< which of the keys the word belongs to, if it loads something else
 };
 
-constexpr std::string_view kSamples[] = { "1", "4" };
-constexpr std::string_view kToneMappers[] = { "linear",     "aces",          "filmic",  "mobile",      "agx",
-                                              "pbrNeutral", "acesReference", "generic", "displayRange" };
 constexpr std::string_view kSwitch[] = { "off", "on" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 constexpr std::string_view kBudgets[] = { "0.8", "0.9", "1", "1.1", "1.2", "1.4" };
@@ -39,27 +36,9 @@ constexpr std::string_view kMappings[] = { "quadratic", "logarithmic", "linear" 
 constexpr std::string_view kPositions[] = { "asAuthored", "half", "unorm16" };
 constexpr std::string_view kTangents[] = { "float", "snorm16", "snorm8" };
 
-bool setSamples(Settings& settings, std::string const& value) {
-    if (value != "1" && value != "4") return false;
-    settings.samples = value == "4" ? 4 : 1;
-    return true;
-}
-
-bool setToneMapper(Settings& settings, std::string const& value) {
-    const std::optional<ToneMapper> mapper = toneMapperFromName(value);
-    if (mapper) settings.colorGrading.toneMapper = *mapper;
-    return mapper.has_value();
-}
-
-bool setDither(Settings& settings, std::string const& value) {
-    if (value != "on" && value != "off") return false;
-    settings.colorGrading.dither = value == "on";
-    return true;
-}
-
 bool setPreset(Settings& settings, std::string const& value) {
-    const std::optional<QualityPreset> preset = qualityPresetFromName(value);
-    if (preset) settings.quality = qualityPreset(*preset);
+    const std::optional<QualityPreset> preset = enumFromName<QualityPreset>(value);
+    if (preset) settings.view.quality = qualityPreset(*preset);
     return preset.has_value();
 }
 
@@ -70,7 +49,7 @@ bool setBudget(Settings& settings, std::string const& value) {
     if (!times || !(*times > 0)) return false;
     const Result<QualityDecision> decision = chooseQuality(
             { .gpuMilliseconds = *times * kDefaultMilliseconds, .frameMilliseconds = kDefaultMilliseconds });
-    if (decision) settings.quality = decision->quality;
+    if (decision) settings.view.quality = decision->quality;
     return decision.ok();
 }
 
@@ -98,9 +77,9 @@ bool setByName(Settings& settings, std::string const& value) {
 constexpr auto setFormat =
         setByName<environmentFormatFromName, &Settings::environment, &EnvironmentLoadOptions::format>;
 constexpr auto setMapping =
-        setByName<roughnessMappingFromName, &Settings::environment, &EnvironmentLoadOptions::roughnessMapping>;
-constexpr auto setPositions = setByName<positionStorageFromName, &Settings::model, &GltfLoadOptions::positions>;
-constexpr auto setTangents = setByName<tangentStorageFromName, &Settings::model, &GltfLoadOptions::tangents>;
+        setByName<enumFromName<RoughnessMapping>, &Settings::environment, &EnvironmentLoadOptions::roughnessMapping>;
+constexpr auto setPositions = setByName<enumFromName<PositionStorage>, &Settings::model, &GltfLoadOptions::positions>;
+constexpr auto setTangents = setByName<enumFromName<TangentStorage>, &Settings::model, &GltfLoadOptions::tangents>;
 
 bool setExact(Settings& settings, std::string const& value) {
     if (value != "on" && value != "off") return false;
@@ -111,9 +90,6 @@ bool setExact(Settings& settings, std::string const& value) {
 }
 
 constexpr std::array kChoices{
-    Choice{ "samples", kSamples, setSamples, "1 or 4" },
-    Choice{ "toneMapper", kToneMappers, setToneMapper, toneMapperNames() },
-    Choice{ "dither", kSwitch, setDither, "off or on" },
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
     Choice{ "budget", kBudgets, setBudget, "how many times the default's time, above 0" },
     Choice{ "exact", kSwitch, setExact, "off or on" },
@@ -137,9 +113,7 @@ Choice const* findChoice(std::string_view name) {
 Error unknown(std::string_view name) {
     std::vector<std::string_view> known;
     for (Choice const& choice : kChoices) known.push_back(choice.name);
-    for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
-    for (EffectOption const& option : effectOptions()) known.push_back(option.name);
-    for (ColorGradingOption const& option : colorGradingOptions()) known.push_back(option.name);
+    for (Option const& option : optionsOf<View>()) known.push_back(option.name);
     return fail(ErrorCode::NotFound, "there is no setting '{}'{}", name, suggestion(name, known));
 }
 
@@ -152,11 +126,8 @@ Result<void> change(Settings& settings, std::string_view word) {
     const std::string_view name = word.substr(0, equals);
     const std::string value(word.substr(equals + 1));
     Choice const* choice = findChoice(name);
-    if (!choice && effectValue(settings.effects, name)) return setEffect(settings.effects, name, value);
-    if (!choice && colorGradingValue(settings.colorGrading, name))
-        return setColorGrading(settings.colorGrading, name, value);
     if (!choice) {
-        Result<void> done = setQuality(settings.quality, name, value);
+        Result<void> done = setOption(settings.view, name, value);
         return !done && done.error().code == ErrorCode::NotFound ? Result<void>(unknown(name)) : done;
     }
     if (!choice->set(settings, value))
@@ -174,9 +145,10 @@ Result<void> change(Settings& settings, std::span<const std::string> words) {
 
 std::vector<std::string> valuesOf(std::string_view choice) {
     Words words;
-    if (Choice const* own = findChoice(choice)) words = own->values;
-    for (QualityChoice const& known : qualityChoices())
-        if (known.name == choice) words = known.values;
+    if (Choice const* own = findChoice(choice))
+        words = own->values;
+    else if (Option const* option = findOption(optionsOf<View>(), choice))
+        words = option->values;
     return { words.begin(), words.end() };
 }
 

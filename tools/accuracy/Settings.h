@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Settings: everything that a row of the accuracy table can change, by name: "specularVisibility=fast", "samples=4",
 /// "environment.faceSize=64".
-///   Names   those of <filament/Quality.h>; those of this file for the rest of View and for the options of loading
-///           files, with the prefix of the loader.
+///   Names   the options of View; those of this file for the options of loading files, with the prefix of the loader.
 ///   Fails   NotFound, InvalidArgument: the word, and what is valid.
 ///   Thread  any.
 #pragma once
@@ -21,10 +20,7 @@
 namespace filament::accuracy {
 
 struct Settings {
-    Quality quality{};
-    Effects effects{};
-    uint8_t samples = 1;
-    ColorGrading colorGrading{};
+    View view{}; ///< but camera, size and what belongs to the scene
     EnvironmentLoadOptions environment{};
     GltfLoadOptions model{};
     EngineOptions engine{}; ///< but backend and cache

@@ -20,10 +20,7 @@ double millisecondsSince(std::chrono::steady_clock::time_point begin) {
 
 Settings settingsOf(SceneSpec const& spec) {
     Settings settings;
-    settings.quality = spec.view.quality;
-    settings.effects = spec.view.effects;
-    settings.samples = spec.view.samples;
-    settings.colorGrading = spec.view.colorGrading;
+    settings.view = spec.view;
     return settings;
 }
 
@@ -132,10 +129,10 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     View& view = parts->view;
     view = spec.view;
     view.size = size;
-    view.quality = settings.quality;
-    view.effects = settings.effects;
-    view.samples = settings.samples;
-    view.colorGrading = settings.colorGrading;
+    view.quality = settings.view.quality;
+    view.effects = settings.view.effects;
+    view.samples = settings.view.samples;
+    view.colorGrading = settings.view.colorGrading;
     view.camera = cameraOf(spec, scene.bounds());
     parts->frames = spec.frames;
     parts->target = engine.own(engine.create(SwapChainDesc{

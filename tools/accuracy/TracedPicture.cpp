@@ -113,7 +113,7 @@ reference::BsdfModel bsdfOf(Quality const& quality) {
 
 Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
                             jobs::JobSystem& jobs, reference::Integrator integrator) {
-    const bool isOccluded = view.quality.ao != AmbientOcclusionTerm::Off;
+    const bool isOccluded = view.effects.ambientOcclusion.enabled;
     const reference::ReferenceSettings settings{ .integrator = integrator,
                                                  .samplesPerPixel = samplesPerPixel,
                                                  .filter = reference::PixelFilter::Center,
@@ -122,7 +122,7 @@ Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint3
                                                  .coloredShadows = view.quality.coloredShadows,
                                                  .occlusionRadius =
                                                          isOccluded ? view.effects.ambientOcclusion.radiusMeters : 0.0,
-                                                 .occlusionBends = view.quality.aoBentNormals };
+                                                 .occlusionBends = view.effects.ambientOcclusion.bentNormals };
     Result<reference::ReferenceImage> image =
             reference::render(scene, { view.camera, view.size, view.clearColor, view.effects.fog }, settings, jobs);
     if (!image) return image.error();

@@ -41,7 +41,7 @@ void appendWords(CLI::Option const& option, std::vector<std::string>& out) {
 
 } // namespace
 
-Error invalidOption(const char* option, std::string const& value, const char* cure) {
+Error invalidOption(const char* option, std::string const& value, std::string_view cure) {
     return fail(ErrorCode::InvalidArgument, "{}: '{}' is not valid; give {}", option, value, cure);
 }
 

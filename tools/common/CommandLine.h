@@ -103,7 +103,7 @@ private:
     std::unique_ptr<CLI::App> mApp;
 };
 
-Error invalidOption(const char* option, std::string const& value, const char* cure);
+Error invalidOption(const char* option, std::string const& value, std::string_view cure);
 
 std::optional<double> finiteNumber(std::string const& word);
 /// A whole number in [low, high].

@@ -38,12 +38,6 @@ Result<void> setSunNumber(SceneOptions& options, const char* option, std::string
     return {};
 }
 
-Result<void> setSamples(SceneOptions& options, const char* option, std::string const& value) {
-    if (value != "1" && value != "4") return invalidOption(option, value, "1 or 4 samples a pixel");
-    options.samples = value == "4" ? 4 : 1;
-    return {};
-}
-
 Result<void> setModelFiles(SceneOptions& options, const char* option, std::string const& value) {
     if (value != "folder" && value != "anywhere") return invalidOption(option, value, "folder or anywhere");
     options.modelOptions.filesFromAnywhere = value == "anywhere";
@@ -59,12 +53,6 @@ Result<void> setModelLevels(SceneOptions& options, const char* option, std::stri
 using ChoiceText = std::string const&;
 
 constexpr std::array kChoiceFields{
-    ChoiceField{ { "debugView", debugViewNames(), "none",
-                   "shows one ingredient of the picture: [debug views](debug-views.md)" },
-                 [](SceneOptions& o, const char* option, ChoiceText value) {
-                     return choose(o.debugView, debugViewFromName(value), option, value, debugViewNames());
-                 } },
-    ChoiceField{ { "samples", "1, 4", "1", "samples a pixel (`View::samples`)" }, setSamples },
     ChoiceField{ { "bloom.dirt", "a picture", "", "the dirt of the lens, through which [bloom](bloom.md) is seen" },
                  [](SceneOptions& o, const char*, ChoiceText value) {
                      o.dirt = value;
@@ -103,17 +91,17 @@ constexpr std::array kChoiceFields{
     ChoiceField{ { "environment.roughnessMapping", "quadratic, logarithmic, linear", "quadratic",
                    "which roughness each mip level of an environment has" },
                  [](SceneOptions& o, const char* option, ChoiceText value) {
-                     return choose(o.environmentOptions.roughnessMapping, roughnessMappingFromName(value), option,
+                     return choose(o.environmentOptions.roughnessMapping, enumFromName<RoughnessMapping>(value), option,
                                    value, "quadratic, logarithmic or linear");
                  } },
     ChoiceField{ { "model.positions", "asAuthored, half, unorm16", "asAuthored", "how positions are stored" },
                  [](SceneOptions& o, const char* option, ChoiceText value) {
-                     return choose(o.modelOptions.positions, positionStorageFromName(value), option, value,
+                     return choose(o.modelOptions.positions, enumFromName<PositionStorage>(value), option, value,
                                    "asAuthored, half or unorm16");
                  } },
     ChoiceField{ { "model.tangents", "snorm16, snorm8, float", "snorm16", "how tangent frames are stored" },
                  [](SceneOptions& o, const char* option, ChoiceText value) {
-                     return choose(o.modelOptions.tangents, tangentStorageFromName(value), option, value,
+                     return choose(o.modelOptions.tangents, enumFromName<TangentStorage>(value), option, value,
                                    "snorm16, snorm8 or float");
                  } },
     ChoiceField{ { "model.levels", "finest, all", "finest",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneChoices: what --set names besides Quality, Effects and ColorGrading: how files are loaded, what is shown, and
-/// what --sun has no place for.
+/// SceneChoices: what --set names besides the options of View: how files are loaded, the dirt of the lens, and what
+/// --sun has no place for.
 ///   Fails   setSceneChoice(): InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
@@ -20,7 +20,7 @@ struct SceneChoice {
 
 std::span<const SceneChoice> sceneChoices();
 
-/// Nothing: the name belongs to Quality, Effects, ColorGrading, or to nobody.
+/// Nothing: the name is no choice of these.
 std::optional<Result<void>> setSceneChoice(SceneOptions& options, std::string const& name, std::string const& value);
 
 } // namespace filament::tools

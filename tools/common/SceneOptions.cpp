@@ -22,23 +22,23 @@ Result<void> convertSize(SceneWords const& words, SceneOptions& options) {
     const auto height =
             cross == std::string::npos ? std::nullopt : wholeNumber(words.size.substr(cross + 1), 1, kMaxSide);
     if (!width || !height) return invalidOption("--size", words.size, "WIDTHxHEIGHT, each from 1 to 16384 pixels");
-    options.size = { *width, *height };
+    options.view.size = { *width, *height };
     return {};
 }
 
 Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
-    const auto toneMapper = toneMapperFromName(words.toneMapper);
-    if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, toneMapperNames());
-    options.colorGrading.toneMapper = *toneMapper;
+    const auto toneMapper = enumFromName<ToneMapper>(words.toneMapper);
+    if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, listed(enumNames<ToneMapper>()));
+    options.view.colorGrading.toneMapper = *toneMapper;
 
     if (!words.look.empty()) {
         auto look = loadLook(words.look);
         if (!look) return fail(look.error().code, "--look {}", look.error().message);
-        options.colorGrading.look = std::move(*look);
+        options.view.colorGrading.look = std::move(*look);
         options.lookFile = words.look;
     }
     if (auto done = convertSwitch("--skybox", words.skybox, options.skybox); !done) return done;
-    if (auto done = convertSwitch("--dither", words.dither, options.colorGrading.dither); !done) return done;
+    if (auto done = convertSwitch("--dither", words.dither, options.view.colorGrading.dither); !done) return done;
     if (words.out.empty()) return invalidOption("--out", words.out, "the path of a folder");
     return {};
 }
@@ -99,22 +99,18 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
 
 Result<void> convertPreset(SceneWords const& words, SceneOptions& options) {
     if (words.preset.empty()) return {};
-    const auto preset = renderPresetFromName(words.preset);
-    if (!preset) return invalidOption("--preset", words.preset, "fast, balanced, fine or cinematic");
-    View view;
-    applyPreset(view, *preset);
-    options.quality = view.quality;
-    options.effects = view.effects;
-    options.samples = view.samples;
+    const auto preset = enumFromName<RenderPreset>(words.preset);
+    if (!preset) return invalidOption("--preset", words.preset, listed(enumNames<RenderPreset>()));
+    applyPreset(options.view, *preset);
     return {};
 }
 
 Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
     if (const Result<void> done = convertPreset(words, options); !done) return done;
     if (!words.quality.empty()) {
-        const auto preset = qualityPresetFromName(words.quality);
-        if (!preset) return invalidOption("--quality", words.quality, "low, medium, high or reference");
-        options.quality = qualityPreset(*preset);
+        const auto preset = enumFromName<QualityPreset>(words.quality);
+        if (!preset) return invalidOption("--quality", words.quality, listed(enumNames<QualityPreset>()));
+        options.view.quality = qualityPreset(*preset);
     }
     for (std::string const& word : words.set) {
         const size_t equals = word.find('=');
@@ -124,11 +120,8 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
             if (!*chosen) return *chosen;
             continue;
         }
-        const Result<void> done = effectValue(options.effects, name) ? setEffect(options.effects, name, value)
-                                  : colorGradingValue(options.colorGrading, name)
-                                          ? setColorGrading(options.colorGrading, name, value)
-                                          : setQuality(options.quality, name, value);
-        if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
+        if (const Result<void> done = setOption(options.view, name, value); !done)
+            return fail(done.error().code, "--set {}: {}", word, done.error().message);
     }
     return {};
 }
@@ -154,7 +147,7 @@ void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& opti
     app.option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
     app.option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels").words(4);
     app.option("--skybox", words.skybox, "on or off: the environment as background (on)");
-    app.option("--tone-mapper", words.toneMapper, std::string(toneMapperNames()) + " (aces)");
+    app.option("--tone-mapper", words.toneMapper, listed(enumNames<ToneMapper>()) + " (aces)");
     app.option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
     app.option("--dither", words.dither, "on or off (off)");
     app.option("--preset", words.preset, "fast, balanced, fine or cinematic: the whole view, effects included");

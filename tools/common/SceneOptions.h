@@ -26,21 +26,16 @@ struct SceneOptions {
     std::string variant;         ///< of KHR_materials_variants; empty: the materials of the file
     /// Empty: the model's own (EXT_lights_image_based), or the showcase's sky without a sun; "none": none.
     std::filesystem::path environment;
-    uint2 size{ 1280, 720 };
+    View view{}; ///< without its camera: --size, --tone-mapper, --preset, --quality, --set
     bool fit = true;
     double3 eye{ 0.9, 0.6, 1.5 }, at{ 0.0 };
     float fovDegrees = 40;
     Exposure exposure{ .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 };
     Lux iblIntensity{ 30'000 };
     std::optional<SunLight> sun;
-    bool skybox = true; ///< if there is an environment
-    ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
-    Quality quality{};
-    Effects effects{};                           ///< --set fog=on, fog.density=0.2
-    std::filesystem::path lookFile{};            ///< that colorGrading.look was read from; empty: none
+    bool skybox = true;                          ///< if there is an environment
+    std::filesystem::path lookFile{};            ///< that view.colorGrading.look was read from; empty: none
     std::filesystem::path dirt;                  ///< --set bloom.dirt=FILE.png: of the lens; empty: none
-    DebugView debugView = DebugView::None;       ///< --set debugView=froxels; not of traced pictures
-    uint8_t samples = 1;                         ///< --set samples=4: MSAA; not of traced pictures
     bool exactShaders = true;                    ///< --set exact=off
     EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear
     GltfLoadOptions modelOptions{};              ///< --set model.positions=half, model.tangents=snorm8

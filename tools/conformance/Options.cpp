@@ -107,7 +107,7 @@ Result<void> convertSet(std::vector<std::string> const& words, Options& options)
             continue;
         }
         Quality probe;
-        if (const Result<void> done = setQuality(probe, name, value); !done)
+        if (const Result<void> done = setOption(probe, name, value); !done)
             return fail(done.error().code, "--set {}: {}", word, done.error().message);
         options.quality.emplace_back(name, value);
     }

@@ -323,7 +323,7 @@ Result<StagePair> openPair(Options const& options, bool capture) {
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options) {
     for (SceneSpec& spec : cases) {
         for (auto const& [name, value] : options.quality) {
-            const Result<void> done = setQuality(spec.view.quality, name, value);
+            const Result<void> done = setOption(spec.view.quality, name, value);
             FILAMENT_ASSERT(done.ok(), "parseOptions() checks every --set");
         }
     }

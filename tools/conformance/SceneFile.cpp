@@ -50,12 +50,12 @@ void readEnvironment(JsonReader& reader, SceneSpec& spec) {
     EnvironmentLoadOptions& options = spec.environmentOptions;
     reader.choice("format", options.format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM", environmentFormatFromName);
     reader.choice("roughnessMapping", options.roughnessMapping, "quadratic, logarithmic or linear",
-                  roughnessMappingFromName);
+                  enumFromName<RoughnessMapping>);
 }
 
 void readGeometry(JsonReader& reader, GltfLoadOptions& options) {
-    reader.choice("positions", options.positions, "asAuthored, half or unorm16", positionStorageFromName);
-    reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", tangentStorageFromName);
+    reader.choice("positions", options.positions, "asAuthored, half or unorm16", enumFromName<PositionStorage>);
+    reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", enumFromName<TangentStorage>);
     reader.read("allLevels", options.allLevels);
 }
 
@@ -84,14 +84,21 @@ void readExposure(JsonReader& reader, Exposure& exposure) {
     reader.read("iso", exposure.iso, 1, 1e6);
 }
 
-void readColorGrading(JsonReader& reader, ColorGrading& grading) {
-    for (ColorGradingOption const& option : colorGradingOptions()) {
+std::string optionText(Json const& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+    return value.dump();
+}
+
+/// The options of T that a scene names, as words, numbers, switches or lists of numbers.
+template <class T>
+void readOptions(JsonReader& reader, T& object) {
+    for (Option const& option : optionsOf<T>()) {
         const char* const key = option.name.data(); // a literal
         Json const* value = reader.raw(key);
         if (!value) continue;
-        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
-        if (const Result<void> done = setColorGrading(grading, option.name, word); !done)
-            reader.complain(key, done.error().message);
+        const Result<void> done = setOption(object, option.name, optionText(*value));
+        if (!done) reader.complain(key, done.error().message);
     }
 }
 
@@ -140,38 +147,14 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     reader.read("samples", samples, 1, 4);
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
     view.samples = static_cast<uint8_t>(samples);
-    reader.choice("toneMapper", view.colorGrading.toneMapper, toneMapperNames(), toneMapperFromName);
-    readColorGrading(reader, view.colorGrading);
+    readOptions(reader, view.colorGrading);
     readLook(reader, spec);
-    reader.read("dither", view.colorGrading.dither);
-    reader.choice("debugView", view.debugView, debugViewNames(), debugViewFromName);
+    reader.choice("debugView", view.debugView, listed(enumNames<DebugView>()).c_str(), enumFromName<DebugView>);
     reader.read("clear", view.clearColor);
     readBits(reader, "layers", view.visibleLayers);
     reader.read("linear", spec.linear);
     reader.read("frames", spec.frames, 1, 64);
     reader.read("secondsPerFrame", spec.secondsPerFrame, 0, 1e6);
-}
-
-void readQuality(JsonReader& reader, Quality& quality) {
-    for (QualityChoice const& choice : qualityChoices()) {
-        const char* const key = choice.name.data(); // a literal
-        Json const* value = reader.raw(key);
-        if (!value) continue;
-        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
-        if (const Result<void> done = setQuality(quality, choice.name, word); !done)
-            reader.complain(key, done.error().message);
-    }
-}
-
-void readEffects(JsonReader& reader, Effects& effects) {
-    for (EffectOption const& option : effectOptions()) {
-        const char* const key = option.name.data(); // a literal
-        Json const* value = reader.raw(key);
-        if (!value) continue;
-        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
-        if (const Result<void> done = setEffect(effects, option.name, word); !done)
-            reader.complain(key, done.error().message);
-    }
 }
 
 /// A path from the scene's folder.
@@ -193,8 +176,8 @@ void readOverlay(JsonReader& reader, SceneSpec& spec) {
     });
     reader.read("clear", overlay.view.clearColor);
     readBits(reader, "layers", overlay.view.visibleLayers);
-    reader.object("quality", [&](JsonReader& r) { readQuality(r, overlay.view.quality); });
-    reader.object("effects", [&](JsonReader& r) { readEffects(r, overlay.view.effects); });
+    reader.object("quality", [&](JsonReader& r) { readOptions(r, overlay.view.quality); });
+    reader.object("effects", [&](JsonReader& r) { readOptions(r, overlay.view.effects); });
     const uint2 end = overlay.view.viewport ? overlay.view.viewport->offset + overlay.view.size : overlay.view.size;
     const uint2 target = spec.target.x > 0 ? spec.target : spec.view.size;
     if (!overlay.view.viewport || end.x > target.x || end.y > target.y)
@@ -270,9 +253,9 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
-    reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
+    reader.object("quality", [&](JsonReader& r) { readOptions(r, spec.view.quality); });
     reader.object("effects", [&](JsonReader& r) {
-        readEffects(r, spec.view.effects);
+        readOptions(r, spec.view.effects);
         readDirt(r, spec);
     });
     reader.object("debug", [&](JsonReader& r) { readDebugDraw(r, spec.debugDraw); });

@@ -54,14 +54,10 @@ Format formatOf(PictureFormat picture) {
 }
 
 View viewOf(Options const& options) {
-    return { .camera = cameraOf(options),
-             .size = options.size,
-             .colorGrading = options.colorGrading,
-             .quality = options.quality,
-             .effects = options.effects,
-             .samples = options.samples,
-             .debugView = options.debugView,
-             .timeSeconds = options.seconds.value_or(0) };
+    View view = options.view;
+    view.camera = cameraOf(options);
+    view.timeSeconds = options.seconds.value_or(0);
+    return view;
 }
 
 Result<Engine> createEngine(Options const& options, Backend backend) {
@@ -71,9 +67,9 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
     Result<Engine> engine = Engine::create(engineOptions);
     if (!engine) return engine;
     const uint32_t largest = engine->device().maxTextureSize;
-    if (options.size.x > largest || options.size.y > largest) {
+    if (options.view.size.x > largest || options.view.size.y > largest) {
         return fail(ErrorCode::Unsupported, "--size {}x{}: {} draws at most {} pixels a side; give a smaller size",
-                    options.size.x, options.size.y, engine->device().device, largest);
+                    options.view.size.x, options.view.size.y, engine->device().device, largest);
     }
     return engine;
 }
@@ -204,8 +200,8 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     if (mOptions.sun) mScene.add(*mOptions.sun);
     const Format format = formatOf(mOptions.format);
     mPixels = mEngine.own(mEngine.create(TextureDesc{ .format = format,
-                                                      .width = mOptions.size.x,
-                                                      .height = mOptions.size.y,
+                                                      .width = mOptions.view.size.x,
+                                                      .height = mOptions.view.size.y,
                                                       .renderable = true,
                                                       .name = "pixels" }));
     mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
@@ -241,10 +237,10 @@ Result<void> Stage::fitBudget(BackendRun& run) {
     std::sort(milliseconds.begin(), milliseconds.end());
     Result<QualityDecision> decision =
             chooseQuality({ .gpuMilliseconds = *mOptions.budgetMilliseconds,
-                            .size = mOptions.size,
+                            .size = mOptions.view.size,
                             .backend = run.backend,
                             .frameMilliseconds = milliseconds.empty() ? 0 : milliseconds[milliseconds.size() / 2] },
-                          *costs, mOptions.quality);
+                          *costs, mOptions.view.quality);
     if (!decision) return decision.error();
     mView.quality = decision->quality;
     run.decision = std::move(*decision);

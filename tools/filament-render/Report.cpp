@@ -176,9 +176,9 @@ std::string environmentOf(ReportInput const& input) {
 Result<void> writeReport(std::filesystem::path const& path, ReportInput const& input) {
     Json report{ { "model", input.model.string() },
                  { "environment", environmentOf(input) },
-                 { "size", { input.options.size.x, input.options.size.y } },
+                 { "size", { input.options.view.size.x, input.options.view.size.y } },
                  { "frames", input.options.frames },
-                 { "toneMapper", toString(input.options.colorGrading.toneMapper) } };
+                 { "toneMapper", toString(input.options.view.colorGrading.toneMapper) } };
     for (BackendRun const& run : input.runs) report["backends"][fileStem(run.backend)] = runJson(run);
     if (input.comparison) {
         report["comparison"] = { { "pixels", input.comparison->pixels },

@@ -22,8 +22,8 @@ std::string settingsOf(Options const& options, showcase::Files const& files) {
 Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files, std::span<const BackendRun> runs) {
     if (options.saveFrame.empty() || runs.empty()) return {};
     Options drawn = options;
-    if (runs[0].decision) drawn.quality = runs[0].decision->quality;
-    const OutputSpace space = options.colorGrading.outputSpace;
+    if (runs[0].decision) drawn.view.quality = runs[0].decision->quality;
+    const OutputSpace space = options.view.colorGrading.outputSpace;
     record::SaveRequest request{ .folder = options.saveFrame,
                                  .shown = { { .image = runs[0].image, .space = space } },
                                  .engine = engineOptionsOf(options),

@@ -63,13 +63,13 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
         const std::filesystem::path path = picturePath(options, backend);
         const Result<void> saved = options.format == PictureFormat::Exr
                                            ? saveExr(path, run->image)
-                                           : savePng(path, run->image, options.colorGrading.outputSpace);
+                                           : savePng(path, run->image, options.view.colorGrading.outputSpace);
         if (!saved)
             note(saved.error().message);
         else
             std::printf("%-7s %s: %s\n", fileStem(backend), run->device.device.c_str(), path.string().c_str());
         if (run->decision) { // both APIs must draw with the same settings to be comparable
-            wanted.quality = run->decision->quality;
+            wanted.view.quality = run->decision->quality;
             wanted.budgetMilliseconds.reset();
             std::fputs(run->decision->explanation.c_str(), stdout);
         }
@@ -110,7 +110,7 @@ int render(Options const& options) {
     if (!files) return failed(files.error());
 
     if (!options.saveLook.empty()) {
-        const Look look = bakeLook(options.colorGrading, options.effects.grading, kSavedLookSize);
+        const Look look = bakeLook(options.view.colorGrading, options.view.effects.grading, kSavedLookSize);
         if (const Result<void> saved = saveLook(options.saveLook, look); !saved) return failed(saved.error());
     }
     std::vector<std::string> errors;

@@ -220,7 +220,7 @@ Result<void> convertPart(Words const& words, Options& options) {
                     "--error needs the whole picture; give parts a number of samples, --spp");
     const PassPlan plan = planOf(options.settings);
     if (words.shard.empty()) {
-        const Result<FilmRegion> region = regionOf(words.tile, words.samplesOfPart, options.size, plan);
+        const Result<FilmRegion> region = regionOf(words.tile, words.samplesOfPart, options.view.size, plan);
         if (!region) return region.error();
         options.part = *region;
         return {};
@@ -229,7 +229,7 @@ Result<void> convertPart(Words const& words, Options& options) {
         return fail(ErrorCode::InvalidArgument, "--shard chooses the part; give it without --tile and --samples");
     const Result<tools::Shard> shard = tools::parseShard(words.shard);
     if (!shard) return shard.error();
-    const Result<FilmRegion> region = regionOf(*shard, options.size, plan);
+    const Result<FilmRegion> region = regionOf(*shard, options.view.size, plan);
     if (!region) return region.error();
     options.shard = *shard, options.part = *region;
     return {};

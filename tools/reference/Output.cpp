@@ -64,7 +64,7 @@ Result<void> writePictures(Options const& options, ReferenceImage const& image) 
         }
     }
     return assets::writePng(options.out / "reference.png", image.width, image.height,
-                            displayPixels(image, options.colorGrading));
+                            displayPixels(image, options.view.colorGrading));
 }
 
 Result<void> writeReport(Options const& options, ReferenceImage const& image,

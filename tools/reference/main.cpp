@@ -56,7 +56,7 @@ Result<Job> prepareJob(Options const& options, jobs::JobSystem& jobs) {
 }
 
 ReferenceView viewOf(Options const& options) {
-    return { .camera = tools::cameraOf(options), .size = options.size, .fog = options.effects.fog };
+    return { .camera = tools::cameraOf(options), .size = options.view.size, .fog = options.view.effects.fog };
 }
 
 Progress progressOf(Options const& options) {
@@ -100,7 +100,7 @@ int renderOnePart(Options const& options, Job const& job, jobs::JobSystem& jobs)
         return tools::kInterruptedStatus;
     }
     const PictureSettings settings{ tools::builtCommit(), options.arguments,        job.contents,
-                                    options.size,         planOf(options.settings), job.notes };
+                                    options.view.size,    planOf(options.settings), job.notes };
     const std::filesystem::path file = options.out / kPartName;
     if (auto written = writePart(file, settings, *part, options.shard); !written) return failed(written.error());
     std::printf("%s: %s, %.1f Mrays in %.1f s\n", file.c_str(), toString(part->region).c_str(),
@@ -114,7 +114,8 @@ Result<Options> optionsOf(PictureSettings const& settings) {
     for (std::string const& word : settings.arguments) words.push_back(word.c_str());
     Result<std::optional<Options>> parsed = parseOptions(static_cast<int>(words.size()), words.data());
     if (!parsed) return parsed.error();
-    const bool isPicture = *parsed && !(*parsed)->part && (*parsed)->merge.empty() && (*parsed)->size == settings.size;
+    const bool isPicture =
+            *parsed && !(*parsed)->part && (*parsed)->merge.empty() && (*parsed)->view.size == settings.size;
     if (isPicture) return std::move(**parsed);
     return fail(ErrorCode::Corrupt, "the settings of the parts contradict each other; render all parts again");
 }

@@ -5,9 +5,7 @@
 #include "shaders/compiler/LanguageTables.h"
 #include "tools/common/SceneChoices.h"
 
-#include <filament/ColorGrading.h>
-#include <filament/Effects.h>
-#include <filament/Quality.h>
+#include <filament/View.h>
 
 #include <algorithm>
 #include <iterator>
@@ -17,31 +15,32 @@ namespace {
 
 constexpr std::string_view kBegin = "<!-- begin: ", kEnd = "<!-- end: ", kClose = " -->";
 
-std::string qualityTable() {
-    std::string text = "| name | values | initially |\n|---|---|---|\n";
-    for (QualityChoice const& choice : qualityChoices()) {
-        std::string values;
-        for (const std::string_view value : choice.values)
-            values += fmt::format("{}`{}`", values.empty() ? "" : ", ", value);
-        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", choice.name, values,
-                       qualityValue({}, choice.name).value_or(""));
+constexpr const char* kOptionHead = "| name | values | initially | effect |\n|---|---|---|---|\n";
+
+std::string optionRow(Option const& option, void const* standard) {
+    return fmt::format("| `{}` | {} | `{}` | {} |\n", option.name, rangeOf(option), optionValue(option, standard),
+                       option.description);
+}
+
+/// The options of T, with the values of one that nobody changed.
+template <class T>
+std::string optionTable() {
+    const T standard{};
+    std::string text = kOptionHead;
+    for (Option const& option : optionsOf<T>()) text += optionRow(option, &standard);
+    return text;
+}
+
+/// What View itself has.
+std::string viewTable() {
+    const View standard;
+    std::string text = kOptionHead;
+    for (Option const& option : optionsOf<View>()) {
+        const bool isOfMember = findOption(optionsOf<Quality>(), option.name) ||
+                                findOption(optionsOf<Effects>(), option.name) ||
+                                findOption(optionsOf<ColorGrading>(), option.name);
+        if (!isOfMember) text += optionRow(option, &standard);
     }
-    return text;
-}
-
-std::string effectTable() {
-    std::string text = "| name | values | initially |\n|---|---|---|\n";
-    for (EffectOption const& option : effectOptions())
-        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", option.name, option.range,
-                       effectValue({}, option.name).value_or(""));
-    return text;
-}
-
-std::string gradingTable() {
-    std::string text = "| name | values | initially |\n|---|---|---|\n";
-    for (ColorGradingOption const& option : colorGradingOptions())
-        fmt::format_to(std::back_inserter(text), "| `{}` | {} | `{}` |\n", option.name, option.range,
-                       colorGradingValue(SceneOptions{}.colorGrading, option.name).value_or(""));
     return text;
 }
 
@@ -77,9 +76,10 @@ std::string_view markName(std::string_view document, size_t at) {
 
 std::vector<NamedTable> documentTables() {
     std::vector<NamedTable> tables = shader::languageTables();
-    tables.emplace_back("quality-choices", qualityTable());
-    tables.emplace_back("effect-options", effectTable());
-    tables.emplace_back("grading-options", gradingTable());
+    tables.emplace_back("quality-choices", optionTable<Quality>());
+    tables.emplace_back("effect-options", optionTable<Effects>());
+    tables.emplace_back("grading-options", optionTable<ColorGrading>());
+    tables.emplace_back("view-options", viewTable());
     tables.emplace_back("scene-choices", choiceTable());
     tables.emplace_back("gltf-extensions", extensionTable());
     return tables;

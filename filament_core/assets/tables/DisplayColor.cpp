@@ -6,6 +6,7 @@
 #include "shaders/lib/LibCpp.h"
 
 #include <filament/Look.h>
+#include <filament/Options.h>
 
 namespace filament::assets {
 

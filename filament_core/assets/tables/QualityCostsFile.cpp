@@ -4,6 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/JsonTree.h"
 
+#include <filament/Options.h>
 #include <filament/Quality.h>
 #include <filament/QualityCosts.h>
 
@@ -18,7 +19,7 @@ namespace {
 using assets::Diagnostics;
 using assets::JsonNode;
 
-// Limits beyond those of qualityChoices(): they bound the work of reading and choosing.
+// Limits beyond those of optionsOf<Quality>(): they bound the work of reading and choosing.
 constexpr size_t kMaxEffects = 64, kMaxValues = 16;
 constexpr double kMaxError = 100, kMinMilliseconds = 1e-6, kMaxMilliseconds = 1e6, kMaxSide = 65536;
 constexpr double kMaxRatio = kMaxMilliseconds / kMinMilliseconds;
@@ -61,10 +62,10 @@ QualityCost readValue(JsonNode const& node, std::string const& choice) {
     QualityCost cost;
     cost.value = node["value"].text();
     Quality probe;
-    if (const Result<void> known = setQuality(probe, choice, cost.value); !known) {
+    if (const Result<void> known = setOption(probe, choice, cost.value); !known) {
         node.diagnostics().refuse(ErrorCode::InvalidArgument, "{}.value: {}", node.path(), known.error().message);
     } else {
-        cost.value = *qualityValue(probe, choice); // "064" is "64"
+        cost.value = *optionValue(probe, choice); // "064" is "64"
     }
     cost.error = numberOf(node["error"], 0, kMaxError);
     for (auto const& [backend, key] : kBackends) cost.on(backend) = readTime(node, key);
@@ -84,7 +85,7 @@ void fillIntervals(QualityEffect& effect, QualityCost const& standard) {
 }
 
 bool isChoice(std::string_view name) {
-    return std::ranges::any_of(qualityChoices(), [&](QualityChoice const& choice) { return choice.name == name; });
+    return std::ranges::any_of(optionsOf<Quality>(), [&](Option const& choice) { return choice.name == name; });
 }
 
 QualityEffect readEffect(JsonNode const& node) {
@@ -92,10 +93,10 @@ QualityEffect readEffect(JsonNode const& node) {
     QualityEffect effect{ .name = node["name"].text(), .values = {} };
     if (!isChoice(effect.name)) {
         diagnostics.refuse(ErrorCode::InvalidArgument, "{}.name: there is no quality choice '{}'{}", node.path(),
-                           effect.name, suggestion(effect.name, namesOf(qualityChoices())));
+                           effect.name, suggestion(effect.name, namesOf(optionsOf<Quality>())));
         return effect;
     }
-    const std::string standard = *qualityValue(Quality{}, effect.name);
+    const std::string standard = *optionValue(Quality{}, effect.name);
     const JsonNode values = node["values"];
     if (values.elementCount() > kMaxValues) {
         diagnostics.refuse(ErrorCode::InvalidArgument, "{}: more than {} values", values.path(), kMaxValues);

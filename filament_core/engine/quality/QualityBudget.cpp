@@ -5,6 +5,8 @@
 #include "base/Result.h"
 #include "filament_core/engine/quality/QualityKnapsack.h"
 
+#include <filament/Options.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +52,7 @@ BudgetOption const& optionOf(Groups const& groups, BudgetPoint const& point, siz
 Quality qualityOf(Groups const& groups, BudgetPoint const& point, Quality quality) {
     for (size_t i = 0; i < groups.size(); ++i) {
         for (BudgetOption::Pick const& pick : optionOf(groups, point, i).picks) {
-            const Result<void> set = setQuality(quality, pick.effect->name, pick.cost->value);
+            const Result<void> set = setOption(quality, pick.effect->name, pick.cost->value);
             FILAMENT_ASSERT(set.ok(), "a cost table rates values of quality choices");
         }
     }
@@ -158,7 +160,7 @@ Result<QualityPrediction> predictQuality(Quality const& quality, QualityBudget c
     if (const Result<void> checked = check(budget, costs); !checked) return checked.error();
     const double frame = frameMilliseconds(budget, costs);
     const auto isSet = [&](BudgetOption::Pick const& pick) {
-        return qualityValue(quality, pick.effect->name) == pick.cost->value;
+        return optionValue(quality, pick.effect->name) == pick.cost->value;
     };
     BudgetPoint point = engine::paretoPoints({}, frame).front();
     for (BudgetGroup const& group : engine::budgetGroups(costs, budget.backend, frame, quality)) {
@@ -167,7 +169,7 @@ Result<QualityPrediction> predictQuality(Quality const& quality, QualityBudget c
         if (found == group.options.end()) {
             std::string const& name = group.options.front().picks.front().effect->name;
             return fail(ErrorCode::InvalidArgument, "the cost table of '{}' does not rate {}={}", costs.machine, name,
-                        *qualityValue(quality, name));
+                        *optionValue(quality, name));
         }
         point.nanoseconds += found->nanoseconds;
         point.error += found->error;

@@ -3,6 +3,8 @@
 
 #include "base/Assert.h"
 
+#include <filament/Options.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -45,7 +47,7 @@ public:
         for (QualityEffect const& effect : mCosts.effects) {
             Dependence const* dependence = dependenceOfChild(effect.name);
             if (dependence && findEffect(mCosts, dependence->parent)) continue; // belongs to its parent's group
-            if (dependence && qualityValue(mStart, dependence->parent) != dependence->value) continue; // no effect
+            if (dependence && optionValue(mStart, dependence->parent) != dependence->value) continue; // no effect
             all.push_back(groupOf(effect));
         }
         return all;
@@ -76,7 +78,7 @@ private:
     }
 
     BudgetOption optionOf(QualityEffect const& effect, QualityCost const& cost) const {
-        const std::string standard = qualityValue(Quality{}, effect.name).value_or("");
+        const std::string standard = optionValue(Quality{}, effect.name).value_or("");
         const auto base = std::ranges::find(effect.values, standard, &QualityCost::value);
         FILAMENT_ASSERT(base != effect.values.end(), "a cost table rates the default of every quality choice");
         QualityCost::Time const& time = cost.on(mBackend);

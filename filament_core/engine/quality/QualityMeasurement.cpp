@@ -118,7 +118,7 @@ public:
             : mEngine(engine), mScene(scene), mView(view), mDisplay(target(Format::RGBA8)),
               mLinear(target(Format::RGBA16F)), mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
 
-    Result<QualityEffect> measure(QualityChoice const& choice, uint32_t rounds) {
+    Result<QualityEffect> measure(Option const& choice, uint32_t rounds) {
         std::vector<Setting> settings = settingsOf(choice);
         QualityEffect effect{ .name = std::string(choice.name), .values = {} };
         for (Setting& setting : settings) {
@@ -137,7 +137,7 @@ public:
                 setting.compared.push_back(cost->compared);
             }
         }
-        fillTimes(settings, *qualityValue(Quality{}, choice.name), effect);
+        fillTimes(settings, *optionValue(Quality{}, choice.name), effect);
         return effect;
     }
 
@@ -158,14 +158,14 @@ private:
                 SwapChainDesc{ .size = mView.size, .imageCount = 1, .format = format, .name = "quality costs" }));
     }
 
-    std::vector<Setting> settingsOf(QualityChoice const& choice) const {
+    std::vector<Setting> settingsOf(Option const& choice) const {
         std::vector<Setting> settings;
         for (const std::string_view value : choice.values) {
             Setting setting{ std::string(value), mView.quality, qualityPreset(QualityPreset::Reference),
                              std::make_unique<Renderer>(mEngine, RendererOptions{ .passTimers = true }) };
             for (Quality* quality : { &setting.timed, &setting.pictured }) {
                 if (choice.name == "shBands") quality->diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
-                (void)setQuality(*quality, choice.name, value);
+                (void)setOption(*quality, choice.name, value);
             }
             settings.push_back(std::move(setting));
         }
@@ -236,7 +236,7 @@ Result<void> check(CostMeasurement const& measurement) {
     if (measurement.rounds < kFewestRounds || measurement.rounds > 1000) {
         return fail(ErrorCode::InvalidArgument, "{} rounds: give {} to 1000", measurement.rounds, kFewestRounds);
     }
-    const std::vector<std::string_view> known = namesOf(qualityChoices());
+    const std::vector<std::string_view> known = namesOf(optionsOf<Quality>());
     for (std::string const& name : measurement.choices) {
         if (std::ranges::find(known, name) == known.end())
             return fail(ErrorCode::NotFound, "there is no quality choice '{}'{}", name, suggestion(name, known));
@@ -253,7 +253,7 @@ Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, Vie
     CostMeter meter(engine, scene, view);
     if (const Result<void> drawn = meter.drawExact(); !drawn) return drawn.error();
     QualityCosts costs{ .machine = engine.device().device, .driver = engine.device().driver, .size = view.size };
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         auto const& asked = measurement.choices;
         if (!asked.empty() && std::ranges::find(asked, choice.name) == asked.end()) continue;
         Result<QualityEffect> effect = meter.measure(choice, measurement.rounds);

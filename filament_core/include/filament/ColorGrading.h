@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ColorGrading: how scene-referred light becomes the values of a display, as a plain value; part of View.
 /// docs/finish.md has the formulas. What comes before it, and after a camera, is Grading of Effects.h.
-///   Thread   any.   Fails: setColorGrading() for an unknown name or value, and says what is valid.
+///   Names    each field but `look` is an option (Options.h): "toneCurve.contrast".
+///   Thread   any.
 #pragma once
 
-#include <filament/Result.h>
+#include <filament/EnumNames.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 
 namespace filament {
@@ -28,12 +27,12 @@ enum class ToneMapper : uint8_t {
     Generic,       ///< a curve per component: toneCurve
     DisplayRange,  ///< false colours: how many stops a pixel is from middle grey, for judging exposure
 };
-const char* toString(ToneMapper toneMapper);
-std::optional<ToneMapper> toneMapperFromName(std::string_view name);
-/// "linear, aces, filmic, ... or displayRange", for help texts and errors.
-constexpr const char* toneMapperNames() {
-    return "linear, aces, filmic, mobile, agx, pbrNeutral, acesReference, generic or displayRange";
-}
+template <>
+struct EnumNames<ToneMapper> {
+    static constexpr std::array<std::string_view, 9> values{ "linear",        "aces",    "filmic",
+                                                             "mobile",        "agx",     "pbrNeutral",
+                                                             "acesReference", "generic", "displayRange" };
+};
 
 /// What AgX ends with.
 enum class AgxLook : uint8_t {
@@ -41,8 +40,10 @@ enum class AgxLook : uint8_t {
     Golden, ///< warmer and paler
     Punchy, ///< more contrast and chroma
 };
-const char* toString(AgxLook look);
-std::optional<AgxLook> agxLookFromName(std::string_view name);
+template <>
+struct EnumNames<AgxLook> {
+    static constexpr std::array<std::string_view, 3> values{ "base", "golden", "punchy" };
+};
 
 /// ToneMapper::Generic: a x^c / (x^c + b), where c is the contrast, middle grey goes from `midGreyIn` to `midGreyOut`
 /// and `maximum` becomes white. Where no such curve exists (a low contrast with a low maximum), middle grey is darker.
@@ -61,8 +62,10 @@ enum class OutputSpace : uint8_t {
     DisplayP3,    ///< the primaries of P3 and D65 with the transfer function of sRGB
     Rec2020Pq,    ///< ITU-R BT.2100: the primaries of Rec. 2020, SMPTE ST 2084; whiteNits
 };
-const char* toString(OutputSpace space);
-std::optional<OutputSpace> outputSpaceFromName(std::string_view name);
+template <>
+struct EnumNames<OutputSpace> {
+    static constexpr std::array<std::string_view, 4> values{ "srgb", "linearRec709", "displayP3", "rec2020Pq" };
+};
 
 struct ColorGrading {
     ToneMapper toneMapper = ToneMapper::Aces;
@@ -74,19 +77,5 @@ struct ColorGrading {
     std::shared_ptr<const Look> look; ///< applied to sRGB display values, after the tone mapper; null: none
     friend bool operator==(ColorGrading const&, ColorGrading const&) = default;
 };
-
-/// One field of ColorGrading that is a word or a number, for menus and help texts.
-struct ColorGradingOption {
-    std::string_view name;  ///< "toneCurve.contrast"
-    std::string_view range; ///< in words: "a number from 0.1 to 5"
-};
-std::span<const ColorGradingOption> colorGradingOptions();
-
-/// Sets one field by name. NotFound and InvalidArgument say what is valid; `grading` is then unchanged.
-Result<void> setColorGrading(ColorGrading& grading, std::string_view name, std::string_view value);
-/// The value of one field as text that setColorGrading() accepts, or nothing for an unknown name.
-std::optional<std::string> colorGradingValue(ColorGrading const& grading, std::string_view name);
-/// Every field within its range.
-ColorGrading clamped(ColorGrading const& grading);
 
 } // namespace filament

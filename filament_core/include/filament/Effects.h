@@ -1,37 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Effects: what the effects of a View show: how far they reach, how strong they are, which colour they have. How
-/// exactly they are computed, and whether at all, is Quality's. Plain values that may change every frame and cost
-/// nothing to change.
-///   Demand   an effect runs only if something visible asks for it: Renderer::explain() says what runs and why.
-///   Names    those of effectOptions(), as in filament-render --set fog.density=0.2 and in scene files.
-///   Ranges   stated at each field. setEffect() refuses what lies outside; values that a program sets itself are
+/// Effects: screen-space and post-processing effects of a View, each with its switch, its look and how exactly it is
+/// computed. What shading itself approximates is Quality's. Plain values that may change every frame and cost nothing
+/// to change.
+///   Demand   an effect runs only where something visible needs it: Renderer::explain() says what runs and why.
+///   Names    each member is an option (Options.h), as in filament-render --set fog.density=0.2 and in scene files.
+///   Ranges   stated at each member. setOption() refuses what lies outside; values that a program sets itself are
 ///            clamped, and NaN counts as the default.
-///   Thread   any.   Fails: setEffect() for unknown names and values, and says which are valid.
+///   Thread   any.
 #pragma once
 
 #include <filament/Color.h>
+#include <filament/EnumNames.h>
 #include <filament/Objects.h>
-#include <filament/Result.h>
 
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
+#include <array>
+#include <cstdint>
 
 namespace filament {
 
-/// Surroundings that keep indirect light from surfaces (Quality::ao). It applies to what is opaque or masked.
+enum class AmbientOcclusionMethod : uint8_t {
+    /// Scalable ambient obscurance: `samples` points of a spiral (McGuire, Mara and Luebke 2012).
+    Sao,
+    /// Ground-truth ambient occlusion: the visible part of the hemisphere between the horizons of `slices` slices
+    /// (Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion").
+    Gtao,
+};
+template <>
+struct EnumNames<AmbientOcclusionMethod> {
+    static constexpr std::array<std::string_view, 2> values{ "sao", "gtao" };
+};
+
+/// The pixels for which ambient occlusion is computed; the others take it from neighbours of their depth.
+enum class AmbientOcclusionResolution : uint8_t {
+    Half,         ///< one of four
+    Full,         ///< all
+    Checkerboard, ///< every other one
+};
+template <>
+struct EnumNames<AmbientOcclusionResolution> {
+    static constexpr std::array<std::string_view, 3> values{ "half", "full", "checkerboard" };
+};
+
+/// Occlusion of indirect light by surroundings, found in the depth buffer, on opaque and masked surfaces.
 struct AmbientOcclusion {
-    float radiusMeters = 0.3f; ///< how far away surfaces still occlude, [1e-4, 1e4]
-    float intensity = 1;       ///< exponent of the visibility, [0, 8]: 0: none, 1: as computed, more: darker
+    bool enabled = false;
+    AmbientOcclusionMethod method = AmbientOcclusionMethod::Gtao;
+    AmbientOcclusionResolution resolution = AmbientOcclusionResolution::Half;
+    uint8_t samples = 7;       ///< of Sao, [3, 32]
+    uint8_t slices = 2;        ///< of Gtao, [1, 3]
+    bool blur = true;          ///< smooths the noise of the samples, along surfaces and not across their edges
+    bool bentNormals = false;  ///< diffuse light comes from the mean unoccluded direction, reflections by its cone
+    float radiusMeters = 0.3f; ///< distance at which surfaces still occlude, in metres, [1e-4, 1e4]
+    float intensity = 1;       ///< exponent of the visibility, [0, 8]: 0 disables the effect, above 1 is darker
     friend bool operator==(AmbientOcclusion const&, AmbientOcclusion const&) = default;
 };
 
-/// Reflections of what the picture shows (Quality::ssr), on materials with `reflections : screenspace`.
-struct ScreenReflections {
-    float distanceMeters = 10;    ///< how far a reflected ray is followed, [1e-3, 1e5]
-    float thicknessMeters = 0.1f; ///< how far behind a surface of the picture a ray still hits it, [1e-4, 1e4]
-    friend bool operator==(ScreenReflections const&, ScreenReflections const&) = default;
+/// Reflections of the rendered scene, on materials with `reflections : screenspace`. Rays that leave the screen fall
+/// back to the environment.
+struct ScreenSpaceReflections {
+    bool enabled = false;
+    uint8_t steps = 48;           ///< cells of the depth pyramid that a ray visits at most, [8, 255]
+    float distanceMeters = 10;    ///< length of a reflected ray, in metres, [1e-3, 1e5]
+    float thicknessMeters = 0.1f; ///< assumed thickness of visible surfaces, in metres, [1e-4, 1e4]
+    friend bool operator==(ScreenSpaceReflections const&, ScreenSpaceReflections const&) = default;
 };
 
 /// Fog that thins out exponentially with height, and light that it scatters.
@@ -50,24 +81,36 @@ struct Fog {
     friend bool operator==(Fog const&, Fog const&) = default;
 };
 
-/// Shadows of small things, found in the depths of the picture, for lights with `contactShadows`.
+/// Screen-space shadows of details that are too small for shadow maps, of lights with `contactShadows`.
 struct ContactShadows {
-    float distanceMeters = 0.2f;   ///< how far towards the light something is looked for, [1e-4, 1e4]
-    float thicknessMeters = 0.05f; ///< how deep what the picture shows is taken to be, [1e-5, 1e4]
+    uint8_t steps = 16;            ///< samples of a ray, [4, 64]
+    float distanceMeters = 0.2f;   ///< length of the ray towards the light, in metres, [1e-4, 1e4]
+    float thicknessMeters = 0.05f; ///< assumed thickness of visible surfaces, in metres, [1e-5, 1e4]
     friend bool operator==(ContactShadows const&, ContactShadows const&) = default;
 };
 
-/// Light that lenses and eyes scatter around what is bright. It is taken from where it was: the picture as a whole is
-/// no brighter. Before tone mapping; in all directions alike.
+/// The size of the first level of bloom's pyramid.
+enum class BloomResolution : uint8_t {
+    Half,    ///< half of the image, each way
+    Quarter, ///< a quarter, each way: without the narrowest lobe
+};
+template <>
+struct EnumNames<BloomResolution> {
+    static constexpr std::array<std::string_view, 2> values{ "half", "quarter" };
+};
+
+/// Scattering of light around bright areas by lenses and eyes. It conserves energy: the image as a whole is no
+/// brighter. Before tone mapping; isotropic.
 struct Bloom {
     bool enabled = false;
+    BloomResolution resolution = BloomResolution::Half;
     float strength = 0.1f; ///< share of the light that is scattered, [0, 1]
-    float radius = 0.1f;   ///< how far, as a share of the picture's height, [0.001, 1]: that of the widest of its lobes
-    float threshold = 0;   ///< only what is brighter is scattered, by that much, [0, 1e4]; 1 is white
-    /// Of the lens, over the whole picture: what is brighter than the mean of all of it shows more of the scattered
-    /// light, what is darker less. A 2D texture of colours, with all of its mip levels; none: a clean lens.
+    float radius = 0.1f;   ///< radius of the widest lobe, as a share of the image height, [0.001, 1]
+    float threshold = 0;   ///< only light above this value is scattered, relative to white, [0, 1e4]
+    /// Dirt on the lens over the whole image: areas brighter than the mean of the texture show more of the scattered
+    /// light, darker ones less. A 2D colour texture with all of its mip levels; null: a clean lens.
     Texture dirt{};
-    float dirtStrength = 1; ///< share of the scattered light that the dirt scatters, [0, 1]
+    float dirtStrength = 1; ///< share of the scattered light that the dirt modulates, [0, 1]
     friend bool operator==(Bloom const&, Bloom const&) = default;
 };
 
@@ -77,7 +120,7 @@ struct LensFlare {
     bool enabled = false;
     float threshold = 4;         ///< only of what is brighter, by that much, [0, 1e4]; 1 is white
     float ghostStrength = 0.03f; ///< share of the light in all ghosts together, [0, 1]
-    float ghostCount = 5;        ///< [0, 8], whole
+    uint8_t ghostCount = 5;      ///< [0, 8]
     float ghostSpacing = 0.4f;   ///< from the light and from ghost to ghost, of its distance from the middle, [0.05, 2]
     float ghostRadius = 0.03f;   ///< their mean, as a share of the picture's height, [0.005, 0.25]
     float haloStrength = 0.01f;  ///< share of the light in the halo, [0, 1]
@@ -94,7 +137,7 @@ struct DepthOfField {
     float focusMeters = 2;   ///< distance along the view that is sharp, [0, 1e9]
     float blurScale = 1;     ///< times what the aperture gives, [0, 100]
     float maxRadius = 0.03f; ///< of a blurred point, as a share of the picture's height, [0, 0.1]
-    float blades = 0;        ///< of the aperture: a polygon of as many sides, [3, 16]; less than 3: round
+    uint8_t blades = 0;      ///< of the aperture: a polygon with as many sides, [0, 16]; less than 3: round
     friend bool operator==(DepthOfField const&, DepthOfField const&) = default;
 };
 
@@ -169,15 +212,30 @@ struct ChromaticAberration {
     friend bool operator==(ChromaticAberration const&, ChromaticAberration const&) = default;
 };
 
-/// How many pixels are drawn, before Quality::upscale or AntiAliasing::Taa makes as many of them as the view has. With
+/// Filter that enlarges an image of which Resolution::scale draws a share, after the tone mapper. With
+/// AntiAliasing::Taa and Off, temporal accumulation upscales instead.
+enum class Upscaling : uint8_t {
+    Off,        ///< everything is drawn at the size of the view, unless temporal accumulation upscales
+    Bilinear,   ///< the mean of four pixels
+    CatmullRom, ///< Catmull and Rom's cubic filter: sixteen pixels
+    /// Twelve pixels, by a filter that lies along edges: as AMD's FidelityFX Super Resolution 1 does (Lottes 2021).
+    EdgeAdaptive,
+};
+template <>
+struct EnumNames<Upscaling> {
+    static constexpr std::array<std::string_view, 4> values{ "off", "bilinear", "catmullRom", "edgeAdaptive" };
+};
+
+/// How many pixels are drawn, before `upscaling` or AntiAliasing::Taa makes as many of them as the view has. With
 /// `dynamic`, Renderer finds the largest share, up to `scale`, that its frames have time for: docs/resolution.md.
 struct Resolution {
+    Upscaling upscaling = Upscaling::Off;
     float2 scale{ 1 };             ///< share of View::size, each way, [0.5, 1]
     bool dynamic = false;          ///< the share follows the time that frames take
     float targetMilliseconds = 16; ///< that a frame may take, [0.1, 1000]
     float leastScale = 0.5f;       ///< the smallest share, each way, [0.5, 1]
     float headroom = 0.1f;         ///< share of the target that stays free when the picture grows, [0, 0.5]
-    float history = 8;             ///< frames that must agree before the share changes, [1, 32]
+    uint8_t history = 8;           ///< frames that must agree before the share changes, [1, 32]
     bool uniform = true;           ///< both ways alike; off: the width first, down to its least
     friend bool operator==(Resolution const&, Resolution const&) = default;
 };
@@ -200,7 +258,7 @@ struct GuardBand {
 
 struct Effects {
     AmbientOcclusion ambientOcclusion{};
-    ScreenReflections reflections{};
+    ScreenSpaceReflections screenSpaceReflections{};
     Fog fog{};
     ContactShadows contactShadows{};
     Bloom bloom{};
@@ -218,20 +276,7 @@ struct Effects {
     friend bool operator==(Effects const&, Effects const&) = default;
 };
 
-/// One field of Effects, for menus and help texts.
-struct EffectOption {
-    std::string_view name;  ///< "fog.density"
-    std::string_view range; ///< in words: "a number from 0 to 10000"
-};
-std::span<const EffectOption> effectOptions();
-
-/// Sets one field by name. NotFound and InvalidArgument say what is valid; `effects` is then unchanged.
-Result<void> setEffect(Effects& effects, std::string_view name, std::string_view value);
-/// The value of one field as text that setEffect() accepts, or nothing for an unknown name.
-std::optional<std::string> effectValue(Effects const& effects, std::string_view name);
 /// The matrix of exposure, white balance and channel mixer: linear Rec. 2020 from linear Rec. 709.
 double3x3 gradingMatrix(Grading const& grading);
-/// Every field within its range.
-Effects clamped(Effects const& effects);
 
 } // namespace filament

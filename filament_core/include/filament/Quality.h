@@ -3,16 +3,15 @@
 /// may change every frame. docs/quality.md says what each value computes. Choices made when files are loaded are
 /// options of loadEnvironment() and loadGltf().
 ///   Default  every combination of choices that differs from the defaults costs a program, created when first drawn.
-///   Names    the names of the fields, and the enumerators in lower camel case: "specularVisibility=fast".
-///            filament-render --set and the accuracy tables use these names.
-///   Thread   any.   Fails: setQuality() for an unknown name, and says which names are valid.
+///   Names    each field is an option (Options.h): "specularVisibility=fast". filament-render --set and the accuracy
+///            tables use these names.
+///   Thread   any.
 #pragma once
 
-#include <filament/Result.h>
+#include <filament/EnumNames.h>
 
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,11 +23,19 @@ enum class SpecularVisibility : uint8_t {
     Fast,         ///< the same without square roots, Hammon 2017: a few per cent too dark at medium roughness
     Uncorrelated, ///< separable Smith, Walter et al. 2007: darker at grazing angles
 };
+template <>
+struct EnumNames<SpecularVisibility> {
+    static constexpr std::array<std::string_view, 3> values{ "correlated", "fast", "uncorrelated" };
+};
 
 /// Reflectance of one microfacet under suns and punctual lights. The split sum is based on Schlick's term.
 enum class FresnelTerm : uint8_t {
     Schlick, ///< Schlick 1994
     Exact,   ///< Fresnel's equations; metals as in Gulbrandsen 2014 with a white edge
+};
+template <>
+struct EnumNames<FresnelTerm> {
+    static constexpr std::array<std::string_view, 2> values{ "schlick", "exact" };
 };
 
 /// The diffuse lobe under suns and punctual lights.
@@ -36,11 +43,19 @@ enum class DiffuseTerm : uint8_t {
     Lambert,
     Disney, ///< Burley 2012, normalised as in Lagarde and de Rousiers 2014
 };
+template <>
+struct EnumNames<DiffuseTerm> {
+    static constexpr std::array<std::string_view, 2> values{ "lambert", "disney" };
+};
 
 /// The second factor of the split sum: the directional albedo of the specular lobe.
 enum class SplitSum : uint8_t {
     Table,    ///< a texture of Quality::dfgTableSize^2 texels
     Analytic, ///< the fit of Karis 2014, without a texture
+};
+template <>
+struct EnumNames<SplitSum> {
+    static constexpr std::array<std::string_view, 2> values{ "table", "analytic" };
 };
 
 /// How often the specular lobe looks up the environment, which stores round lobes for a view along the normal.
@@ -50,6 +65,10 @@ enum class SpecularLookUps : uint8_t {
     Eight,     ///< at eight visible half vectors (Heitz 2018), each as wide as its share of the lobe
     ThirtyTwo, ///< the same with 32: a reference
 };
+template <>
+struct EnumNames<SpecularLookUps> {
+    static constexpr std::array<std::string_view, 4> values{ "dominant", "quadratic", "eight", "thirtyTwo" };
+};
 
 /// How often an anisotropic lobe looks up the environment, along the grain.
 enum class AnisotropicLookUps : uint8_t {
@@ -58,12 +77,20 @@ enum class AnisotropicLookUps : uint8_t {
     Three,
     Nine,
 };
+template <>
+struct EnumNames<AnisotropicLookUps> {
+    static constexpr std::array<std::string_view, 4> values{ "five", "one", "three", "nine" };
+};
 
 /// Source of the environment's diffuse light.
 enum class DiffuseIrradiance : uint8_t {
     SphericalHarmonics, ///< Quality::shBands bands
     LastSpecularLevel,  ///< roughness 1 of the specular environment: no coefficients, a GGX lobe instead of a cosine
     Cube,               ///< a small cube map of irradiance, no truncated bands; lights without one use the coefficients
+};
+template <>
+struct EnumNames<DiffuseIrradiance> {
+    static constexpr std::array<std::string_view, 3> values{ "sphericalHarmonics", "lastSpecularLevel", "cube" };
 };
 
 /// The mip level of a specular environment for a given roughness, chosen when it is loaded. n is the last level.
@@ -72,12 +99,20 @@ enum class RoughnessMapping : uint8_t {
     Logarithmic, ///< n + log2(r^2), at least 0: the lobe doubles its width with every level
     Linear,      ///< n r
 };
+template <>
+struct EnumNames<RoughnessMapping> {
+    static constexpr std::array<std::string_view, 3> values{ "quadratic", "logarithmic", "linear" };
+};
 
 /// Storage of the vertex positions of a glTF file, chosen when it is loaded.
 enum class PositionStorage : uint8_t {
     AsAuthored, ///< floats, or integers if the file is already quantised
     Half,       ///< 11 bits relative to the origin of each mesh
     Unorm16,    ///< 16 bits within the bounding cube of each primitive; a node of the model scales them back
+};
+template <>
+struct EnumNames<PositionStorage> {
+    static constexpr std::array<std::string_view, 3> values{ "asAuthored", "half", "unorm16" };
 };
 
 /// Storage of the tangent frames of a glTF file, one quaternion per vertex, chosen when it is loaded.
@@ -86,12 +121,20 @@ enum class TangentStorage : uint8_t {
     Snorm8,  ///< 4 x 8 bits: error up to a degree
     Float,
 };
+template <>
+struct EnumNames<TangentStorage> {
+    static constexpr std::array<std::string_view, 3> values{ "snorm16", "snorm8", "float" };
+};
 
 /// Precision of the lighting of lit materials; their own code always runs in 32 bits. Materials compiled without
 /// halfPrecision, and devices without 16-bit floats, use Full.
 enum class ShadingPrecision : uint8_t {
     Full, ///< 32 bits
     Half, ///< 16 bits: roughness at least 0.089; the two APIs may round differently
+};
+template <>
+struct EnumNames<ShadingPrecision> {
+    static constexpr std::array<std::string_view, 2> values{ "full", "half" };
 };
 
 /// Filter of the samplers of materials; samplers of the environment do not change.
@@ -100,6 +143,10 @@ enum class TextureFilter : uint8_t {
     Bilinear,    ///< the nearest mip level
     Trilinear,   ///< interpolates between mip levels
     Anisotropic, ///< trilinear along up to 16 probes
+};
+template <>
+struct EnumNames<TextureFilter> {
+    static constexpr std::array<std::string_view, 4> values{ "asAuthored", "bilinear", "trilinear", "anisotropic" };
 };
 
 /// How shadow maps are read. All but Vsm and Evsm are sums of comparisons of single texels, each with the depth of the
@@ -122,34 +169,30 @@ enum class ShadowFilter : uint8_t {
     /// "Layered Variance Shadow Maps".
     Evsm,
 };
+template <>
+struct EnumNames<ShadowFilter> {
+    static constexpr std::array<std::string_view, 9> values{ "pcf3",    "off",  "hard", "pcf2", "pcf5",
+                                                             "poisson", "pcss", "vsm",  "evsm" };
+};
 
 /// How rectangles, discs and tubes shine on the standard material. On others they are representative points.
 enum class AreaLightTerm : uint8_t {
     Ltc,                 ///< linearly transformed cosines, Heitz et al. 2016
     RepresentativePoint, ///< exact for diffuse surfaces; a point in the mean direction of the light for highlights
 };
-
-/// Ambient occlusion by what the depths of the picture show: Effects::ambientOcclusion.
-enum class AmbientOcclusionTerm : uint8_t {
-    Off,
-    /// Scalable ambient obscurance: Quality::aoSamples points of a spiral (McGuire, Mara and Luebke 2012).
-    Sao,
-    /// The visible part of the hemisphere between the horizons of Quality::aoSlices slices (Jimenez et al. 2016,
-    /// "Practical Realtime Strategies for Accurate Indirect Occlusion").
-    Gtao,
-};
-
-/// The pixels for which ambient occlusion is computed; the others take it from neighbours of their depth.
-enum class AmbientOcclusionResolution : uint8_t {
-    Half,         ///< one of four
-    Full,         ///< all
-    Checkerboard, ///< every other one
+template <>
+struct EnumNames<AreaLightTerm> {
+    static constexpr std::array<std::string_view, 2> values{ "ltc", "representativePoint" };
 };
 
 /// What is seen through materials with `refractionMode : screenspace`.
 enum class RefractionSource : uint8_t {
     Screen,      ///< what is opaque in the picture, and the environment where a ray leaves it
     Environment, ///< the environment alone
+};
+template <>
+struct EnumNames<RefractionSource> {
+    static constexpr std::array<std::string_view, 2> values{ "screen", "environment" };
 };
 
 /// How surfaces that blend come over each other.
@@ -163,6 +206,10 @@ enum class TransparencyOrder : uint8_t {
     /// also where surfaces intersect, up to Quality::transparencyLayers.
     Peeled,
 };
+template <>
+struct EnumNames<TransparencyOrder> {
+    static constexpr std::array<std::string_view, 3> values{ "sorted", "weighted", "peeled" };
+};
 
 /// Whether what is opaque leaves its depth before anything is shaded, so that each pixel is shaded once.
 enum class DepthPrepass : uint8_t {
@@ -170,10 +217,18 @@ enum class DepthPrepass : uint8_t {
     On,
     Off, ///< not even then: effects draw depths of their own
 };
+template <>
+struct EnumNames<DepthPrepass> {
+    static constexpr std::array<std::string_view, 3> values{ "auto", "on", "off" };
+};
 
 enum class DepthRange : uint8_t {
     Reversed, ///< near plane 1, infinity 0: the exponent of floats compensates for the perspective
     Ordinary, ///< near plane 0, infinity 1, with the opposite comparison: z-fighting in the distance
+};
+template <>
+struct EnumNames<DepthRange> {
+    static constexpr std::array<std::string_view, 2> values{ "reversed", "ordinary" };
 };
 
 /// How the edges of the picture are smoothed, besides by View::samples.
@@ -184,6 +239,10 @@ enum class AntiAliasing : uint8_t {
     /// Supersampling". The mean of all while nothing moves.
     Taa,
 };
+template <>
+struct EnumNames<AntiAliasing> {
+    static constexpr std::array<std::string_view, 3> values{ "off", "fxaa", "taa" };
+};
 
 /// How the samples of a pixel become its colour, with four samples a pixel.
 enum class MsaaResolve : uint8_t {
@@ -192,11 +251,9 @@ enum class MsaaResolve : uint8_t {
     /// "Tone Mapping". One more pass.
     ToneAware,
 };
-
-/// The largest level of what Effects::bloom scatters.
-enum class BloomResolution : uint8_t {
-    Half,    ///< half of the picture, each way
-    Quarter, ///< a quarter, each way: without the narrowest lobe
+template <>
+struct EnumNames<MsaaResolve> {
+    static constexpr std::array<std::string_view, 2> values{ "average", "toneAware" };
 };
 
 /// Which mip levels of materials' textures are read while frames are gathered (AntiAliasing::Taa).
@@ -205,15 +262,9 @@ enum class MipBias : uint8_t {
     Off,    ///< those of the pixels that are drawn
     Sharp,  ///< one sharper than Output: many frames have many samples a pixel
 };
-
-/// How a picture of which Resolution::scale draws a share becomes as large as the view, after the tone mapper. With
-/// AntiAliasing::Taa and Off, gathering frames does it.
-enum class Upscaling : uint8_t {
-    Off,        ///< everything is drawn at the size of the view, unless frames are gathered
-    Bilinear,   ///< the mean of four pixels
-    CatmullRom, ///< Catmull and Rom's cubic filter: sixteen pixels
-    /// Twelve pixels, by a filter that lies along edges: as AMD's FidelityFX Super Resolution 1 does (Lottes 2021).
-    EdgeAdaptive,
+template <>
+struct EnumNames<MipBias> {
+    static constexpr std::array<std::string_view, 3> values{ "output", "off", "sharp" };
 };
 
 /// How the tone mapper of View::colorGrading is evaluated, together with the transfer function of the display.
@@ -223,12 +274,20 @@ enum class ToneMapping : uint8_t {
     Table32,
     Table64,
 };
+template <>
+struct EnumNames<ToneMapping> {
+    static constexpr std::array<std::string_view, 4> values{ "analytic", "table16", "table32", "table64" };
+};
 
 enum class QualityPreset : uint8_t {
     Low,       ///< the cheapest value of everything
     Medium,    ///< suitable for phones
     High,      ///< the default of Quality
     Reference, ///< the most exact value of everything
+};
+template <>
+struct EnumNames<QualityPreset> {
+    static constexpr std::array<std::string_view, 4> values{ "low", "medium", "high", "reference" };
 };
 
 struct Quality {
@@ -256,28 +315,17 @@ struct Quality {
     /// instead of one where something does. Off: it stops all light.
     bool coloredShadows = false;
     AreaLightTerm areaLights = AreaLightTerm::Ltc;
-    AmbientOcclusionTerm ao = AmbientOcclusionTerm::Off;
-    uint8_t aoSamples = 7; ///< of Sao, [3, 32]
-    uint8_t aoSlices = 2;  ///< of Gtao, [1, 3]
-    AmbientOcclusionResolution aoResolution = AmbientOcclusionResolution::Half;
-    bool aoBlur = true;         ///< smooths the noise of the samples, along surfaces and not across their edges
-    bool aoBentNormals = false; ///< diffuse light comes from the mean direction that is open, reflections by its cone
     RefractionSource refraction = RefractionSource::Screen;
     /// How often the picture is copied for what refracts it, [1, 8]. 1: refracting objects show what is opaque. n: they
     /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.
     uint8_t refractionLayers = 1;
     TransparencyOrder transparency = TransparencyOrder::Sorted;
     uint8_t transparencyLayers =
-            4;                 ///< of Peeled, [1, 8]: all but the last are peeled, the last is what is left, sorted
-    bool ssr = false;          ///< reflections of the picture, on materials that ask for them
-    uint8_t ssrSteps = 48;     ///< cells of the pyramid of distances that a reflected ray visits at most, [8, 255]
-    uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
+            4; ///< of Peeled, [1, 8]: all but the last are peeled, the last is what is left, sorted
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     AntiAliasing antiAliasing = AntiAliasing::Off;
     MsaaResolve msaaResolve = MsaaResolve::Average;
     MipBias mipBias = MipBias::Output;
-    BloomResolution bloomResolution = BloomResolution::Half;
-    Upscaling upscale = Upscaling::Off;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Shaders receive positions relative to the camera, subtracted in double precision. Off: absolute floats, from
@@ -286,76 +334,9 @@ struct Quality {
     friend bool operator==(Quality const&, Quality const&) = default;
 };
 
-const char* toString(SpecularVisibility value);
-const char* toString(FresnelTerm value);
-const char* toString(DiffuseTerm value);
-const char* toString(SplitSum value);
-const char* toString(SpecularLookUps value);
-const char* toString(AnisotropicLookUps value);
-const char* toString(DiffuseIrradiance value);
-const char* toString(RoughnessMapping value);
-const char* toString(PositionStorage value);
-const char* toString(TangentStorage value);
-const char* toString(ShadingPrecision value);
-const char* toString(TextureFilter value);
-const char* toString(AntiAliasing value);
-const char* toString(MsaaResolve value);
-const char* toString(MipBias value);
-const char* toString(BloomResolution value);
-const char* toString(Upscaling value);
-const char* toString(ToneMapping value);
-const char* toString(ShadowFilter value);
-const char* toString(AreaLightTerm value);
-const char* toString(AmbientOcclusionTerm value);
-const char* toString(AmbientOcclusionResolution value);
-const char* toString(RefractionSource value);
-const char* toString(TransparencyOrder value);
-const char* toString(DepthPrepass value);
-const char* toString(DepthRange value);
-const char* toString(QualityPreset value);
-std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name);
-std::optional<FresnelTerm> fresnelTermFromName(std::string_view name);
-std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name);
-std::optional<SplitSum> splitSumFromName(std::string_view name);
-std::optional<SpecularLookUps> specularLookUpsFromName(std::string_view name);
-std::optional<AnisotropicLookUps> anisotropicLookUpsFromName(std::string_view name);
-std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name);
-std::optional<RoughnessMapping> roughnessMappingFromName(std::string_view name);
-std::optional<PositionStorage> positionStorageFromName(std::string_view name);
-std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
-std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
-std::optional<TextureFilter> textureFilterFromName(std::string_view name);
-std::optional<AntiAliasing> antiAliasingFromName(std::string_view name);
-std::optional<MsaaResolve> msaaResolveFromName(std::string_view name);
-std::optional<MipBias> mipBiasFromName(std::string_view name);
-std::optional<BloomResolution> bloomResolutionFromName(std::string_view name);
-std::optional<Upscaling> upscalingFromName(std::string_view name);
-std::optional<ToneMapping> toneMappingFromName(std::string_view name);
-std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);
-std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);
-std::optional<AmbientOcclusionTerm> ambientOcclusionTermFromName(std::string_view name);
-std::optional<AmbientOcclusionResolution> ambientOcclusionResolutionFromName(std::string_view name);
-std::optional<RefractionSource> refractionSourceFromName(std::string_view name);
-std::optional<TransparencyOrder> transparencyOrderFromName(std::string_view name);
-std::optional<DepthPrepass> depthPrepassFromName(std::string_view name);
-std::optional<DepthRange> depthRangeFromName(std::string_view name);
-std::optional<QualityPreset> qualityPresetFromName(std::string_view name);
-
 Quality qualityPreset(QualityPreset preset);
 
-/// One field of Quality and its possible values, for menus, sweeps and help texts.
-struct QualityChoice {
-    std::string_view name;                    ///< "shBands"
-    std::span<const std::string_view> values; ///< all names of an enumeration; for numbers those worth measuring
-};
-std::span<const QualityChoice> qualityChoices();
-
-/// Sets one field by name. NotFound and InvalidArgument list what is valid; `quality` is then unchanged.
-Result<void> setQuality(Quality& quality, std::string_view name, std::string_view value);
-/// The value of one field as text that setQuality() accepts, or nothing for an unknown name.
-std::optional<std::string> qualityValue(Quality const& quality, std::string_view name);
-/// "specularVisibility=fast shBands=2": the fields that differ from the default, in the order of qualityChoices(); or
-/// "default".
+/// "specularVisibility=fast shBands=2": the options that differ from the default, or "default".
 std::string toString(Quality const& quality);
 
 } // namespace filament

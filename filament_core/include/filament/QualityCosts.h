@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// QualityCosts: the time and the error of every value of every quality choice, measured on one machine. The table that
 /// QualityBudget uses.
-///   Choices  the fields of Quality (qualityChoices()), all of which may change every frame. Choices made when a model
-///            or an environment is loaded are not part of a frame's budget and not in the table.
+///   Choices  the options of Quality, all of which may change every frame. Choices made when a model or an environment
+///            is loaded are not part of a frame's budget and not in the table.
 ///   Time     device time of a whole frame with this value and everything else at its default. Only the ratio to the
 ///            default value of the same choice is used: both are measured in turns, so that the machine's load cancels
 ///            out. On CPU drivers (llvmpipe) it is a ratio of processor times, which excludes other processes.
@@ -35,7 +35,7 @@ struct QualityCost {
         double milliseconds = 0;
         double lowRatio = 1, highRatio = 1; ///< 99 % confidence interval of the ratio to the default value's time
     };
-    std::string value; ///< text that setQuality() accepts
+    std::string value; ///< text that setOption() accepts
     double error = 0;  ///< relative, [0, 100]
     Time vulkan{}, gles{};
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// RenderPreset: settings of a whole view by name: the approximations of shading, which effects run, and how exactly.
-///   Use      applyPreset(view, *renderPresetFromName("balanced")); then change what should differ.
-///   Scope    sets View::quality and View::samples, and switches bloom and motion blur. What effects look like (how
-///            strong, how far), and those that are a matter of taste, stay as they are: grading, fog, depth of field,
-///            vignette, ...
-///   Demand   as always: an effect runs only if something visible asks for it.
+///   Use      applyPreset(view, RenderPreset::Balanced); then change what should differ.
+///   Scope    sets View::quality, View::samples, switch and exactness of ambient occlusion, screen-space reflections,
+///            contact shadows and bloom, and the switch of motion blur. How effects look (strength, radius), and those
+///            that are a matter of taste, stay as they are: grading, fog, depth of field, vignette, ...
 ///   Thread: any.   Fails: never.
 #pragma once
 
 #include <filament/View.h>
 
-#include <optional>
+#include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace filament {
@@ -22,10 +22,11 @@ enum class RenderPreset : uint8_t {
     Cinematic, ///< QualityPreset::Reference, all of that at full resolution, and motion blur
 };
 
-void applyPreset(View& view, RenderPreset preset);
+template <>
+struct EnumNames<RenderPreset> {
+    static constexpr std::array<std::string_view, 4> values{ "fast", "balanced", "fine", "cinematic" };
+};
 
-/// "fast", "balanced", "fine" and "cinematic".
-const char* toString(RenderPreset preset);
-std::optional<RenderPreset> renderPresetFromName(std::string_view name);
+void applyPreset(View& view, RenderPreset preset);
 
 } // namespace filament

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// View: a camera and the settings of its picture. A plain value.
+/// View: a camera and the settings of its image. A plain value; its options by name: setOption() (Options.h).
 #pragma once
 
 #include <filament/Camera.h>
 #include <filament/ColorGrading.h>
 #include <filament/Effects.h>
 #include <filament/Objects.h>
+#include <filament/Options.h>
 #include <filament/Quality.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -54,20 +56,41 @@ enum class DebugView : uint8_t {
     Wireframe,         ///< the edges of visible triangles, over the picture
     WireframeAlone,    ///< the same without the picture
 };
-inline constexpr size_t kDebugViewCount = static_cast<size_t>(DebugView::WireframeAlone) + 1;
-/// "none", "cascades", ..., "wireframeAlone": the names of debugViewNames(), as in filament-render --set
-/// debugView=froxels.
-const char* toString(DebugView debugView);
-std::optional<DebugView> debugViewFromName(std::string_view name);
-/// All of them with commas between them, for help texts and errors.
-constexpr const char* debugViewNames() {
-    return "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction, fog, motion, "
-           "circleOfConfusion, historyWeight, histogram, luminance, numerics, baseColor, roughness, metallic, normals, "
-           "tangents, textureCoordinates, materialOcclusion, emissive, mipLevel, overdraw, transparentLayers, "
-           "wireframe or wireframeAlone";
-}
+template <>
+struct EnumNames<DebugView> {
+    static constexpr std::array<std::string_view, 29> values{ "none",
+                                                              "cascades",
+                                                              "atlas",
+                                                              "froxels",
+                                                              "lights",
+                                                              "occlusion",
+                                                              "bentNormals",
+                                                              "reflections",
+                                                              "refraction",
+                                                              "fog",
+                                                              "motion",
+                                                              "circleOfConfusion",
+                                                              "historyWeight",
+                                                              "histogram",
+                                                              "luminance",
+                                                              "numerics",
+                                                              "baseColor",
+                                                              "roughness",
+                                                              "metallic",
+                                                              "normals",
+                                                              "tangents",
+                                                              "textureCoordinates",
+                                                              "materialOcclusion",
+                                                              "emissive",
+                                                              "mipLevel",
+                                                              "overdraw",
+                                                              "transparentLayers",
+                                                              "wireframe",
+                                                              "wireframeAlone" };
+};
+inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 
-/// What becomes of the pixels that a target has already.
+/// Load operation of the target.
 enum class TargetContents : uint8_t {
     Keep,  ///< they stay where the view draws nothing. In a swap chain the view joins the image that was rendered last
     Clear, ///< all of the target becomes Viewport::clearColor before the view is drawn
@@ -91,8 +114,8 @@ struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
     ColorGrading colorGrading{};
-    Quality quality{}; ///< the approximations that shading uses
-    Effects effects{}; ///< what effects show; which of them are on is a choice of `quality`, but for the fog
+    Quality quality{};               ///< the approximations that shading uses
+    Effects effects{};               ///< screen-space and post-processing effects, each with its switch
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< MSAA: 1 or 4
     DebugView debugView = DebugView::None;

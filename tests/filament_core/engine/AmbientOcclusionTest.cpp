@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality::ao on both APIs: visibilities are compared with rays that are traced through the same squares on the CPU;
-// what it must not change has the bits that it had.
+// Effects::ambientOcclusion on both APIs: visibilities are compared with rays that are traced through the same squares
+// on the CPU; what it must not change has the bits that it had.
 #include "tests/filament_core/engine/ShadowStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 
@@ -10,10 +10,10 @@ namespace filament {
 namespace {
 
 using test::kBothApis;
-using Term = AmbientOcclusionTerm;
+using Method = AmbientOcclusionMethod;
 using Resolution = AmbientOcclusionResolution;
 
-constexpr Term kTerms[] = { Term::Sao, Term::Gtao };
+constexpr Method kMethods[] = { Method::Sao, Method::Gtao };
 constexpr Resolution kResolutions[] = { Resolution::Full, Resolution::Half, Resolution::Checkerboard };
 
 // ---- squares, on the device and on the CPU
@@ -123,12 +123,13 @@ struct OcclusionStage : test::ShadowStage {
     }
 };
 
-View occludedView(double3 eye, double3 at, Term term, double radius, uint2 size = { 96, 64 }) {
+View occludedView(double3 eye, double3 at, Method method, double radius, uint2 size = { 96, 64 }) {
     View view{ .camera = Camera::lookAt(eye, at, { .verticalFovDegrees = 50, .nearMeters = 0.05f }, {}, { 0, 0, 1 }),
                .size = size };
     view.quality.shadows = ShadowFilter::Off;
-    view.quality.ao = term;
-    view.quality.aoResolution = Resolution::Full;
+    view.effects.ambientOcclusion.enabled = true;
+    view.effects.ambientOcclusion.method = method;
+    view.effects.ambientOcclusion.resolution = Resolution::Full;
     view.effects.ambientOcclusion.radiusMeters = static_cast<float>(radius);
     return view;
 }
@@ -170,14 +171,14 @@ TEST(AmbientOcclusion, APlaneIsOpenFromEveryDirection) {
     const std::array squares{ placed({ 0, 0, 0 }, double3(50)) };
     for (const Backend backend : kBothApis) {
         OcclusionStage stage(backend);
-        for (const Term term : kTerms) {
+        for (const Method method : kMethods) {
             for (const double3 eye : { double3(0.1, 0, 2), double3(2, 1, 0.6), double3(5, 0, 0.3) }) {
-                const View view = occludedView(eye, { 0, 0, 0 }, term, 0.5);
+                const View view = occludedView(eye, { 0, 0, 0 }, method, 0.5);
                 const Image image = stage.drawVisibility(stage.sceneOf(squares, view), view);
                 int closed = 0; // where a corner of the plane has no two pixels to either side
                 for (uint32_t y = 0; y < view.size.y; ++y)
                     for (uint32_t x = 0; x < view.size.x; ++x) closed += test::bytePixel(image, x, y).x < 254.0f / 255;
-                EXPECT_LE(closed, 20) << toString(backend) << ' ' << toString(term) << ' ' << eye.z;
+                EXPECT_LE(closed, 20) << toString(backend) << ' ' << toString(method) << ' ' << eye.z;
             }
         }
     }
@@ -210,19 +211,19 @@ TEST(AmbientOcclusion, IsThatOfTracedRaysOfTheSameRadius) {
     OcclusionStage stage(Backend::Vulkan);
     for (ClosedForm const& form : closedForms()) {
         const Visibilities traced =
-                tracedVisibilities(occludedView(form.eye, { 0, 0, 0.15 }, Term::Off, 0.4), form.squares);
-        for (const Term term : kTerms) {
-            View view = occludedView(form.eye, { 0, 0, 0.15 }, term, 0.4);
-            view.quality.aoSamples = 16;
-            view.quality.aoSlices = 3;
+                tracedVisibilities(occludedView(form.eye, { 0, 0, 0.15 }, Method::Gtao, 0.4), form.squares);
+        for (const Method method : kMethods) {
+            View view = occludedView(form.eye, { 0, 0, 0.15 }, method, 0.4);
+            view.effects.ambientOcclusion.samples = 16;
+            view.effects.ambientOcclusion.slices = 3;
             const Scene scene = stage.sceneOf(form.squares, view);
             const double error = errorOf(stage.drawVisibility(scene, view), traced);
-            const double most = term == Term::Sao ? form.mostOfSao : form.mostOfGtao;
-            EXPECT_LT(error, most) << form.name << ' ' << toString(term);
-            RecordProperty(std::string(form.name) + toString(term), std::to_string(error));
+            const double most = method == Method::Sao ? form.mostOfSao : form.mostOfGtao;
+            EXPECT_LT(error, most) << form.name << ' ' << toString(method);
+            RecordProperty(std::string(form.name) + toString(method), std::to_string(error));
             view.effects.ambientOcclusion.radiusMeters = 0.8f; // twice of what was asked: the bound notices
             const Image wrong = stage.drawVisibility(scene, view);
-            EXPECT_GT(errorOf(wrong, traced), most) << form.name << ' ' << toString(term);
+            EXPECT_GT(errorOf(wrong, traced), most) << form.name << ' ' << toString(method);
         }
     }
 }
@@ -232,10 +233,10 @@ TEST(AmbientOcclusion, IsThatOfTracedRaysOfTheSameRadius) {
 TEST(AmbientOcclusion, IsFiniteForAnyRadiusAndPlace) {
     const std::array squares{ placed({ 0, 0, 0 }), placed({ -0.3, 0, 1 }, double3(1), glm::half_pi<double>()) };
     OcclusionStage stage(Backend::Vulkan);
-    for (const Term term : kTerms) {
+    for (const Method method : kMethods) {
         for (const double radius : { 1e-3, 0.3, 1e3 }) {
-            View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, term, radius, { 33, 21 });
-            view.quality.aoBentNormals = true;
+            View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, method, radius, { 33, 21 });
+            view.effects.ambientOcclusion.bentNormals = true;
             const Scene scene = stage.sceneOf(squares, view);
             const Image image = test::renderLinear(stage.engine, scene, view);
             const test::Extremes found = test::extremesOf(image);
@@ -245,7 +246,7 @@ TEST(AmbientOcclusion, IsFiniteForAnyRadiusAndPlace) {
             EXPECT_EQ(test::bytePixel(visibility, 0, 0).x, 1.0f) << "the sky is open";
         }
         // From 10^7 m away, through a lens of as much: as from nearby, but for the perspective.
-        View view = occludedView({ 1.6e7, -0.8e7, 1.1e7 }, { 0, 0, 0 }, term, 0.4, { 33, 21 });
+        View view = occludedView({ 1.6e7, -0.8e7, 1.1e7 }, { 0, 0, 0 }, method, 0.4, { 33, 21 });
         view.camera.lens.verticalFovDegrees = 6e-6f;
         const Image far = stage.drawVisibility(stage.sceneOf(squares, view), view);
         for (uint32_t y = 0; y < far.height; ++y)
@@ -258,9 +259,10 @@ TEST(AmbientOcclusion, IsFiniteForAnyRadiusAndPlace) {
 TEST(AmbientOcclusion, LeavesEverythingElseAlone) {
     const std::array squares{ placed({ 0, 0, 0 }), placed({ -0.3, 0, 1 }, double3(1), glm::half_pi<double>()) };
     OcclusionStage stage(Backend::Vulkan);
-    View off = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Term::Off, 0.4);
+    View off = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Method::Gtao, 0.4);
+    off.effects.ambientOcclusion.enabled = false;
     View on = off;
-    on.quality.ao = Term::Gtao;
+    on.effects.ambientOcclusion.enabled = true;
     Scene scene = stage.sceneOf(squares, off);
     scene.add(SunLight{ .directionWorld = { -0.4f, 0.3f, -1 }, .illuminance = Lux{ 20'000 } });
     const Image plain = test::renderLinear(stage.engine, scene, off),
@@ -289,7 +291,7 @@ TEST(AmbientOcclusion, DarkensWhiteSurfacesByTheVisibilityThatItShows) {
                 material.reflectance = 0.0;
             } })");
     const Owned<MaterialInstance> plaster = stage.engine.own(stage.engine.createInstance(chalk));
-    View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Term::Gtao, 0.4);
+    View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Method::Gtao, 0.4);
     Scene scene(stage.engine);
     for (Placed const& one : squares) stage.square.add(scene, plaster, one.world);
     stage.environment.light(scene, view.camera);
@@ -315,13 +317,13 @@ TEST(AmbientOcclusion, HasTheSameBitsOnBothApis) {
     }
     OcclusionStage vulkan(Backend::Vulkan), gles(Backend::Gles);
     for (int i = 0; i < 24; ++i) {
-        View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, kTerms[i % 2], random.within(0.05, 1),
+        View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, kMethods[i % 2], random.within(0.05, 1),
                                  { 31u + static_cast<uint32_t>(i % 5), 20u + static_cast<uint32_t>(i % 3) });
-        view.quality.aoResolution = kResolutions[i % 3];
-        view.quality.aoBlur = i % 4 != 3;
-        view.quality.aoBentNormals = i % 5 == 1 || i % 5 == 4;
-        view.quality.aoSamples = static_cast<uint8_t>(3 + i);
-        view.quality.aoSlices = static_cast<uint8_t>(1 + i / 2 % 3);
+        view.effects.ambientOcclusion.resolution = kResolutions[i % 3];
+        view.effects.ambientOcclusion.blur = i % 4 != 3;
+        view.effects.ambientOcclusion.bentNormals = i % 5 == 1 || i % 5 == 4;
+        view.effects.ambientOcclusion.samples = static_cast<uint8_t>(3 + i);
+        view.effects.ambientOcclusion.slices = static_cast<uint8_t>(1 + i / 2 % 3);
         view.samples = i % 7 == 3 ? 4 : 1;
         if (i % 6 == 5) view.quality.depthPrepass = DepthPrepass::Off;
         view.effects.ambientOcclusion.intensity = i % 8 == 6 ? 1.7f : 1.0f;

@@ -27,7 +27,7 @@ constexpr BackwardLook kBackwardLooks[] = {
           view.effects.motionBlur.shutterDegrees = 360;
       } },
     { "taa", [](View& view) { view.quality.antiAliasing = AntiAliasing::Taa; } },
-    { "ssr", [](View& view) { view.quality.ssr = true; } },
+    { "ssr", [](View& view) { view.effects.screenSpaceReflections.enabled = true; } },
     { "autoExposure", [](View& view) { view.effects.autoExposure.enabled = true; } },
     { "shadows", [](View& view) { view.quality.shadows = ShadowFilter::Pcf3; }, false },
     { "motion", [](View& view) { view.debugView = DebugView::Motion; } },
@@ -59,7 +59,7 @@ struct TwoRooms {
                    .timeSeconds = 10 + steps };
         view.quality.shadows = ShadowFilter::Off;
         view.quality.shadowMapSize = 256;
-        view.effects.reflections = { .distanceMeters = 20, .thicknessMeters = 0.5f };
+        view.effects.screenSpaceReflections = { .distanceMeters = 20, .thicknessMeters = 0.5f };
         look.enable(view);
         return view;
     }

@@ -50,15 +50,16 @@ TEST(BesideObjects, AmbientOcclusionHasTheBitsOfOneThatIsDrawnEverywhere) {
         prepare::Random random(11);
         for (uint32_t i = 0; i < 24; ++i) {
             View view = viewOf({ 61 + i % 3, 40 + i % 2 }, random.within(-1.8, 1.8)); // some are cut off by an edge
-            view.quality.ao = i % 2 ? AmbientOcclusionTerm::Gtao : AmbientOcclusionTerm::Sao;
-            view.quality.aoResolution = i % 3 == 0   ? Resolution::Half
-                                        : i % 3 == 1 ? Resolution::Full
-                                                     : Resolution::Checkerboard;
-            view.quality.aoBlur = i % 8 < 6;
-            view.quality.aoBentNormals = i % 5 < 2;
+            view.effects.ambientOcclusion.enabled = true;
+            view.effects.ambientOcclusion.method = i % 2 ? AmbientOcclusionMethod::Gtao : AmbientOcclusionMethod::Sao;
+            view.effects.ambientOcclusion.resolution = i % 3 == 0   ? Resolution::Half
+                                                       : i % 3 == 1 ? Resolution::Full
+                                                                    : Resolution::Checkerboard;
+            view.effects.ambientOcclusion.blur = i % 8 < 6;
+            view.effects.ambientOcclusion.bentNormals = i % 5 < 2;
             view.samples = i % 7 == 3 ? 4 : 1;
-            view.effects.ambientOcclusion = { .radiusMeters = static_cast<float>(random.within(0.05, 1)),
-                                              .intensity = i % 4 == 3 ? 2.0f : 1.0f };
+            view.effects.ambientOcclusion.radiusMeters = static_cast<float>(random.within(0.05, 1));
+            view.effects.ambientOcclusion.intensity = i % 4 == 3 ? 2.0f : 1.0f;
             Scene scene(stage.engine);
             environment.light(scene, view.camera);
             addBoxes(stage, scene, random);

@@ -88,7 +88,7 @@ TEST(Bloom, SpreadsLightAsFarAsTheSumOfItsLobes) {
         for (const auto& [radius, levels] : { std::pair(0.004f, 1), std::pair(0.03f, 3), std::pair(0.0625f, 4) }) {
             const Image spread = pictureOfLamp(64, 1 / 128.0, [resolution, radius = radius](View& view) {
                 view.effects.bloom = { .enabled = true, .strength = 1, .radius = radius };
-                view.quality.bloomResolution = resolution;
+                view.effects.bloom.resolution = resolution;
             });
             const double ofLamp = 0.25; // two pixels, each half a pixel off the middle
             const int drawn = resolution == BloomResolution::Half ? levels : std::max(1, levels - 1);
@@ -103,7 +103,7 @@ TEST(Bloom, OfAQuarterKeepsLightInItsPlace) {
     for (int i = 0; i < 8; ++i) {
         const auto blooming = [](View& view) {
             view.effects.bloom = { .enabled = true, .strength = 1, .radius = 0.03f };
-            view.quality.bloomResolution = BloomResolution::Quarter;
+            view.effects.bloom.resolution = BloomResolution::Quarter;
         };
         const Image spread = pictureOfLamp(64, 1 / 128.0, blooming, { i / 128.0, 0 });
         EXPECT_NEAR(middleOf(spread), i, 0.02) << "pixels to the right";
@@ -116,7 +116,7 @@ TEST(Bloom, MovesLightAndAddsNone) {
         for (const float strength : { 0.1f, 0.5f, 1.0f }) {
             const Image image = pictureOfLamp(8, 0.25, [&](View& view) {
                 view.effects.bloom = { .enabled = true, .strength = strength, .radius = 0.05f };
-                view.quality.bloomResolution = resolution;
+                view.effects.bloom.resolution = resolution;
             });
             EXPECT_NEAR(sumOf(image), before, 0.005 * before) << strength << " " << toString(resolution);
             EXPECT_GT(halfPixel(image, 92, 128).x, 0.0f) << "beside the lamp";
@@ -129,7 +129,7 @@ TEST(Bloom, LeavesAnEvenPictureAlone) {
     for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
         const Image image = pictureOfLamp(0.75f, 4, [resolution](View& view) {
             view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = 0.3f };
-            view.quality.bloomResolution = resolution;
+            view.effects.bloom.resolution = resolution;
         });
         const test::Extremes found = test::extremesOf(image);
         EXPECT_NEAR(found.least, 0.75f, 2e-3f) << toString(resolution);
@@ -152,7 +152,7 @@ TEST(Bloom, IsFiniteAtItsEndsAndInAllSizes) {
                     view.size = size;
                     view.samples = samples;
                     view.effects.bloom = { .enabled = true, .strength = 0.5f, .radius = radius };
-                    view.quality.bloomResolution = samples == 1 ? BloomResolution::Quarter : BloomResolution::Half;
+                    view.effects.bloom.resolution = samples == 1 ? BloomResolution::Quarter : BloomResolution::Half;
                 });
                 EXPECT_GE(test::extremesOf(image).least, 0);
             }

@@ -142,8 +142,8 @@ TEST(Compilations, MovingPicturesCompileNothing) {
 
 TEST(Compilations, MovingPicturesWithEffectsCompileNothing) {
     expectNoFurtherPrograms([](View& view) {
-        view.quality.ssr = true;
-        view.quality.ao = AmbientOcclusionTerm::Gtao;
+        view.effects.screenSpaceReflections.enabled = true;
+        view.effects.ambientOcclusion.enabled = true;
         view.quality.antiAliasing = AntiAliasing::Taa;
         Effects& effects = view.effects;
         effects.fog.enabled = effects.bloom.enabled = effects.depthOfField.enabled = true;

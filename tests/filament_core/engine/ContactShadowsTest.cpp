@@ -26,7 +26,7 @@ View contactView(double3 eye, double3 at, double scale, uint2 size = { 96, 72 })
     view.quality.shadows = ShadowFilter::Off;
     view.effects.contactShadows.distanceMeters = static_cast<float>(0.3 * scale);
     view.effects.contactShadows.thicknessMeters = static_cast<float>(0.1 * scale);
-    view.quality.contactSteps = 64;
+    view.effects.contactShadows.steps = 64;
     return view;
 }
 

@@ -445,7 +445,7 @@ TEST(DebugSurfaces, DrawNothingBesideThem) {
         stage.add(stage.material(test::text("shadingModel : lit", ""), 0), { 0, 0, -3 }, 4);
         stage.scene.add(SunLight{ .directionWorld = { 0.2f, -0.6f, -1 }, .illuminance = Lux{ 100'000 } });
         stage.view.quality.shadows = ShadowFilter::Pcf3;
-        stage.view.quality.ao = AmbientOcclusionTerm::Gtao;
+        stage.view.effects.ambientOcclusion.enabled = true;
         stage.view.effects.bloom.enabled = stage.view.effects.fog.enabled = true;
         const Image image = stage.draw(DebugView::Roughness);
         EXPECT_EQ(stage.renderer.statistics().passesRun, 2u) << stage.renderer.explain();

@@ -54,11 +54,11 @@ using Set = void (*)(View& view);
 constexpr std::pair<const char*, Set> kEffects[] = {
     { "ambient occlusion",
       [](View& view) {
-          view.quality.ao = AmbientOcclusionTerm::Gtao;
-          view.quality.aoResolution = AmbientOcclusionResolution::Full;
+          view.effects.ambientOcclusion.enabled = true;
+          view.effects.ambientOcclusion.resolution = AmbientOcclusionResolution::Full;
           view.effects.ambientOcclusion.radiusMeters = 0.8f;
       } },
-    { "reflections", [](View& view) { view.quality.ssr = true; } },
+    { "reflections", [](View& view) { view.effects.screenSpaceReflections.enabled = true; } },
     { "bloom",
       [](View& view) {
           view.effects.bloom.enabled = true;
@@ -162,7 +162,7 @@ TEST(GuardBand, HasTheSameBitsOnBothApisBesideEveryEffect) {
                         view.quality.msaaResolve = MsaaResolve::ToneAware;
                     } });
     sets.push_back({ "fewer pixels", [](View& view) {
-                        view.quality.upscale = Upscaling::EdgeAdaptive;
+                        view.effects.resolution.upscaling = Upscaling::EdgeAdaptive;
                         view.effects.resolution.scale = float2(0.6f, 0.8f);
                         view.effects.bloom.enabled = true;
                     } });

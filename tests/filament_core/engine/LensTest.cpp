@@ -158,21 +158,22 @@ struct LensStage {
 };
 
 std::vector<LensCase> lensCases() {
-    const auto ao = [](AmbientOcclusionTerm term, AmbientOcclusionResolution resolution, bool bent) {
+    const auto ao = [](AmbientOcclusionMethod method, AmbientOcclusionResolution resolution, bool bent) {
         return [=](View& view) {
-            view.quality.ao = term;
-            view.quality.aoResolution = resolution;
-            view.quality.aoBentNormals = bent;
+            view.effects.ambientOcclusion.enabled = true;
+            view.effects.ambientOcclusion.method = method;
+            view.effects.ambientOcclusion.resolution = resolution;
+            view.effects.ambientOcclusion.bentNormals = bent;
             view.effects.ambientOcclusion.radiusMeters = 0.5f;
         };
     };
-    using Term = AmbientOcclusionTerm;
+    using Method = AmbientOcclusionMethod;
     using Resolution = AmbientOcclusionResolution;
     return {
-        { "gtao", ao(Term::Gtao, Resolution::Full, false), 0.15f },
-        { "sao half", ao(Term::Sao, Resolution::Half, false), 0.25f },
-        { "gtao checkerboard", ao(Term::Gtao, Resolution::Checkerboard, false), 0.25f },
-        { "bent normals", ao(Term::Gtao, Resolution::Full, true), 0.15f },
+        { "gtao", ao(Method::Gtao, Resolution::Full, false), 0.15f },
+        { "sao half", ao(Method::Sao, Resolution::Half, false), 0.25f },
+        { "gtao checkerboard", ao(Method::Gtao, Resolution::Checkerboard, false), 0.25f },
+        { "bent normals", ao(Method::Gtao, Resolution::Full, true), 0.15f },
         { "shadows", [](View& view) { view.quality.shadows = ShadowFilter::Pcf3; }, 0.15f },
         { "fog",
           [](View& view) {
@@ -266,7 +267,7 @@ TEST_P(LensTest, EveryFrameOfAMovingParallelCameraIsFinite) {
                                             { 0, 0, 1 }),
                    .size = { 64, 48 } };
         for (LensCase const& other : lensCases()) other.turnOn(view);
-        view.quality.ssr = true;
+        view.effects.screenSpaceReflections.enabled = true;
         view.effects.motionBlur.enabled = true;
         view.quality.antiAliasing = AntiAliasing::Taa;
         test::extremesOf(test::renderLinear(crowd.stage.engine, renderer, crowd.scene, view));

@@ -250,7 +250,7 @@ TEST(Motion, CostsNothingWhereNoEffectAsks) {
         Panel panel(backend, kPanelText);
         panel.addPlain();
         panel.view.debugView = DebugView::None;
-        panel.view.quality.ssr = true; // nothing reflects
+        panel.view.effects.screenSpaceReflections.enabled = true; // nothing reflects
         panel.draw();
         const FrameStatistics still = panel.renderer.statistics();
         panel.scene.setTransform(panel.panel, double4x4(moved(1)));

@@ -278,10 +278,10 @@ TEST(MsaaResolve, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
         { "focus",
           [](View& view) { view.effects.depthOfField = { .enabled = true, .focusMeters = 1, .blurScale = 60 }; } },
         { "exposure", [](View& view) { view.effects.autoExposure.enabled = true; } },
-        { "occlusion", [](View& view) { view.quality.ao = AmbientOcclusionTerm::Gtao; } },
+        { "occlusion", [](View& view) { view.effects.ambientOcclusion.enabled = true; } },
         { "fewer pixels",
           [](View& view) {
-              view.quality.upscale = Upscaling::EdgeAdaptive, view.effects.resolution.scale = float2(0.6f);
+              view.effects.resolution.upscaling = Upscaling::EdgeAdaptive, view.effects.resolution.scale = float2(0.6f);
           } },
     };
     for (auto const& [name, set] : effects) {

@@ -52,7 +52,7 @@ Image patterned(std::string const& formula, uint2 size, SetView const& set, Form
 
 SetView enlarged(Upscaling filter, float2 scale) {
     return [=](View& view) {
-        view.quality.upscale = filter;
+        view.effects.resolution.upscaling = filter;
         view.effects.resolution.scale = scale;
     };
 }
@@ -180,16 +180,16 @@ TEST(Upscaling, OfAllPixelsCostsNothing) {
         const Image before = fan.draw();
         const FrameStatistics off = fan.renderer.statistics();
         for (const Upscaling filter : kUpscalings) {
-            fan.view.quality.upscale = filter;
+            fan.view.effects.resolution.upscaling = filter;
             EXPECT_EQ(test::differingPixels(fan.draw(), before), 0u);
             EXPECT_EQ(fan.renderer.statistics().passesRun, off.passesRun);
             EXPECT_NE(fan.renderer.explain().find("its values change nothing"), std::string::npos);
         }
-        fan.view.quality.upscale = Upscaling::Off;
+        fan.view.effects.resolution.upscaling = Upscaling::Off;
         fan.view.effects.resolution.scale = float2(0.5f);
         EXPECT_EQ(test::differingPixels(fan.draw(), before), 0u) << "nothing would enlarge it";
         EXPECT_NE(fan.renderer.explain().find("switched off: upscale=off"), std::string::npos);
-        fan.view.quality.upscale = Upscaling::EdgeAdaptive;
+        fan.view.effects.resolution.upscaling = Upscaling::EdgeAdaptive;
         fan.draw();
         EXPECT_NE(fan.renderer.explain().find("48 x 40 pixels are drawn"), std::string::npos) << fan.renderer.explain();
         fan.view.debugView = DebugView::Lights;

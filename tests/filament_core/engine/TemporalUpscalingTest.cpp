@@ -35,7 +35,7 @@ TEST(TemporalUpscaling, OfAStillCameraConvergesToSupersamplingOfAllPixels) {
 TEST(TemporalUpscaling, InMotionIsNearerToSupersamplingThanTheFilterOfSingleFrames) {
     constexpr float kScale = 0.67f;
     const auto interpolate = [](View& view) {
-        view.quality.upscale = Upscaling::Bilinear;
+        view.effects.resolution.upscaling = Upscaling::Bilinear;
         view.effects.resolution.scale = float2(kScale);
     };
     for (auto const& [name, move] : test::kFanMotions) {
@@ -72,7 +72,7 @@ TEST(TemporalUpscaling, LeavesNoGhosts) {
         worst = std::max(worst, rmsBetween(fan.draw(), fan.supersampled()));
     }
     fan.view.quality.antiAliasing = AntiAliasing::Off;
-    fan.view.quality.upscale = Upscaling::Bilinear;
+    fan.view.effects.resolution.upscaling = Upscaling::Bilinear;
     EXPECT_LT(worst, 1.1 * rmsBetween(fan.draw(), fan.supersampled()));
 }
 
@@ -97,7 +97,7 @@ TEST(TemporalUpscaling, IsLeftToTheFilterIfThereIsOne) {
     gather(fan.view, float2(0.5f));
     fan.draw();
     EXPECT_EQ(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
-    fan.view.quality.upscale = Upscaling::EdgeAdaptive;
+    fan.view.effects.resolution.upscaling = Upscaling::EdgeAdaptive;
     fan.draw();
     EXPECT_NE(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
 }
@@ -113,8 +113,8 @@ TEST(TemporalUpscaling, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
         effects.bloom.enabled = effects.autoExposure.enabled = effects.vignette.enabled = effects.grain.enabled = true;
         effects.chromaticAberration.enabled = effects.sharpening.enabled = true;
         effects.depthOfField = { .enabled = true, .focusMeters = 2, .blurScale = 40 };
-        fan.view.quality.ao = AmbientOcclusionTerm::Gtao;
-        fan.view.quality.ssr = true;
+        fan.view.effects.ambientOcclusion.enabled = true;
+        fan.view.effects.screenSpaceReflections.enabled = true;
         for (int frame = 0; frame < 4; ++frame) {
             fan.turn(0.3 * frame);
             images.push_back(std::move(*fan.renderer.renderToImage(fan.scene, fan.view)));
@@ -147,9 +147,11 @@ TEST(DynamicResolution, ShrinksThePictureOnlyWhenFramesTakeTooLong) {
                 Renderer renderer(fan.engine, { .passTimers = hasTimers });
                 fan.view.size = { 400, 300 };
                 fan.view.quality.antiAliasing = isGathered ? AntiAliasing::Taa : AntiAliasing::Off;
-                fan.view.quality.upscale = isGathered ? Upscaling::Off : Upscaling::Bilinear;
                 Resolution& resolution = fan.view.effects.resolution;
-                resolution = { .dynamic = true, .targetMilliseconds = 1000, .history = 2 };
+                resolution = { .upscaling = isGathered ? Upscaling::Off : Upscaling::Bilinear,
+                               .dynamic = true,
+                               .targetMilliseconds = 1000,
+                               .history = 2 };
                 for (int frame = 0; frame < 8; ++frame) fan.draw(renderer);
                 EXPECT_NE(renderer.explain().find("its values change nothing"), std::string::npos);
                 resolution.targetMilliseconds = 0.1f;

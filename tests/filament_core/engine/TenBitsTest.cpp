@@ -96,7 +96,7 @@ TEST(TenBits, StayTenThroughTheLastPasses) {
     EXPECT_TRUE(kept([](View& view) { view.quality.antiAliasing = AntiAliasing::Fxaa; }));
     EXPECT_TRUE(kept([](View& view) { view.effects.sharpening.enabled = true; }));
     EXPECT_TRUE(kept([](View& view) {
-        view.quality.upscale = Upscaling::Bilinear;
+        view.effects.resolution.upscaling = Upscaling::Bilinear;
         view.effects.resolution.scale = float2(0.5f, 1);
     }));
     EXPECT_TRUE(kept([](View& view) {

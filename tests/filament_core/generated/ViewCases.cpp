@@ -97,9 +97,9 @@ std::vector<ViewFactor> factorsOfPixels() {
             { "taa", [](ViewCase& c) { c.view.quality.antiAliasing = AntiAliasing::Taa; } } } },
         { "upscale",
           { { "off", [](ViewCase&) {} },
-            { "bilinear", [](ViewCase& c) { c.view.quality.upscale = Upscaling::Bilinear; } },
-            { "catmullRom", [](ViewCase& c) { c.view.quality.upscale = Upscaling::CatmullRom; } },
-            { "edgeAdaptive", [](ViewCase& c) { c.view.quality.upscale = Upscaling::EdgeAdaptive; } } } },
+            { "bilinear", [](ViewCase& c) { c.view.effects.resolution.upscaling = Upscaling::Bilinear; } },
+            { "catmullRom", [](ViewCase& c) { c.view.effects.resolution.upscaling = Upscaling::CatmullRom; } },
+            { "edgeAdaptive", [](ViewCase& c) { c.view.effects.resolution.upscaling = Upscaling::EdgeAdaptive; } } } },
         { "scale",
           { { "1", [](ViewCase&) {} },
             { "0.5", [](ViewCase& c) { c.view.effects.resolution.scale = float2(0.5f); } },
@@ -135,14 +135,20 @@ std::vector<ViewFactor> factorsOfLight() {
               } } } },
         { "ao",
           { { "off", [](ViewCase&) {} },
-            { "sao", [](ViewCase& c) { c.view.quality.ao = AmbientOcclusionTerm::Sao; } },
+            { "sao",
+              [](ViewCase& c) {
+                  c.view.effects.ambientOcclusion.enabled = true;
+                  c.view.effects.ambientOcclusion.method = AmbientOcclusionMethod::Sao;
+              } },
             { "gtao",
               [](ViewCase& c) {
-                  c.view.quality.ao = AmbientOcclusionTerm::Gtao;
-                  c.view.quality.aoResolution = AmbientOcclusionResolution::Checkerboard;
-                  c.view.quality.aoBentNormals = true;
+                  c.view.effects.ambientOcclusion.enabled = true;
+                  c.view.effects.ambientOcclusion.resolution = AmbientOcclusionResolution::Checkerboard;
+                  c.view.effects.ambientOcclusion.bentNormals = true;
               } } } },
-        { "ssr", { { "off", [](ViewCase&) {} }, { "on", [](ViewCase& c) { c.view.quality.ssr = true; } } } },
+        { "ssr",
+          { { "off", [](ViewCase&) {} },
+            { "on", [](ViewCase& c) { c.view.effects.screenSpaceReflections.enabled = true; } } } },
         { "refraction",
           { { "environment", [](ViewCase& c) { c.view.quality.refraction = RefractionSource::Environment; } },
             { "screen", [](ViewCase&) {} },
@@ -170,7 +176,7 @@ std::vector<ViewFactor> factorsOfCamera() {
             { "quarter",
               [](ViewCase& c) {
                   c.view.effects.bloom = { .enabled = true, .strength = 1, .threshold = 0.5f };
-                  c.view.quality.bloomResolution = BloomResolution::Quarter;
+                  c.view.effects.bloom.resolution = BloomResolution::Quarter;
                   c.hasDirt = true;
               } } } },
         { "lensFlare",

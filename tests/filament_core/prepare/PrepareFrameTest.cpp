@@ -322,19 +322,21 @@ TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
 /// Passes read effects from the packet: what its hash does not see may differ between two runs unnoticed.
 TEST_F(PrepareFrameTest, TheHashSeesEveryOptionOfEveryEffect) {
     add({ 0, 0, 0 }, material(shader::Blending::Opaque));
-    for (EffectOption const& option : effectOptions()) {
-        if (option.range != "off or on") continue;
-        ASSERT_TRUE(setEffect(view.effects, option.name, "on")) << option.name;
+    for (Option const& option : optionsOf<Effects>()) {
+        if (option.kind != OptionKind::Switch) continue;
+        ASSERT_TRUE(setOption(view.effects, option.name, "on")) << option.name;
     }
     view.effects.fog.heightFalloff = 0.1f; // without it, heights do not matter
     const uint64_t before = hashPacket(prepareFrame(jobs, arena, scene, view));
     const Effects all = view.effects;
-    for (EffectOption const& option : effectOptions()) {
-        const std::string value = *effectValue(all, option.name);
-        for (const char* other : { "off", "0.02", "0.5", "0.75", "2", "0.5,0.25,0.75", "0.5,0.25,0.75,2" }) {
-            if (other != value && setEffect(view.effects, option.name, other)) break;
+    for (Option const& option : optionsOf<Effects>()) {
+        const std::string value = *optionValue(all, option.name);
+        std::vector<std::string> others{ "0.02", "0.5", "0.75", "2", "0.5,0.25,0.75,2" };
+        others.insert(others.begin(), option.values.begin(), option.values.end());
+        for (std::string const& other : others) {
+            if (other != value && setOption(view.effects, option.name, other)) break;
         }
-        ASSERT_NE(effectValue(view.effects, option.name), value) << option.name;
+        ASSERT_NE(optionValue(view.effects, option.name), value) << option.name;
         EXPECT_NE(hashPacket(prepareFrame(jobs, arena, scene, view)), before) << option.name;
         view.effects = all;
     }
@@ -373,7 +375,7 @@ TEST_F(PrepareFrameTest, GatheringOfALargerPictureSurvivesAnotherScale) {
     LastFrame last;
     const auto next = [&](uint2 size, Upscaling filter) {
         view.size = size;
-        view.quality.upscale = filter;
+        view.effects.resolution.upscaling = filter;
         view.effects.resolution.scale = float2(size) / float2(view.shownSize);
         const FramePacket packet = prepareFrame(jobs, arena, scene, std::array{ view }, {}, last);
         EXPECT_EQ(packet.size, size);

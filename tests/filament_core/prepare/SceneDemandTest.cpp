@@ -79,8 +79,9 @@ TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) 
         EXPECT_EQ(demand.needs(Effect::DepthPrepass), demand.needs(Effect::AmbientOcclusion));
         return describe(Effect::AmbientOcclusion, demand.of(Effect::AmbientOcclusion));
     };
-    EXPECT_EQ(described(), "switched off: ao=off");
-    input.quality.ao = AmbientOcclusionTerm::Sao;
+    EXPECT_EQ(described(), "switched off: ambientOcclusion=off");
+    input.effects.ambientOcclusion.enabled = true;
+    input.effects.ambientOcclusion.method = AmbientOcclusionMethod::Sao;
     EXPECT_EQ(described(), "darkens indirect light of 2 draws");
     EXPECT_TRUE(findDemand(input).needs(Effect::AmbientOcclusion));
     input.effects.ambientOcclusion.intensity = 0;
@@ -208,13 +209,13 @@ TEST(SceneDemand, NeedsALensFlareOnlyOfSomethingThatShines) {
     input.counts.visible = 0;
     EXPECT_EQ(words(Effect::LensFlare, input), "nothing is visible, not even a sky");
     input.hasSky = true;
-    flare.haloStrength = 0, flare.ghostCount = 1.9f;
+    flare.haloStrength = 0, flare.ghostCount = 1;
     EXPECT_EQ(words(Effect::LensFlare, input), "1 ghost of what is bright");
     input.debugView = DebugView::Lights;
     EXPECT_EQ(words(Effect::LensFlare, input), "a debug view is shown");
     input.debugView = DebugView::None;
     for (const bool hasStrength : { false, true }) { // no ghosts by number, or by strength
-        flare.ghostStrength = hasStrength ? 1.0f : 0.0f, flare.ghostCount = hasStrength ? 0.9f : 8.0f;
+        flare.ghostStrength = hasStrength ? 1.0f : 0.0f, flare.ghostCount = hasStrength ? uint8_t{ 0 } : uint8_t{ 8 };
         EXPECT_EQ(words(Effect::LensFlare, input), "its intensity is 0");
     }
     flare.haloStrength = 0.1f;
@@ -233,11 +234,11 @@ TEST(SceneDemand, SaysWhenDirtScattersLight) {
 
 TEST(SceneDemand, NeedsUpscalingOnlyOfFewerPixels) {
     DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
-    EXPECT_EQ(words(Effect::Upscaling, input), "switched off: upscale=off");
+    EXPECT_EQ(words(Effect::Upscaling, input), "switched off: resolution.upscaling=off");
     for (const bool isGathered : { false, true }) {
         input.quality = {};
         if (isGathered) input.quality.antiAliasing = AntiAliasing::Taa;
-        if (!isGathered) input.quality.upscale = Upscaling::Bilinear;
+        if (!isGathered) input.effects.resolution.upscaling = Upscaling::Bilinear;
         EXPECT_TRUE(findDemand(input).needs(Effect::Upscaling));
         EXPECT_EQ(words(Effect::Upscaling, input), "200 x 150 pixels are drawn");
         input.debugView = DebugView::Lights;
@@ -300,7 +301,7 @@ TEST(SceneDemand, DrawsAGuardBandOnlyWhereItIsCutOff) {
     quality.antiAliasing = AntiAliasing::Taa;
     EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 11u);
     EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 0u) << "gathering enlarges";
-    quality.upscale = Upscaling::Bilinear;
+    effects.resolution.upscaling = Upscaling::Bilinear;
     EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 6u);
 
     DemandInput input;
@@ -325,8 +326,8 @@ TEST(SceneDemand, DrawsAGuardBandOnlyForWhatLooksBesideThePicture) {
         change(quality, effects);
         return looksBesidePicture(scene, quality, effects);
     };
-    EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.ao = AmbientOcclusionTerm::Sao; }));
-    EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.ssr = true; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.ambientOcclusion.enabled = true; }));
+    EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.screenSpaceReflections.enabled = true; }));
     EXPECT_TRUE(looks([](Quality& quality, Effects&) { quality.antiAliasing = AntiAliasing::Taa; }));
     EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.bloom.enabled = true; }));
     EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.lensFlare.enabled = true; }));
@@ -334,7 +335,7 @@ TEST(SceneDemand, DrawsAGuardBandOnlyForWhatLooksBesideThePicture) {
     EXPECT_TRUE(looks([](Quality&, Effects& effects) { effects.motionBlur.enabled = true; }));
     EXPECT_FALSE(looks([](Quality& quality, Effects& effects) {
         quality.antiAliasing = AntiAliasing::Fxaa;
-        quality.upscale = Upscaling::EdgeAdaptive;
+        effects.resolution.upscaling = Upscaling::EdgeAdaptive;
         effects.vignette.enabled = effects.grain.enabled = effects.grading.enabled = effects.autoExposure.enabled =
                 true;
         effects.chromaticAberration.enabled = effects.sharpening.enabled = effects.fog.enabled = true;
@@ -348,16 +349,21 @@ TEST(SceneDemand, DrawsAGuardBandOnlyForWhatLooksBesideThePicture) {
 TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
     const uint2 size(101, 3);
     Quality quality;
-    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), size);
-    quality.upscale = Upscaling::CatmullRom;
-    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), uint2(51, 2)) << "rounded";
-    EXPECT_EQ(drawnSize(size, float2(1, 0.5f), quality, DebugView::None), uint2(101, 2));
-    EXPECT_EQ(drawnSize(size, float2(1), quality, DebugView::None), size);
-    EXPECT_EQ(drawnSize({ 1, 1 }, float2(0.5f), quality, DebugView::None), uint2(1)) << "one pixel at least";
-    EXPECT_EQ(drawnSize({ 16384, 1 }, float2(0.99999f), quality, DebugView::None), uint2(16384, 1));
-    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::Fog), size);
+    Resolution half{ .scale = float2(0.5f) };
+    EXPECT_EQ(drawnSize(size, half, quality, DebugView::None), size);
+    half.upscaling = Upscaling::CatmullRom;
+    const auto drawn = [&](uint2 of, float2 scale) {
+        return drawnSize(of, { .upscaling = Upscaling::CatmullRom, .scale = scale }, quality, DebugView::None);
+    };
+    EXPECT_EQ(drawn(size, float2(0.5f)), uint2(51, 2)) << "rounded";
+    EXPECT_EQ(drawn(size, float2(1, 0.5f)), uint2(101, 2));
+    EXPECT_EQ(drawn(size, float2(1)), size);
+    EXPECT_EQ(drawn({ 1, 1 }, float2(0.5f)), uint2(1)) << "one pixel at least";
+    EXPECT_EQ(drawn({ 16384, 1 }, float2(0.99999f)), uint2(16384, 1));
+    EXPECT_EQ(drawnSize(size, half, quality, DebugView::Fog), size);
+    half.upscaling = Upscaling::Off;
     quality = { .antiAliasing = AntiAliasing::Taa };
-    EXPECT_EQ(drawnSize(size, float2(0.5f), quality, DebugView::None), uint2(51, 2));
+    EXPECT_EQ(drawnSize(size, half, quality, DebugView::None), uint2(51, 2));
 }
 
 TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
@@ -426,13 +432,14 @@ TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
     const std::array shown{ std::pair(DebugView::CircleOfConfusion, Effect::DepthOfField),
                             std::pair(DebugView::HistoryWeight, Effect::Taa),
                             std::pair(DebugView::Histogram, Effect::AutoExposure) };
+    const Resolution half{ .upscaling = Upscaling::Bilinear, .scale = float2(0.5f) };
     for (auto const& [view, ofView] : shown) {
         input.debugView = view;
         const SceneDemand demand = findDemand(input);
         for (auto const& [other, effect] : shown) EXPECT_EQ(demand.needs(effect), effect == ofView) << nameOf(effect);
         EXPECT_FALSE(demand.needs(Effect::Bloom));
         EXPECT_EQ(words(Effect::DebugView, input), std::string("debugView=") + toString(view));
-        EXPECT_EQ(drawnSize({ 100, 60 }, float2(0.5f), input.quality, view), uint2(100, 60)) << toString(view);
+        EXPECT_EQ(drawnSize({ 100, 60 }, half, input.quality, view), uint2(100, 60)) << toString(view);
     }
     input = { .debugView = DebugView::Histogram };
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=histogram: its effect does not run (its line says why)");
@@ -452,9 +459,9 @@ TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
                        .hasSky = true,
                        .moved = 1,
                        .discsInView = 1 };
-    input.quality.ao = AmbientOcclusionTerm::Gtao;
+    input.effects.ambientOcclusion.enabled = true;
     input.quality.refraction = RefractionSource::Screen;
-    input.quality.ssr = true;
+    input.effects.screenSpaceReflections.enabled = true;
     input.effects.fog.enabled = true;
     const std::array lit{ Effect::Sun,        Effect::LightList,   Effect::Shadows, Effect::IndirectLight,
                           Effect::Sky,        Effect::SunDisc,     Effect::Fog,     Effect::AmbientOcclusion,
@@ -472,6 +479,7 @@ TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
         const Quality drawn = drawnQuality(input.quality, input.debugView);
         EXPECT_EQ(drawn == input.quality, isLit) << toString(input.debugView);
         EXPECT_TRUE(isLit || drawn.shadows == ShadowFilter::Off);
+        EXPECT_EQ(drawnEffects(input.effects, input.debugView) == input.effects, isLit) << toString(input.debugView);
     }
     input.debugView = DebugView::Overdraw;
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=overdraw");

@@ -185,7 +185,7 @@ TEST(ResolutionController, SurvivesOptionsThatChangeEveryFrame) {
                                   .targetMilliseconds = 0.1f + 50 * any(random),
                                   .leastScale = 0.5f + 0.5f * any(random),
                                   .headroom = 0.5f * any(random),
-                                  .history = 1 + 31 * any(random),
+                                  .history = static_cast<uint8_t>(1 + 31 * any(random)),
                                   .uniform = any(random) < 0.5f };
         const float2 scale = controller.scale(options);
         EXPECT_LE(scale.x, options.scale.x);

@@ -52,10 +52,19 @@ TEST(EffectTable, TheCommittedTableHasAllItNeeds) {
     }
 }
 
-TEST(EffectTable, EveryChoiceOfQualityIsMeasured) {
+/// Approximations of shading, and how exactly effects are computed.
+std::vector<Option> approximations() {
+    const auto quality = optionsOf<Quality>();
+    std::vector<Option> all(quality.begin(), quality.end());
+    for (Option const& option : optionsOf<Effects>())
+        if (option.kind != OptionKind::Switch && !option.values.empty()) all.push_back(option);
+    return all;
+}
+
+TEST(EffectTable, EveryApproximationIsMeasured) {
     const Result<std::vector<Effect>> effects = readEffects(kEffectsFolder / "effects.json");
     ASSERT_TRUE(effects);
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : approximations()) {
         const std::string prefix = std::string(choice.name) + "=";
         const bool isMeasured = std::ranges::any_of(*effects, [&](Effect const& effect) {
             return std::ranges::any_of(effect.values, [&](Value const& value) {

@@ -18,12 +18,11 @@ SceneOptions sunny() {
 
 /// What the choices change, as one text.
 std::string stateOf(SceneOptions const& o) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<int>(o.debugView), o.samples,
-                       o.sun->showsDisc, o.sun->contactShadows, o.sun->angularRadiusDegrees, o.sun->haloSize,
-                       o.sun->haloFalloff, o.exactShaders, static_cast<int>(o.environmentOptions.format),
-                       static_cast<int>(o.environmentOptions.roughnessMapping),
-                       static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
-                       o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels);
+    return fmt::format(
+            "{} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows, o.sun->angularRadiusDegrees,
+            o.sun->haloSize, o.sun->haloFalloff, o.exactShaders, static_cast<int>(o.environmentOptions.format),
+            static_cast<int>(o.environmentOptions.roughnessMapping), static_cast<int>(o.modelOptions.positions),
+            static_cast<int>(o.modelOptions.tangents), o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels);
 }
 
 TEST(SceneChoices, HaveTheirInitialValuesAtFirst) {
@@ -38,7 +37,6 @@ TEST(SceneChoices, HaveTheirInitialValuesAtFirst) {
 
 TEST(SceneChoices, ChangeWhatTheyName) {
     const std::pair<const char*, const char*> kChanges[] = {
-        { "debugView", "froxels" },          { "samples", "4" },
         { "sun.showsDisc", "on" },           { "sun.contactShadows", "on" },
         { "sun.angularRadiusDegrees", "2" }, { "sun.haloSize", "3" },
         { "sun.haloFalloff", "7" },          { "exact", "off" },

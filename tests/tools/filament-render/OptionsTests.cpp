@@ -34,7 +34,7 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     const Options options = parsed({});
     EXPECT_TRUE(options.model.empty() && options.environment.empty());
     EXPECT_EQ(options.backends, (std::vector{ Backend::Vulkan, Backend::Gles }));
-    EXPECT_EQ(options.size, uint2(1280, 720));
+    EXPECT_EQ(options.view.size, uint2(1280, 720));
     EXPECT_EQ(options.frames, 1u);
     EXPECT_TRUE(options.fit);
     EXPECT_EQ(options.eye, double3(0.9, 0.6, 1.5));
@@ -44,8 +44,8 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     EXPECT_EQ(options.iblIntensity.value, 30'000.0f);
     EXPECT_FALSE(options.sun);
     EXPECT_TRUE(options.skybox);
-    EXPECT_EQ(options.colorGrading.toneMapper, ToneMapper::Aces);
-    EXPECT_FALSE(options.colorGrading.dither);
+    EXPECT_EQ(options.view.colorGrading.toneMapper, ToneMapper::Aces);
+    EXPECT_FALSE(options.view.colorGrading.dither);
     EXPECT_EQ(options.tolerance, 0u);
     EXPECT_EQ(options.out, "out");
 }
@@ -75,20 +75,20 @@ TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
 }
 
 TEST(Options, DebugViewsAreSetByName) {
-    EXPECT_EQ(parsed({}).debugView, DebugView::None);
+    EXPECT_EQ(parsed({}).view.debugView, DebugView::None);
     for (size_t i = 0; i < kDebugViewCount; ++i) {
         const auto view = static_cast<DebugView>(i);
         const std::string word = std::string("debugView=") + toString(view);
-        EXPECT_EQ(parsed({ "--set", word.c_str() }).debugView, view);
+        EXPECT_EQ(parsed({ "--set", word.c_str() }).view.debugView, view);
     }
-    EXPECT_THAT(refused({ "--set", "debugView=depth" }), HasSubstr(debugViewNames()));
+    EXPECT_THAT(refused({ "--set", "debugView=depth" }), HasSubstr(listed(enumNames<DebugView>())));
 }
 
 TEST(Options, DirtOfTheLensIsAFile) {
     EXPECT_EQ(parsed({}).dirt, "");
     const Options options = parsed({ "--set", "bloom=on", "--set", "bloom.dirt=a/b.png", "--set", "lensFlare=on" });
     EXPECT_EQ(options.dirt, "a/b.png");
-    EXPECT_TRUE(options.effects.bloom.enabled && options.effects.lensFlare.enabled);
+    EXPECT_TRUE(options.view.effects.bloom.enabled && options.view.effects.lensFlare.enabled);
 }
 
 TEST(Options, TheDiscOfTheSunIsSetByName) {
@@ -106,25 +106,25 @@ TEST(Options, TheDiscOfTheSunIsSetByName) {
 }
 
 TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
-    EXPECT_EQ(parsed({}).quality, Quality{});
-    EXPECT_EQ(parsed({ "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));
+    EXPECT_EQ(parsed({}).view.quality, Quality{});
+    EXPECT_EQ(parsed({ "--quality", "low" }).view.quality, qualityPreset(QualityPreset::Low));
     Quality expected = qualityPreset(QualityPreset::Low);
     expected.shBands = 1;
     expected.fresnel = FresnelTerm::Exact;
     EXPECT_EQ(parsed({ "--set", "shBands=3", "--quality", "low", "--set", "fresnel=exact", "--set", "shBands=1" })
-                      .quality,
+                      .view.quality,
               expected);
 }
 
 TEST(Options, APresetOfTheViewComesBeforeAQualityAndItsChanges) {
     View fine;
     applyPreset(fine, RenderPreset::Fine);
-    EXPECT_EQ(parsed({ "--preset", "fine" }).quality, fine.quality);
-    EXPECT_EQ(parsed({ "--preset", "fine" }).effects, fine.effects);
-    EXPECT_EQ(parsed({ "--preset", "fine", "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));
+    EXPECT_EQ(parsed({ "--preset", "fine" }).view.quality, fine.quality);
+    EXPECT_EQ(parsed({ "--preset", "fine" }).view.effects, fine.effects);
+    EXPECT_EQ(parsed({ "--preset", "fine", "--quality", "low" }).view.quality, qualityPreset(QualityPreset::Low));
     const Options changed = parsed({ "--set", "bloom=off", "--set", "antiAliasing=fxaa", "--preset", "fine" });
-    EXPECT_FALSE(changed.effects.bloom.enabled);
-    EXPECT_EQ(changed.quality.antiAliasing, AntiAliasing::Fxaa);
+    EXPECT_FALSE(changed.view.effects.bloom.enabled);
+    EXPECT_EQ(changed.view.quality.antiAliasing, AntiAliasing::Fxaa);
     EXPECT_THAT(refused({ "--preset", "best" }), HasSubstr("fast, balanced, fine or cinematic"));
 }
 
@@ -209,7 +209,7 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.model, "a b.glb");
     EXPECT_EQ(options.environment, "sky.hdr");
     EXPECT_EQ(options.backends, std::vector{ Backend::Gles });
-    EXPECT_EQ(options.size, uint2(64, 48));
+    EXPECT_EQ(options.view.size, uint2(64, 48));
     EXPECT_EQ(options.frames, 7u);
     EXPECT_FALSE(options.fit);
     EXPECT_EQ(options.eye, double3(-1, -0.5, 20));
@@ -221,8 +221,8 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.sun->illuminance.value, 1000.0f);
     EXPECT_EQ(options.sun->directionWorld, float3(0, -1, 0.5f));
     EXPECT_FALSE(options.skybox);
-    EXPECT_EQ(options.colorGrading.toneMapper, ToneMapper::Filmic);
-    EXPECT_TRUE(options.colorGrading.dither);
+    EXPECT_EQ(options.view.colorGrading.toneMapper, ToneMapper::Filmic);
+    EXPECT_TRUE(options.view.colorGrading.dither);
     EXPECT_EQ(options.tolerance, 2u);
     EXPECT_EQ(options.out, "x/y");
     EXPECT_EQ(options.format, PictureFormat::Exr);

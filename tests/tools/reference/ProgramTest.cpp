@@ -77,7 +77,7 @@ TEST(Options, AreThoseOfFilamentRenderAndItsOwn) {
     ASSERT_TRUE(parsed.ok() && *parsed) << (parsed ? "" : parsed.error().message);
     Options const& options = **parsed;
     EXPECT_EQ(options.model, "m.glb");
-    EXPECT_EQ(options.size, uint2(32, 16));
+    EXPECT_EQ(options.view.size, uint2(32, 16));
     EXPECT_EQ(options.eye, double3(1, 2, 3));
     EXPECT_EQ(options.sun->illuminance.value, 5);
     ReferenceSettings const& settings = options.settings;

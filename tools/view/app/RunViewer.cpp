@@ -63,7 +63,7 @@ Result<PathResult> drawWithProgress(PathRequest const& request) {
 int drawFrames(ViewerOptions const& options) {
     Result<Document> document = documentFor(options);
     if (!document) return tools::failed(document.error());
-    document->view.size = options.size;
+    document->view.size = options.view.size;
     const PathRequest request{ .document = *document,
                                .path = document->paths.back(),
                                .series = options.series,
@@ -181,7 +181,7 @@ Result<void> show(ViewerOptions const& options) {
     const Clock::time_point begin = Clock::now();
     Result<Document> document = documentFor(options);
     if (!document) return document.error();
-    Result<std::unique_ptr<Window>> window = Window::open("filament-view", options.size);
+    Result<std::unique_ptr<Window>> window = Window::open("filament-view", options.view.size);
     if (!window) return window.error();
     const ViewerTarget target{ (*window)->display(), (*window)->native(), (*window)->pixels(), (*window)->scale(),
                                (*window)->clipboard() };

@@ -70,9 +70,9 @@ void Checker::number(std::string const& place, T value, double low, double high)
 
 template <class T>
 void Checker::options(std::string const& place, T const& value) {
-    for (const std::string_view name : optionNames(static_cast<T const*>(nullptr))) {
+    for (Option const& option : optionsOf<T>()) {
         T copy = value;
-        if (const Result<void> done = setOption(copy, name, optionText(value, name)); !done)
+        if (const Result<void> done = setOption(copy, option.name, optionValue(option, &value)); !done)
             return refuse(place, done.error().message);
     }
 }

@@ -42,10 +42,9 @@ Json matrixOf(M const& matrix) {
 }
 
 template <class T>
-Json optionsOf(T const& options) {
+Json textsOf(T const& options) {
     Json json = Json::object();
-    for (const std::string_view name : optionNames(static_cast<T const*>(nullptr)))
-        json[std::string(name)] = optionText(options, name);
+    for (Option const& option : optionsOf<T>()) json[std::string(option.name)] = optionValue(option, &options);
     return json;
 }
 
@@ -70,7 +69,7 @@ Json parameterOf(ParameterValue const& value) {
 template <class T>
 Json jsonOf(T const& value) {
     if constexpr (IsOptions<T>)
-        return optionsOf(value);
+        return textsOf(value);
     else if constexpr (HasFields<T>)
         return membersOf(value);
     else if constexpr (std::is_same_v<T, float>)

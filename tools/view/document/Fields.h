@@ -2,7 +2,7 @@
 /// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of
 /// them: comparing, writing, reading, checking, and tests that change each one.
 ///   Complete  a member that is added to a struct and not listed here does not compile: isComplete().
-///   Texts     Quality, Effects and ColorGrading have names and texts of their own (qualityChoices() and so on).
+///   Texts     Quality, Effects and ColorGrading have names and texts of their own (optionsOf<Quality>() and so on).
 #pragma once
 
 #include "tools/view/document/Document.h"
@@ -332,10 +332,14 @@ using Globals = std::array<float4, 4>; ///< View::materialGlobals
 
 // ---- names
 
-inline const char* nameOf(PositionStorage value) { return toString(value); }
-inline const char* nameOf(TangentStorage value) { return toString(value); }
-inline const char* nameOf(RoughnessMapping value) { return toString(value); }
-inline const char* nameOf(DebugView value) { return toString(value); }
+template <NamedEnum E>
+const char* nameOf(E value) {
+    return toString(value);
+}
+template <NamedEnum E>
+std::optional<E> fromName(E, std::string_view name) {
+    return enumFromName<E>(name);
+}
 /// Null for a format that no environment has.
 inline const char* nameOf(Format value) {
     for (const char* name : { "RGBA16F", "R11G11B10F", "RGB9E5", "RGBM" }) {
@@ -343,38 +347,17 @@ inline const char* nameOf(Format value) {
     }
     return nullptr;
 }
-inline std::optional<PositionStorage> fromName(PositionStorage, std::string_view name) {
-    return positionStorageFromName(name);
-}
-inline std::optional<TangentStorage> fromName(TangentStorage, std::string_view name) {
-    return tangentStorageFromName(name);
-}
-inline std::optional<RoughnessMapping> fromName(RoughnessMapping, std::string_view name) {
-    return roughnessMappingFromName(name);
-}
-inline std::optional<DebugView> fromName(DebugView, std::string_view name) { return debugViewFromName(name); }
 inline std::optional<Format> fromName(Format, std::string_view name) { return environmentFormatFromName(name); }
-inline const char* validNames(PositionStorage) { return "asAuthored, half or unorm16"; }
-inline const char* validNames(TangentStorage) { return "snorm16, snorm8 or float"; }
-inline const char* validNames(RoughnessMapping) { return "quadratic, logarithmic or linear"; }
-inline const char* validNames(DebugView) { return debugViewNames(); }
-inline const char* validNames(Format) { return "RGBA16F, R11G11B10F, RGB9E5 or RGBM"; }
+template <NamedEnum E>
+std::string validNames(E) {
+    return listed(enumNames<E>());
+}
+inline std::string validNames(Format) { return "RGBA16F, R11G11B10F, RGB9E5 or RGBM"; }
 
 /// Of the alternatives of AnyLight.
 inline constexpr std::array<const char*, std::variant_size_v<AnyLight>> kLightKinds{ "sun",  "point", "spot",
                                                                                      "rect", "disc",  "tube" };
 /// Of an alternative of ParameterValue: "float3".
 const char* parameterTypeName(size_t index);
-
-/// Name, text and setter of each option of Quality, Effects or ColorGrading.
-std::vector<std::string_view> optionNames(Quality const*);
-std::vector<std::string_view> optionNames(Effects const*);
-std::vector<std::string_view> optionNames(ColorGrading const*);
-std::string optionText(Quality const& quality, std::string_view name);
-std::string optionText(Effects const& effects, std::string_view name);
-std::string optionText(ColorGrading const& grading, std::string_view name);
-Result<void> setOption(Quality& quality, std::string_view name, std::string_view text);
-Result<void> setOption(Effects& effects, std::string_view name, std::string_view text);
-Result<void> setOption(ColorGrading& grading, std::string_view name, std::string_view text);
 
 } // namespace filament::view

@@ -11,13 +11,8 @@ Document makeDocument(tools::SceneOptions const& options, std::filesystem::path 
                              .prefersModels = options.environment.empty(),
                              .options = options.environmentOptions,
                              .settings = { .illuminance = options.iblIntensity, .skybox = options.skybox } };
-    document.view = { .camera = tools::cameraOf(options),
-                      .size = options.size,
-                      .colorGrading = options.colorGrading,
-                      .quality = options.quality,
-                      .effects = options.effects,
-                      .samples = options.samples,
-                      .debugView = options.debugView };
+    document.view = options.view;
+    document.view.camera = tools::cameraOf(options);
     document.view.colorGrading.look = nullptr;
     document.look = options.lookFile;
     document.dirt = options.dirt;

@@ -45,10 +45,10 @@ struct Range {
 
 std::vector<QualitySetting> settingsToMeasure(View const& view) {
     std::vector<QualitySetting> settings{ { "as it is", view.quality, view.samples } };
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         for (const std::string_view value : choice.values) {
             QualitySetting setting{ fmt::format("{}={}", choice.name, value), view.quality, view.samples };
-            if (setQuality(setting.quality, choice.name, value)) addUnlessKnown(settings, std::move(setting));
+            if (setOption(setting.quality, choice.name, value)) addUnlessKnown(settings, std::move(setting));
         }
     }
     for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } })

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <imgui_stdlib.h>
-
 #include <algorithm>
 #include <array>
 
@@ -16,8 +14,8 @@ namespace {
 
 /// "-0.31 ms, error 1.2 %" or "".
 std::string costText(PanelFrame const& frame, Option const& option, std::string const& current,
-                     std::string const& value) {
-    if (option.group != OptionGroup::Quality) return {};
+                     std::string_view value) {
+    if (!isRated(option)) return {};
     const double milliseconds = frame.changes.medianMilliseconds().value_or(frame.history.latestMilliseconds());
     const auto cost = tabledCost(defaultQualityCosts(), frame.stage.engine().device().backend, option.name, current,
                                  value, milliseconds);
@@ -27,8 +25,9 @@ std::string costText(PanelFrame const& frame, Option const& option, std::string 
 }
 
 std::string helpOf(PanelFrame const& frame, Option const& option, std::string const& value) {
-    std::string text = fmt::format("{}: {}\nstandard: {}", option.name, option.range, option.standard);
-    for (std::string const& word : option.words) {
+    std::string text = fmt::format("{}: {}\n{}\ndefault: {}", option.name, rangeOf(option), option.description,
+                                   defaultValue(option));
+    for (const std::string_view word : option.values) {
         const std::string cost = costText(frame, option, value, word);
         if (!cost.empty()) text += fmt::format("\n{} {}: {}", word == value ? ">" : " ", word, cost);
     }
@@ -40,9 +39,9 @@ std::string helpOf(PanelFrame const& frame, Option const& option, std::string co
 
 void drawChoice(PanelFrame& frame, Option const& option, std::string const& value) {
     if (!ImGui::BeginCombo("##value", value.c_str())) return;
-    for (std::string const& word : option.words) {
+    for (const std::string_view word : option.values) {
         const std::string cost = costText(frame, option, value, word);
-        const std::string label = cost.empty() ? word : fmt::format("{}    {}", word, cost);
+        const std::string label = cost.empty() ? std::string(word) : fmt::format("{}    {}", word, cost);
         if (ImGui::Selectable(label.c_str(), word == value)) editOption(frame, option, word);
     }
     ImGui::EndCombo();
@@ -53,7 +52,7 @@ void drawNumbers(PanelFrame& frame, Option const& option, std::string const& val
     if (numbers.empty()) return;
     const auto least = static_cast<float>(option.least), most = static_cast<float>(option.most);
     bool isChanged = false;
-    if (option.components == 1 && option.isWhole && most - least <= 64) {
+    if (option.kind == OptionKind::Integer && most - least <= 64) {
         auto whole = static_cast<int>(numbers[0]);
         isChanged = ImGui::SliderInt("##value", &whole, static_cast<int>(least), static_cast<int>(most), "%d",
                                      ImGuiSliderFlags_AlwaysClamp);
@@ -70,7 +69,7 @@ void drawNumbers(PanelFrame& frame, Option const& option, std::string const& val
     if (isChanged) editOption(frame, option, optionText(option, numbers));
 }
 
-void drawOptionValue(PanelFrame& frame, Option const& option, std::string value) {
+void drawOptionValue(PanelFrame& frame, Option const& option, std::string const& value) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     switch (option.kind) {
     case OptionKind::Switch: {
@@ -80,25 +79,24 @@ void drawOptionValue(PanelFrame& frame, Option const& option, std::string value)
     }
     case OptionKind::Choice:
         return drawChoice(frame, option, value);
+    case OptionKind::Integer:
+        return option.onlyValues ? drawChoice(frame, option, value) : drawNumbers(frame, option, value);
     case OptionKind::Number:
         return drawNumbers(frame, option, value);
-    case OptionKind::Text:
-        if (ImGui::InputText("##value", &value, ImGuiInputTextFlags_EnterReturnsTrue)) editOption(frame, option, value);
-        return;
     }
 }
 
 void drawOption(PanelFrame& frame, Option const& option) {
-    const std::string value = optionValue(frame.document.view, option);
-    const bool isChanged = value != option.standard;
-    ImGui::PushID(option.name.c_str());
+    const std::string value = optionValue(option, &frame.document.view), standard = defaultValue(option);
+    const bool isChanged = value != standard;
+    ImGui::PushID(option.name.data()); // a literal, as all names
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     if (isChanged)
-        ImGui::TextColored(kEditedColor, "%s", option.name.c_str());
+        ImGui::TextColored(kEditedColor, "%s", option.name.data());
     else
-        ImGui::TextUnformatted(option.name.c_str());
+        ImGui::TextUnformatted(option.name.data());
     tooltip(ImGui::IsItemHovered() ? helpOf(frame, option, value) : std::string());
     ImGui::TableNextColumn();
     drawOptionValue(frame, option, value);
@@ -106,8 +104,8 @@ void drawOption(PanelFrame& frame, Option const& option) {
     if (MeasuredChange const* change = frame.changes.changeOf(option.name))
         quietText(differenceText(change->milliseconds));
     if (isChanged) {
-        if (ImGui::SmallButton("x")) editOption(frame, option, option.standard);
-        tooltip("as it was: " + option.standard);
+        if (ImGui::SmallButton("x")) editOption(frame, option, standard);
+        tooltip("default: " + standard);
     }
     ImGui::PopID();
 }
@@ -125,31 +123,31 @@ void drawPresets(PanelFrame& frame) {
 /// Whether the group has a row to show.
 bool showsOption(PanelFrame const& frame, Option const& option) {
     if (!matchesFilter(option.name, frame.state.optionFilter)) return false;
-    return !frame.state.onlyChangedOptions || optionValue(frame.document.view, option) != option.standard;
+    return !frame.state.onlyChangedOptions || optionValue(option, &frame.document.view) != defaultValue(option);
 }
 
-void drawOptionGroup(PanelFrame& frame, OptionGroup group) {
-    const auto isShown = [&](Option const& option) { return option.group == group && showsOption(frame, option); };
-    if (std::ranges::none_of(frame.options, isShown)) return;
-    if (!ImGui::CollapsingHeader(toString(group), ImGuiTreeNodeFlags_DefaultOpen)) return;
-    if (!ImGui::BeginTable(toString(group), 3, ImGuiTableFlags_RowBg)) return;
+void drawOptionGroup(PanelFrame& frame, OptionGroup const& group) {
+    const auto isShown = [&](Option const* option) { return showsOption(frame, *option); };
+    if (std::ranges::none_of(group.options, isShown)) return;
+    if (!ImGui::CollapsingHeader(group.title, ImGuiTreeNodeFlags_DefaultOpen)) return;
+    if (!ImGui::BeginTable(group.title, 3, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1.2f);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("cost", ImGuiTableColumnFlags_WidthFixed, ImGui::GetFontSize() * 5);
-    for (Option const& option : frame.options)
-        if (isShown(option)) drawOption(frame, option);
+    for (Option const* option : group.options)
+        if (isShown(option)) drawOption(frame, *option);
     ImGui::EndTable();
 }
 
 } // namespace
 
 void editOption(PanelFrame& frame, Option const& option, std::string_view value) {
-    const std::string before = optionValue(frame.document.view, option);
-    if (const Result<void> done = setOption(frame.document.view, option, value); !done) {
+    const std::string before = optionValue(option, &frame.document.view);
+    if (const Result<void> done = setOption(frame.document.view, option.name, value); !done) {
         frame.state.addMessage(done.error().message);
         return;
     }
-    const std::string after = optionValue(frame.document.view, option);
+    const std::string after = optionValue(option, &frame.document.view);
     if (before != after) frame.changes.changed(option.name, before, after);
 }
 
@@ -157,9 +155,7 @@ void drawOptionPanel(PanelFrame& frame) {
     drawPresets(frame);
     filterField("##option filter", frame.state.optionFilter);
     if (ImGui::BeginChild("options")) {
-        for (const OptionGroup group :
-             { OptionGroup::Picture, OptionGroup::Quality, OptionGroup::Effects, OptionGroup::Grading })
-            drawOptionGroup(frame, group);
+        for (OptionGroup const& group : frame.options) drawOptionGroup(frame, group);
     }
     ImGui::EndChild();
 }

@@ -19,7 +19,7 @@ struct PanelFrame {
     PanelRequests& requests;
     PanelInputs const& inputs;
     std::vector<SceneNode> const& nodes;
-    std::vector<Option> const& options;
+    std::vector<OptionGroup> const& options;
     FrameHistory const& history;
     ChangeMeter& changes;
     MaterialCost& materialCost;

@@ -57,7 +57,7 @@ std::vector<std::string_view> panelNames() {
     return names;
 }
 
-Panels::Panels() : mOptions(makeOptions()) {}
+Panels::Panels() : mOptions(makeOptionGroups()) {}
 
 void Panels::readScene(Stage& stage) {
     if (mGeneration == stage.generation()) return;

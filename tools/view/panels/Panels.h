@@ -134,7 +134,7 @@ private:
     FrameHistory mHistory{};
     ChangeMeter mChanges{};
     MaterialCost mMaterialCost{};
-    std::vector<Option> mOptions;
+    std::vector<OptionGroup> mOptions;
     std::vector<SceneNode> mNodes{};
     std::optional<uint64_t> mGeneration{};
 };

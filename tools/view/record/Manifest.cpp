@@ -153,7 +153,7 @@ void readPicture(JsonReader& reader, PictureRecord& picture) {
     readFormat(reader, picture.format);
     if (!isPictureFormat(picture.format)) reader.complain("format", "expected RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F");
     readSize(reader, picture.size);
-    reader.choice("space", picture.space, "expected a colour space such as srgb", outputSpaceFromName);
+    reader.choice("space", picture.space, "expected a colour space such as srgb", enumFromName<OutputSpace>);
     readHash(reader, "hash", picture.hash);
 }
 

@@ -46,9 +46,8 @@ public:
         wall = mSquare.add(mScene, instance(mWall), double3(0, 0, kWallZ), kWallSide);
         view.camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
         view.size = { 96, 64 };
-        view.quality.ssr = true;
         view.quality.shadows = ShadowFilter::Off;
-        view.effects.reflections = { .distanceMeters = 20, .thicknessMeters = 0.5f };
+        view.effects.screenSpaceReflections = { .enabled = true, .distanceMeters = 20, .thicknessMeters = 0.5f };
     }
     ~MirrorRoom() { test::expectNoErrors(mEngine); }
 
@@ -197,10 +196,10 @@ TEST(PictureReflection, ARoughMirrorBlursTheImageAndKeepsItsMean) {
 TEST(PictureReflection, NothingChangesWhereNoMaterialAsks) {
     for (const Backend backend : test::kBothApis) {
         MirrorRoom room(backend, floorText("shadingModel : lit"));
-        room.view.quality.ssr = false;
+        room.view.effects.screenSpaceReflections.enabled = false;
         const Image off = room.draw();
         const uint32_t passes = room.statistics().passesRun, draws = room.statistics().draws;
-        room.view.quality.ssr = true;
+        room.view.effects.screenSpaceReflections.enabled = true;
         const Image on = room.draw();
         EXPECT_EQ(test::differingPixels(off, on), 0u);
         EXPECT_EQ(room.statistics().passesRun, passes);
@@ -246,9 +245,10 @@ TEST(PictureReflection, OptionsAtTheirEndsGiveNumbers) {
     expectSameBits(
             4,
             [](MirrorRoom& room, size_t i) {
-                room.view.effects.reflections = { .distanceMeters = i % 2 ? 1e-3f : 1e5f,
-                                                  .thicknessMeters = i / 2 ? 1e-4f : 1e4f };
-                room.view.quality.ssrSteps = i % 2 ? uint8_t{ 8 } : uint8_t{ 255 };
+                room.view.effects.screenSpaceReflections = { .enabled = true,
+                                                             .steps = i % 2 ? uint8_t{ 8 } : uint8_t{ 255 },
+                                                             .distanceMeters = i % 2 ? 1e-3f : 1e5f,
+                                                             .thicknessMeters = i / 2 ? 1e-4f : 1e4f };
             },
             [](Image const& image) {
                 const test::Extremes found = test::extremesOf(image);

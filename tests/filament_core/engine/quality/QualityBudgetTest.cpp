@@ -39,8 +39,8 @@ QualityCosts randomTable(std::mt19937& random) {
     std::vector<QualityEffect> effects;
     for (const char* name : { "specularVisibility", "splitSum", "dfgTableSize", "diffuseIrradiance", "shBands" }) {
         if (random() % 4 == 0) continue;
-        const auto choice = std::ranges::find(qualityChoices(), std::string_view(name), &QualityChoice::name);
-        const std::string standard = *qualityValue(Quality{}, name);
+        const auto choice = std::ranges::find(optionsOf<Quality>(), std::string_view(name), &Option::name);
+        const std::string standard = *optionValue(Quality{}, name);
         QualityEffect effect{ .name = name, .values = {} };
         for (const std::string_view value : choice->values) {
             const double milliseconds = value == standard ? kFrame : 4 + static_cast<double>(random() % 8);
@@ -64,7 +64,7 @@ void visitAll(QualityCosts const& costs, size_t effect, Quality const& quality, 
     if (effect < costs.effects.size()) {
         for (QualityCost const& value : costs.effects[effect].values) {
             Quality next = quality;
-            EXPECT_TRUE(setQuality(next, costs.effects[effect].name, value.value));
+            EXPECT_TRUE(setOption(next, costs.effects[effect].name, value.value));
             visitAll(costs, effect + 1, next, all);
         }
         return;
@@ -73,11 +73,11 @@ void visitAll(QualityCosts const& costs, size_t effect, Quality const& quality, 
     for (QualityEffect const& rated : costs.effects) {
         if (rated.name == "dfgTableSize" && quality.splitSum != SplitSum::Table) continue;
         if (rated.name == "shBands" && quality.diffuseIrradiance != DiffuseIrradiance::SphericalHarmonics) continue;
-        const std::string has = *qualityValue(quality, rated.name);
+        const std::string has = *optionValue(quality, rated.name);
         const auto value = std::ranges::find(rated.values, has, &QualityCost::value);
         combination.squaredError += value->error * value->error;
         combination.milliseconds += value->vulkan.milliseconds - kFrame;
-        combination.changes += has != *qualityValue(Quality{}, rated.name);
+        combination.changes += has != *optionValue(Quality{}, rated.name);
     }
     all.push_back(combination);
 }

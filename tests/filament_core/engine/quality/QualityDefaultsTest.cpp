@@ -25,7 +25,7 @@ bool dominates(QualityCost const& other, QualityCost const& standard) {
 
 TEST(QualityDefaults, AreDominatedByNoOtherValueOfTheLibrarysTable) {
     for (QualityEffect const& effect : defaultQualityCosts().effects) {
-        const std::string name = *qualityValue(Quality{}, effect.name);
+        const std::string name = *optionValue(Quality{}, effect.name);
         const auto standard = std::ranges::find(effect.values, name, &QualityCost::value);
         ASSERT_NE(standard, effect.values.end()) << effect.name << '=' << name;
         for (QualityCost const& other : effect.values) {
@@ -39,7 +39,7 @@ TEST(QualityDefaults, AreDominatedByNoOtherValueOfTheLibrarysTable) {
 }
 
 TEST(QualityDefaults, OfEveryChoiceAreInTheTable) {
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         EXPECT_TRUE(std::ranges::any_of(defaultQualityCosts().effects,
                                         [&](QualityEffect const& effect) { return effect.name == choice.name; }))
                 << choice.name << ": measure with filament-render --measure-costs";

@@ -43,7 +43,7 @@ TEST_P(QualityMeasurementTest, ErrorsAreThoseOfThePicturesAndTheMostExactValueHa
     floor.view().quality = qualityPreset(QualityPreset::Reference);
     const Image exact = test::renderLinear(*engine, floor.scene(), floor.view());
     for (QualityCost const& cost : costs->effects[0].values) {
-        ASSERT_TRUE(setQuality(floor.view().quality, "textureFilter", cost.value));
+        ASSERT_TRUE(setOption(floor.view().quality, "textureFilter", cost.value));
         const Image image = test::renderLinear(*engine, floor.scene(), floor.view());
         EXPECT_NEAR(cost.error, errorOf(image, exact), 1e-6) << cost.value;
         EXPECT_EQ(cost.error == 0, cost.value == "anisotropic");

@@ -310,11 +310,11 @@ std::vector<Image> renderEveryValue(Backend backend) {
     patch.addEnvironment({ float4(0.5f), float4(0.1f), float4(0.2f), float4(0.05f), float4(0.04f), float4(0.03f),
                            float4(0.02f), float4(0.01f), float4(0.03f) },
                          3, RoughnessMapping::Quadratic, irradiance);
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         for (const std::string_view value : choice.values) {
             patch.view.quality = {};
             if (choice.name == "shBands") patch.view.quality.diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
-            EXPECT_TRUE(setQuality(patch.view.quality, choice.name, value));
+            EXPECT_TRUE(setOption(patch.view.quality, choice.name, value));
             images.push_back(patch.render());
         }
     }
@@ -326,9 +326,8 @@ std::vector<Image> renderEveryValue(Backend backend) {
 /// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen,
 /// ambient-occlusion, contact-shadows, refraction, transparency and reflections have pictures for them.
 bool isOfTheView(std::string_view name) {
-    if (name.starts_with("ao") || name.starts_with("ssr") || name.starts_with("refraction") || name == "contactSteps" ||
-        name.starts_with("transparency") || name == "depthPrepass" || name == "antiAliasing" || name == "upscale" ||
-        name == "msaaResolve" || name == "mipBias" || name == "bloomResolution")
+    if (name.starts_with("refraction") || name.starts_with("transparency") || name == "depthPrepass" ||
+        name == "antiAliasing" || name == "msaaResolve" || name == "mipBias")
         return true;
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
            name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
@@ -352,7 +351,7 @@ TEST(QualityBits, EveryValueOfEveryChoiceDrawsTheSameBitsOnBothApisAndAPictureOf
     const std::vector<Image> vulkan = renderEveryValue(Backend::Vulkan), gles = renderEveryValue(Backend::Gles);
     ASSERT_EQ(vulkan.size(), gles.size());
     size_t at = 0;
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         std::vector<std::vector<std::byte>> different;
         for (const std::string_view value : choice.values) {
             if (isRoundedByTheDriver(choice.name, value))

@@ -36,7 +36,7 @@ void pollUntil(CostMeasurement& measurement, CostPlot& plot, uint32_t done) {
 
 QualitySetting withSetting(Document const& document, std::string_view name, std::string_view value) {
     QualitySetting setting{ std::string(name), document.view.quality, document.view.samples };
-    EXPECT_TRUE(setQuality(setting.quality, name, value));
+    EXPECT_TRUE(setOption(setting.quality, name, value));
     return setting;
 }
 

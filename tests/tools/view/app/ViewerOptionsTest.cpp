@@ -21,7 +21,7 @@ TEST(ViewerOptions, TakesTheWordsOfScripts) {
     ViewerOptions const& found = **options;
     EXPECT_EQ(found.model, "model.glb");
     EXPECT_EQ(found.backend, Backend::Gles);
-    EXPECT_EQ(found.size, uint2(640, 360));
+    EXPECT_EQ(found.view.size, uint2(640, 360));
     EXPECT_EQ(found.frames, 3u);
     EXPECT_EQ(found.screenshot, "shot.png");
     EXPECT_EQ(found.presentMode, PresentMode::Mailbox);

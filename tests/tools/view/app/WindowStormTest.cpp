@@ -74,7 +74,7 @@ protected:
         expectShown("another backend");
         done("backend");
     }
-    void setQuality(QualityPreset preset) {
+    void setOption(QualityPreset preset) {
         mViewer->document().view.quality = qualityPreset(preset);
         mViewer->redraw();
         settle();
@@ -108,10 +108,10 @@ protected:
         resize({ 700, 300 });
         minimiseAndRestore();
         open(showcaseFiles().model); // 64 materials
-        setQuality(QualityPreset::Low);
+        setOption(QualityPreset::Low);
         setEnvironment({});
         changeBackend();
-        setQuality(QualityPreset::High);
+        setOption(QualityPreset::High);
         setEnvironment(before.environment.file);
         open(before.model.file);
         changeBackend();

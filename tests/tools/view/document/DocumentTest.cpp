@@ -89,19 +89,18 @@ TEST(Document, KeepsEverythingThatIsChangedTogether) {
 }
 
 TEST(Document, NamesEveryOptionOfTheView) {
-    EXPECT_EQ(memberCount<Quality>(), optionNames(static_cast<Quality const*>(nullptr)).size());
-    const size_t members = memberCount<AmbientOcclusion>() + memberCount<ScreenReflections>() + memberCount<Fog>() +
-                           memberCount<ContactShadows>() + memberCount<Bloom>() + memberCount<DepthOfField>() +
-                           memberCount<MotionBlur>() + memberCount<AutoExposure>() + memberCount<Grading>() +
-                           memberCount<Vignette>() + memberCount<Grain>() + memberCount<ChromaticAberration>() +
-                           memberCount<Resolution>() + memberCount<Sharpening>() + memberCount<LensFlare>() +
-                           memberCount<GuardBand>();
+    EXPECT_EQ(memberCount<Quality>(), optionsOf<Quality>().size());
+    const size_t members = memberCount<AmbientOcclusion>() + memberCount<ScreenSpaceReflections>() +
+                           memberCount<Fog>() + memberCount<ContactShadows>() + memberCount<Bloom>() +
+                           memberCount<DepthOfField>() + memberCount<MotionBlur>() + memberCount<AutoExposure>() +
+                           memberCount<Grading>() + memberCount<Vignette>() + memberCount<Grain>() +
+                           memberCount<ChromaticAberration>() + memberCount<Resolution>() + memberCount<Sharpening>() +
+                           memberCount<LensFlare>() + memberCount<GuardBand>();
     EXPECT_EQ(memberCount<Effects>(), 16u) << "add the new effect above";
     const size_t dirt = 1; // Document::dirt
-    EXPECT_EQ(members - dirt, optionNames(static_cast<Effects const*>(nullptr)).size());
+    EXPECT_EQ(members - dirt, optionsOf<Effects>().size());
     const size_t ofCurve = memberCount<ToneCurve>() - 1, look = 1; // Document::look
-    EXPECT_EQ(memberCount<ColorGrading>() + ofCurve - look,
-              optionNames(static_cast<ColorGrading const*>(nullptr)).size());
+    EXPECT_EQ(memberCount<ColorGrading>() + ofCurve - look, optionsOf<ColorGrading>().size());
 }
 
 /// All values of a tree that are no object.

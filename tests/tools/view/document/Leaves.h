@@ -59,18 +59,15 @@ void changeOption(T& options, std::string_view name, Random& random) {
         for (const char* list :
              { "0.1,0.2,0.3", "0.9,0.8,0.7", "1,1.5,2", "0.5,0.75", "0.6,0.9", "0.1,0.2,0.3,0.4", "1,2,3,4" })
             texts.push_back(list);
-        for (QualityChoice const& choice : qualityChoices())
-            texts.insert(texts.end(), choice.values.begin(), choice.values.end());
-        for (std::string const& word : wordsOf(toneMapperNames())) texts.push_back(word);
-        for (const AgxLook look : { AgxLook::Base, AgxLook::Golden, AgxLook::Punchy }) texts.push_back(toString(look));
-        for (int space = 0; space < 4; ++space) texts.push_back(toString(static_cast<OutputSpace>(space)));
+        for (Option const& option : optionsOf<View>())
+            texts.insert(texts.end(), option.values.begin(), option.values.end());
         return texts;
     }();
-    const std::string old = optionText(options, name);
+    const std::string old = *optionValue(options, name);
     const size_t first = random() % kTexts.size();
     for (size_t i = 0; i < kTexts.size(); ++i) {
         T copy = options;
-        if (setOption(copy, name, kTexts[(first + i) % kTexts.size()]).ok() && optionText(copy, name) != old) {
+        if (setOption(copy, name, kTexts[(first + i) % kTexts.size()]).ok() && *optionValue(copy, name) != old) {
             options = copy;
             return;
         }
@@ -84,9 +81,9 @@ public:
     template <class T>
     void walk(std::string const& place, T& value, double low, double high) {
         if constexpr (IsOptions<T>) {
-            for (const std::string_view name : optionNames(static_cast<T const*>(nullptr)))
-                leaf(fmt::format("{}.{}", place, name),
-                     [&, name](Random& random) { changeOption(value, name, random); });
+            for (Option const& option : optionsOf<T>())
+                leaf(fmt::format("{}.{}", place, option.name),
+                     [&](Random& random) { changeOption(value, option.name, random); });
         } else if constexpr (std::is_same_v<T, Camera>) {
             camera(place, value);
         } else if constexpr (std::is_same_v<T, CameraPath>) {

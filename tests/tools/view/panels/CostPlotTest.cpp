@@ -20,10 +20,10 @@ TEST(CostPlot, MeasuresEveryValueOfEveryChoiceOnce) {
     view.quality.shadows = ShadowFilter::Pcf5;
     const std::vector<QualitySetting> settings = settingsToMeasure(view);
     EXPECT_TRUE(hasSetting(view, settings.at(0))) << "the view's own comes first";
-    for (QualityChoice const& choice : qualityChoices()) {
+    for (Option const& choice : optionsOf<Quality>()) {
         for (const std::string_view value : choice.values) {
             View other = view;
-            ASSERT_TRUE(setQuality(other.quality, choice.name, value));
+            ASSERT_TRUE(setOption(other.quality, choice.name, value));
             const auto has = [&](QualitySetting const& setting) { return hasSetting(other, setting); };
             EXPECT_EQ(std::ranges::count_if(settings, has), 1) << choice.name << '=' << value;
         }

@@ -40,7 +40,7 @@ CostPlot threePoints(View const& view) {
     plot.points.push_back({ { "as it is", view.quality, 1 }, 10, 0.02, 1 });
     for (auto const& [name, value] : changes) {
         MeasuredSetting point{ { name, view.quality, 1 }, 10.0 + static_cast<double>(plot.points.size()), 0, 1 };
-        EXPECT_TRUE(setQuality(point.setting.quality, name, value));
+        EXPECT_TRUE(setOption(point.setting.quality, name, value));
         point.error = 0.02 - 0.005 * static_cast<double>(plot.points.size());
         plot.points.push_back(point);
     }

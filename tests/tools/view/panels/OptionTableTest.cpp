@@ -13,100 +13,40 @@
 namespace filament::view {
 namespace {
 
-TEST(OptionTable, HasEveryNameOfTheEnginesTablesOnce) {
-    const std::vector<Option> options = makeOptions();
-    std::set<std::string> names;
-    for (Option const& option : options) EXPECT_TRUE(names.insert(option.name).second) << option.name;
-    for (QualityChoice const& choice : qualityChoices()) EXPECT_TRUE(names.contains(std::string(choice.name)));
-    for (EffectOption const& option : effectOptions()) EXPECT_TRUE(names.contains(std::string(option.name)));
-    for (ColorGradingOption const& option : colorGradingOptions())
-        EXPECT_TRUE(names.contains(std::string(option.name)));
-    EXPECT_EQ(names.size(), 4 + qualityChoices().size() + effectOptions().size() + colorGradingOptions().size());
-}
-
-/// No option of the engine is left with a line of text: the words of its range are understood.
-TEST(OptionTable, EveryOptionHasAWidgetOfItsKind) {
-    for (Option const& option : makeOptions()) {
-        EXPECT_NE(option.kind, OptionKind::Text) << option.name << ": " << option.range;
-        EXPECT_EQ(option.standard, optionValue({}, option)) << option.name;
+TEST(OptionTable, HasEveryOptionOfAViewInOneGroup) {
+    std::set<Option const*> shown;
+    for (OptionGroup const& group : makeOptionGroups()) {
+        EXPECT_FALSE(group.options.empty()) << group.title;
+        for (Option const* option : group.options) EXPECT_TRUE(shown.insert(option).second) << option->name;
     }
+    EXPECT_EQ(shown.size(), optionsOf<View>().size());
 }
 
-TEST(OptionTable, EveryWordCanBeSetAndIsReadBack) {
-    for (Option const& option : makeOptions()) {
-        std::vector<std::string> values = option.words;
-        if (option.kind == OptionKind::Number) {
-            const std::vector<float> least(option.components, static_cast<float>(option.least));
-            const std::vector<float> most(option.components, static_cast<float>(option.most));
-            values.push_back(optionText(option, least));
-            values.push_back(optionText(option, most));
-        }
-        EXPECT_GE(values.size(), 2u) << option.name;
-        for (std::string const& value : values) {
+TEST(OptionTable, CostsAreKnownForApproximationsOfShading) {
+    EXPECT_TRUE(isRated(*findOption(optionsOf<View>(), "splitSum")));
+    EXPECT_FALSE(isRated(*findOption(optionsOf<View>(), "bloom")));
+    EXPECT_EQ(defaultValue(*findOption(optionsOf<View>(), "fog.color")), "0.5,0.6,0.7");
+}
+
+/// What a widget writes at its ends is accepted.
+TEST(OptionTable, NumbersOfWidgetsAreAccepted) {
+    for (Option const& option : optionsOf<View>()) {
+        if (option.kind != OptionKind::Number && option.kind != OptionKind::Integer) continue;
+        for (const double limit : { option.least, option.most }) {
             View view;
-            const Result<void> done = setOption(view, option, value);
-            ASSERT_TRUE(done) << done.error().message;
-            EXPECT_EQ(optionValue(view, option), value) << option.name;
+            const std::vector<float> numbers(option.components, static_cast<float>(limit));
+            EXPECT_TRUE(setOption(view, option.name, optionText(option, numbers))) << option.name << '=' << limit;
         }
     }
-}
-
-TEST(OptionTable, LimitsAreThoseOfTheEngine) {
-    for (Option const& option : makeOptions()) {
-        if (option.kind != OptionKind::Number) continue;
-        const auto beyond = [&](double limit, float direction) {
-            const auto number = static_cast<float>(limit);
-            const float next = option.isWhole ? number + direction : std::nextafter(number, direction * INFINITY);
-            return optionText(option, std::vector<float>(option.components, next));
-        };
-        View view;
-        EXPECT_FALSE(setOption(view, option, beyond(option.most, 1))) << option.name;
-        EXPECT_FALSE(setOption(view, option, beyond(option.least, -1))) << option.name;
-        EXPECT_EQ(optionValue(view, option), option.standard) << option.name;
-    }
-}
-
-TEST(OptionTable, RefusesWhatIsNotAValue) {
-    for (Option const& option : makeOptions()) {
-        View view;
-        const Result<void> done = setOption(view, option, "no such value");
-        ASSERT_FALSE(done) << option.name;
-        EXPECT_NE(done.error().message.find("no such value"), std::string::npos) << done.error().message;
-    }
-    View view;
-    EXPECT_FALSE(setOption(view, { .name = "nothing" }, "on"));
-}
-
-TEST(OptionTable, UnderstandsTheWordsOfRanges) {
-    const Option flag = optionFromRange("off or on", "off");
-    EXPECT_EQ(flag.kind, OptionKind::Switch);
-    const Option choice = optionFromRange("base, golden or punchy", "base");
-    EXPECT_EQ(choice.kind, OptionKind::Choice);
-    EXPECT_EQ(choice.words, (std::vector<std::string>{ "base", "golden", "punchy" }));
-    const Option whole = optionFromRange("a whole number from 16 to 256", "64");
-    EXPECT_TRUE(whole.kind == OptionKind::Number && whole.isWhole && whole.components == 1);
-    const Option color = optionFromRange("R,G,B, each from -1 to 1000.5", "0,0,0");
-    EXPECT_TRUE(color.kind == OptionKind::Number && color.components == 3);
-    EXPECT_EQ(color.least, -1);
-    EXPECT_EQ(color.most, 1000.5);
-    const Option scale = optionFromRange("a number from 0.5 to 1, or two: X,Y", "1,1");
-    EXPECT_TRUE(scale.kind == OptionKind::Number && scale.components == 2 && scale.most == 1);
-    for (const char* strange : { "", "anything", "a path of a file", "from here to there", "from 2 to 1", ", or " })
-        EXPECT_EQ(optionFromRange(strange, "x").kind, OptionKind::Text) << strange;
 }
 
 TEST(OptionTable, NumbersSurviveTheirTexts) {
-    Option option{ .kind = OptionKind::Number, .components = 3 };
+    const Option option{ .kind = OptionKind::Number, .components = 3 };
     const std::vector<float> numbers{ 0.1f, -3e-7f, 12345.678f };
     EXPECT_EQ(optionNumbers(option, optionText(option, numbers)), numbers);
     EXPECT_TRUE(optionNumbers(option, "1,2").empty());
     EXPECT_TRUE(optionNumbers(option, "1,2,x").empty());
     EXPECT_TRUE(optionNumbers(option, "1,2,3,4").empty());
-}
-
-TEST(OptionTable, FamiliesAreWhatComesBeforeTheDot) {
-    EXPECT_EQ((Option{ .name = "fog.density" }).family(), "fog");
-    EXPECT_EQ((Option{ .name = "fog" }).family(), "fog");
 }
 
 TEST(OptionCosts, AreRatiosOfTheTableTimesTheFrame) {

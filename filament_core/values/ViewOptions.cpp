@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/View.h>
+
+#include "filament_core/values/OptionRows.h"
+
+#include <span>
+#include <vector>
+
+namespace filament {
+
+template <>
+std::span<const Option> optionsOf<View>() {
+    static const std::vector<Option> kOptions = [] {
+        static constexpr std::array<std::string_view, 2> kSamples{ "1", "4" };
+        std::vector<Option> all{ option("samples", &View::samples, { 1, 4, {}, kSamples, true },
+                                        "Samples a pixel: multisample anti-aliasing."),
+                                 option("debugView", &View::debugView,
+                                        "Shows one ingredient of the image: [debug views](debug-views.md).") };
+        append(all, &View::colorGrading, optionsOf<ColorGrading>());
+        append(all, &View::quality, optionsOf<Quality>());
+        append(all, &View::effects, optionsOf<Effects>());
+        return all;
+    }();
+    return kOptions;
+}
+
+} // namespace filament
