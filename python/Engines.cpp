@@ -5,7 +5,7 @@
 #include "tools/materials/PlainMaterials.h"
 
 #include <filament/Environment.h>
-#include <filament/EnvironmentFormat.h>
+#include <filament/Options.h>
 #include <filament/Version.h>
 
 namespace filament::python {
@@ -63,22 +63,19 @@ py::dict statisticsOf(EngineObject const& self) {
                           { "device_bytes", statistics.deviceBytes } });
 }
 
-/// The value of a keyword, by one of the fromName() functions.
+/// Sets an option of loading by a keyword of the same name.
 template <class T>
-T named(std::optional<T> const& known, const char* keyword, std::string const& value, const char* valid) {
-    if (!known) raiseInvalid("{}: '{}' is not {}", keyword, value, valid);
-    return *known;
+void setKeyword(T& options, std::string_view option, const char* keyword, std::string const& value) {
+    if (!setOption(options, option, value))
+        raiseInvalid("{}: '{}' is not {}", keyword, value, rangeOf(*findOption(optionsOf<T>(), option)));
 }
 
 std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem::path const& path,
                                        std::string const& positions, std::string const& tangents, bool deformable,
-                                       std::string const& files) {
-    GltfLoadOptions options{ .deformable = deformable };
-    options.positions =
-            named(enumFromName<PositionStorage>(positions), "positions", positions, "asAuthored, half or unorm16");
-    options.tangents = named(enumFromName<TangentStorage>(tangents), "tangents", tangents, "snorm16, snorm8 or float");
-    if (files != "folder" && files != "anywhere") raiseInvalid("files: '{}' is not folder or anywhere", files);
-    options.filesFromAnywhere = files == "anywhere";
+                                       bool filesFromAnywhere) {
+    GltfLoadOptions options{ .deformable = deformable, .filesFromAnywhere = filesFromAnywhere };
+    setKeyword(options, "positions", "positions", positions);
+    setKeyword(options, "tangents", "tangents", tangents);
     const Owner::Call call(*self.owner);
     Result<Model> model = released([&] { return loadGltf(call.engine(), path, options); });
     return std::make_shared<ModelObject>(self.owner, valueOf(std::move(model)));
@@ -87,14 +84,11 @@ std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem
 std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesystem::path const& path,
                                            int64_t faceSize, std::string const& format,
                                            std::string const& roughnessMapping, int64_t samples) {
-    const bool isPower = faceSize >= 16 && faceSize <= 2048 && (faceSize & (faceSize - 1)) == 0;
-    if (!isPower) raiseInvalid("face_size: {} is no power of two from 16 to 2048", faceSize);
-    if (samples < 1 || samples > 65536) raiseInvalid("samples: {} is not from 1 to 65536", samples);
-    EnvironmentLoadOptions options{ .faceSize = static_cast<uint32_t>(faceSize) };
-    options.format = named(environmentFormatFromName(format), "format", format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM");
-    options.roughnessMapping = named(enumFromName<RoughnessMapping>(roughnessMapping), "roughness_mapping",
-                                     roughnessMapping, "quadratic, logarithmic or linear");
-    options.samples = static_cast<uint32_t>(samples);
+    EnvironmentLoadOptions options;
+    setKeyword(options, "faceSize", "face_size", std::to_string(faceSize));
+    setKeyword(options, "format", "format", format);
+    setKeyword(options, "roughnessMapping", "roughness_mapping", roughnessMapping);
+    setKeyword(options, "samples", "samples", std::to_string(samples));
     const Owner::Call call(*self.owner);
     Result<Environment> sky = released([&] { return loadEnvironment(call.engine(), path, options); });
     return std::make_shared<EnvironmentObject>(self.owner, valueOf(std::move(sky)));
@@ -164,9 +158,9 @@ void bindLoaded(py::module_& module) {
 
 void bindLoading(EngineClass& engine) {
     engine.def("load_model", &loadModel, py::arg("path"), py::kw_only(), py::arg("positions") = "asAuthored",
-               py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("files") = "folder",
+               py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("files_from_anywhere") = false,
                "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents and "
-               "model.files.")
+               "model.filesFromAnywhere.")
             .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
                  "Loads an equirectangular .hdr or .exr, a cube map in a .ktx2, or a package of cmgen, as light and "

@@ -3,6 +3,8 @@
 
 #include "base/math/Elementary.h"
 
+#include <filament/Options.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,8 +25,7 @@ float3 unitDirection(float3 direction) {
     return float3(double3(direction) / exact);
 }
 
-constexpr float kWidestSunDegrees = 20, kWidestHalo = 1000, kSteepestHalo = 10'000,
-                kLargestFloat = std::numeric_limits<float>::max();
+constexpr float kLargestFloat = std::numeric_limits<float>::max();
 
 // Negative values and NaN become 0.
 float clampedOr0(float value, float most) { return value > 0 ? std::min(value, most) : 0.0f; }
@@ -83,19 +84,20 @@ void setExtent(LightRecord& record, float2 halfExtent) {
 
 } // namespace
 
-LightRecord recordOf(Engine::Impl const&, SunLight const& light) {
-    checkLight(light.color, 0, double3(0.0));
+LightRecord recordOf(Engine::Impl const&, SunLight const& given) {
+    checkLight(given.color, 0, double3(0.0));
+    const SunLight light = clamped(given);
     return { .type = LightRecord::Type::Sun,
              .directionWorld = unitDirection(light.directionWorld),
              .color = light.color,
              .intensity = light.illuminance.value,
-             .sourceRadius = elementary::tan(glm::radians(clampedOr0(light.angularRadiusDegrees, kWidestSunDegrees))),
+             .sourceRadius = elementary::tan(glm::radians(light.angularRadiusDegrees)),
              .castsShadows = light.castsShadows,
              .contactShadows = light.contactShadows,
              .channels = light.lightChannels,
              .showsDisc = light.showsDisc,
-             .haloSize = std::max(1.0f, clampedOr0(light.haloSize, kWidestHalo)),
-             .haloFalloff = clampedOr0(light.haloFalloff, kSteepestHalo) };
+             .haloSize = light.haloSize,
+             .haloFalloff = light.haloFalloff };
 }
 
 LightRecord recordOf(Engine::Impl const& engine, PointLight const& light) {

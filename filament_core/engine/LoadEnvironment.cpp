@@ -77,11 +77,26 @@ Environment uploadEnvironment(Engine& engine, assets::EnvironmentData data, std:
     return upload.finish();
 }
 
+/// Of the textures that store it.
+Format textureFormat(EnvironmentFormat format) {
+    switch (format) {
+    case EnvironmentFormat::Rgba16F:
+        break;
+    case EnvironmentFormat::R11G11B10F:
+        return Format::R11G11B10F;
+    case EnvironmentFormat::Rgb9E5:
+        return Format::RGB9E5;
+    case EnvironmentFormat::Rgbm:
+        return Format::RGBA8;
+    }
+    return Format::RGBA16F;
+}
+
 assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, EnvironmentLoadOptions const& options) {
     return { .cacheDirectory = engine.options.cacheDirectory,
              .faceSize = options.faceSize,
              .samples = options.samples,
-             .format = options.format,
+             .format = textureFormat(options.format),
              .mapping = options.roughnessMapping,
              .progress = options.progress };
 }

@@ -3,6 +3,7 @@
 
 #include "base/Assert.h"
 
+#include <filament/Options.h>
 #include <filament/Quality.h>
 
 #include <algorithm>

@@ -6,19 +6,22 @@
 
 #include "tools/common/SceneOptions.h"
 
+#include <filament/Options.h>
+
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace filament::tools {
 
-struct SceneChoice {
-    std::string_view name;
-    std::string_view values;  ///< for documents: "on, off"
-    std::string_view initial; ///< the value without --set, as text; empty: none
-    std::string_view effect;  ///< for documents: one phrase of Markdown
+/// Options of a struct that have a prefix: "sun.haloSize".
+struct PrefixedOptions {
+    std::string_view prefix;
+    std::span<const Option> options;
+    void const* defaults; ///< a struct that nobody changed
 };
-
-std::span<const SceneChoice> sceneChoices();
+std::span<const PrefixedOptions> prefixedOptions();
 
 /// Nothing: the name is no choice of these.
 std::optional<Result<void>> setSceneChoice(SceneOptions& options, std::string const& name, std::string const& value);

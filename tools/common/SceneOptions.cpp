@@ -116,12 +116,9 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
         const size_t equals = word.find('=');
         if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
         const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
-        if (const auto chosen = setSceneChoice(options, name, value)) {
-            if (!*chosen) return *chosen;
-            continue;
-        }
-        if (const Result<void> done = setOption(options.view, name, value); !done)
-            return fail(done.error().code, "--set {}: {}", word, done.error().message);
+        const auto chosen = setSceneChoice(options, name, value);
+        const Result<void> done = chosen ? *chosen : setOption(options.view, name, value);
+        if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
     }
     return {};
 }

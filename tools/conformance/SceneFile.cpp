@@ -15,6 +15,24 @@
 namespace filament::conformance {
 namespace {
 
+std::string optionText(Json const& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+    return value.dump();
+}
+
+/// The options of T that a scene names, as words, numbers, switches or lists of numbers.
+template <class T>
+void readOptions(JsonReader& reader, T& object) {
+    for (Option const& option : optionsOf<T>()) {
+        const char* const key = option.name.data(); // a literal
+        Json const* value = reader.raw(key);
+        if (!value) continue;
+        const Result<void> done = setOption(object, option.name, optionText(*value));
+        if (!done) reader.complain(key, done.error().message);
+    }
+}
+
 constexpr double kBright = 1e9;
 
 void readCopy(JsonReader& reader, SceneSpec& spec) {
@@ -47,16 +65,7 @@ void readEnvironment(JsonReader& reader, SceneSpec& spec) {
     reader.read("degrees", degrees, -360, 360);
     spec.environmentSettings.rotationRadians = static_cast<float>(glm::radians(degrees));
     reader.read("skybox", spec.environmentSettings.skybox);
-    EnvironmentLoadOptions& options = spec.environmentOptions;
-    reader.choice("format", options.format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM", environmentFormatFromName);
-    reader.choice("roughnessMapping", options.roughnessMapping, "quadratic, logarithmic or linear",
-                  enumFromName<RoughnessMapping>);
-}
-
-void readGeometry(JsonReader& reader, GltfLoadOptions& options) {
-    reader.choice("positions", options.positions, "asAuthored, half or unorm16", enumFromName<PositionStorage>);
-    reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", enumFromName<TangentStorage>);
-    reader.read("allLevels", options.allLevels);
+    readOptions(reader, spec.environmentOptions);
 }
 
 void readAnimation(JsonReader& reader, SceneSpec& spec) {
@@ -82,24 +91,6 @@ void readExposure(JsonReader& reader, Exposure& exposure) {
     reader.read("aperture", exposure.aperture, 0.1, 100);
     reader.read("shutter", exposure.shutterSeconds, 1e-6, 100);
     reader.read("iso", exposure.iso, 1, 1e6);
-}
-
-std::string optionText(Json const& value) {
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
-    return value.dump();
-}
-
-/// The options of T that a scene names, as words, numbers, switches or lists of numbers.
-template <class T>
-void readOptions(JsonReader& reader, T& object) {
-    for (Option const& option : optionsOf<T>()) {
-        const char* const key = option.name.data(); // a literal
-        Json const* value = reader.raw(key);
-        if (!value) continue;
-        const Result<void> done = setOption(object, option.name, optionText(*value));
-        if (!done) reader.complain(key, done.error().message);
-    }
 }
 
 /// A path from the scene's folder.
@@ -233,7 +224,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.raw("features");
     readModel(reader, spec);
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
-    reader.object("geometry", [&](JsonReader& r) { readGeometry(r, spec.modelOptions); });
+    reader.object("geometry", [&](JsonReader& r) { readOptions(r, spec.modelOptions); });
     reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });
     readLights(reader, spec);
     reader.objects("copies", [&](JsonReader& r) { readCopy(r, spec); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/SceneLights.h"
 
+#include <filament/Options.h>
 #include <filament/Photometry.h>
 
 #include <fmt/format.h>
@@ -127,10 +128,13 @@ SunLight readSun(JsonReader& reader) {
     SunLight sun;
     readDirection(reader, sun.directionWorld);
     reader.read("lux", sun.illuminance.value, 0, kBrightestLight);
-    reader.read("angularRadiusDegrees", sun.angularRadiusDegrees, 0, 20);
+    for (auto const& [name, value] :
+         { std::pair("angularRadiusDegrees", &sun.angularRadiusDegrees), std::pair("haloSize", &sun.haloSize),
+           std::pair("haloFalloff", &sun.haloFalloff) }) {
+        Option const& option = *findOption(optionsOf<SunLight>(), name);
+        reader.read(name, *value, option.least, option.most);
+    }
     reader.read("showsDisc", sun.showsDisc);
-    reader.read("haloSize", sun.haloSize, 1, 1000);
-    reader.read("haloFalloff", sun.haloFalloff, 0, 10'000);
     readShared(reader, sun);
     return sun;
 }

@@ -22,8 +22,7 @@ std::string keyOf(std::filesystem::path const& path, GltfLoadOptions const& opti
 }
 
 std::string keyOf(std::filesystem::path const& path, EnvironmentLoadOptions const& options) {
-    return fmt::format("{} {} {}", path.string(), environmentFormatName(options.format),
-                       toString(options.roughnessMapping));
+    return fmt::format("{} {} {}", path.string(), toString(options.format), toString(options.roughnessMapping));
 }
 
 } // namespace

@@ -17,9 +17,9 @@ constexpr std::string_view kBegin = "<!-- begin: ", kEnd = "<!-- end: ", kClose 
 
 constexpr const char* kOptionHead = "| name | values | initially | effect |\n|---|---|---|---|\n";
 
-std::string optionRow(Option const& option, void const* standard) {
-    return fmt::format("| `{}` | {} | `{}` | {} |\n", option.name, rangeOf(option), optionValue(option, standard),
-                       option.description);
+std::string optionRow(Option const& option, void const* standard, std::string_view prefix = {}) {
+    return fmt::format("| `{}{}` | {} | `{}` | {} |\n", prefix, option.name, rangeOf(option),
+                       optionValue(option, standard), option.description);
 }
 
 /// The options of T, with the values of one that nobody changed.
@@ -44,13 +44,13 @@ std::string viewTable() {
     return text;
 }
 
+/// What command lines have besides the options of a view.
 std::string choiceTable() {
-    std::string text = "| name | values | initially | effect |\n|---|---|---|---|\n";
-    for (SceneChoice const& choice : sceneChoices()) {
-        const std::string initial = choice.initial.empty() ? "" : fmt::format("`{}`", choice.initial);
-        fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} | {} |\n", choice.name, choice.values, initial,
-                       choice.effect);
-    }
+    std::string text = kOptionHead;
+    text += "| `exact` | off or on | `on` | Off leaves arithmetic to the drivers: the bits then differ. |\n"
+            "| `bloom.dirt` | a file | | Dirt of the lens, through which [bloom](bloom.md) is seen. |\n";
+    for (PrefixedOptions const& set : prefixedOptions())
+        for (Option const& option : set.options) text += optionRow(option, set.defaults, set.prefix);
     return text;
 }
 

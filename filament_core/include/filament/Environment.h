@@ -8,8 +8,7 @@
 #pragma once
 
 #include <filament/Engine.h>
-#include <filament/EnvironmentFormat.h>
-#include <filament/Gltf.h>
+#include <filament/LoadOptions.h>
 
 #include <filesystem>
 #include <memory>
@@ -17,14 +16,6 @@
 #include <string_view>
 
 namespace filament {
-
-struct EnvironmentLoadOptions {
-    uint32_t faceSize = 256;         ///< texels per side of a cube face, power of two in [16, 2048]
-    Format format = Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8 (as RGBM): half the memory
-    RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
-    uint32_t samples = 512; ///< approximate number of pieces of the sky that each texel integrates
-    LoadProgress progress{};
-};
 
 class Environment {
 public:

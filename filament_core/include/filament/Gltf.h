@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filament/Engine.h>
+#include <filament/LoadOptions.h>
 #include <filament/Scene.h>
 
 #include <filesystem>
@@ -18,25 +19,6 @@
 #include <vector>
 
 namespace filament {
-
-/// Called with the name of the stage, the steps done and the total, on the loading thread or a worker, never on two
-/// threads at once.
-using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
-
-struct GltfLoadOptions {
-    PositionStorage positions = PositionStorage::AsAuthored;
-    TangentStorage tangents = TangentStorage::Snorm16;
-    /// False: skins and morph targets are applied once, in the rest pose, and animations are not loaded. This is
-    /// cheaper to draw.
-    bool deformable = true;
-    /// Of things with levels of detail (MSFT_lod): true loads all of them, for ModelCopy::chooseLevels(). False: the
-    /// finest alone, which takes less time and memory.
-    bool allLevels = false;
-    /// True: buffers and images may also lie outside of the model's folder: behind absolute paths, "..", and links that
-    /// lead out. Only for models that you trust.
-    bool filesFromAnywhere = false;
-    LoadProgress progress{};
-};
 
 /// A model in memory, .glb or .gltf.
 struct GltfMemory {

@@ -2,7 +2,8 @@
 /// Options: the settings of a view, of lights and of loading by name. Each is described once, and everything else
 /// follows from that description: command lines, scene files, panels, Python and the tables of docs/options.md.
 ///   Names    "bloom.strength", as in `filament-render --set bloom.strength=0.2` and in scene files.
-///   Types    View, whose options are its own and those of Quality, Effects and ColorGrading.
+///   Types    View, whose options are its own and those of Quality, Effects and ColorGrading; lights; the settings and
+///            the loading of environments and of glTF files.
 ///   Values   words: "on" and "off", the names of an enumeration, or numbers in the C locale, with commas between the
 ///            components of a vector. One number stands for all components.
 ///   Clamping setOption() refuses what lies outside of a range; values that a program writes into a struct itself are
@@ -25,8 +26,17 @@
 namespace filament {
 
 struct ColorGrading;
+struct DiscLight;
 struct Effects;
+struct EnvironmentLoadOptions;
+struct EnvironmentSettings;
+struct GltfLoadOptions;
+struct PointLight;
 struct Quality;
+struct RectLight;
+struct SpotLight;
+struct SunLight;
+struct TubeLight;
 struct View;
 
 enum class OptionKind : uint8_t {
@@ -60,9 +70,27 @@ std::span<const Option> optionsOf() = delete;
 template <>
 std::span<const Option> optionsOf<ColorGrading>();
 template <>
+std::span<const Option> optionsOf<DiscLight>();
+template <>
 std::span<const Option> optionsOf<Effects>();
 template <>
+std::span<const Option> optionsOf<EnvironmentLoadOptions>();
+template <>
+std::span<const Option> optionsOf<EnvironmentSettings>();
+template <>
+std::span<const Option> optionsOf<GltfLoadOptions>();
+template <>
+std::span<const Option> optionsOf<PointLight>();
+template <>
 std::span<const Option> optionsOf<Quality>();
+template <>
+std::span<const Option> optionsOf<RectLight>();
+template <>
+std::span<const Option> optionsOf<SpotLight>();
+template <>
+std::span<const Option> optionsOf<SunLight>();
+template <>
+std::span<const Option> optionsOf<TubeLight>();
 template <>
 std::span<const Option> optionsOf<View>();
 

@@ -11,6 +11,7 @@
 #include <filament/Box.h>
 #include <filament/Engine.h>
 #include <filament/Light.h>
+#include <filament/LoadOptions.h>
 #include <filament/Node.h>
 
 #include <memory>
@@ -72,12 +73,6 @@ struct RenderableDesc {
     Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
     DrawPlace drawPlace{};                               ///< among what is drawn in an order
     std::string name{};
-};
-
-struct EnvironmentSettings {
-    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the environment stands for
-    float rotationRadians = 0; ///< around +Y
-    bool skybox = true;        ///< draw the environment as background
 };
 
 class Scene {

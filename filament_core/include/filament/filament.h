@@ -13,6 +13,7 @@
 #include <filament/DebugViews.h>
 #include <filament/Effects.h>
 #include <filament/Engine.h>
+#include <filament/EnumNames.h>
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
 #include <filament/Image.h>
@@ -20,6 +21,7 @@
 #include <filament/Light.h>
 #include <filament/LightProfile.h>
 #include <filament/Lines.h>
+#include <filament/LoadOptions.h>
 #include <filament/LoadTicket.h>
 #include <filament/Look.h>
 #include <filament/Material.h>
@@ -29,6 +31,7 @@
 #include <filament/NativeWindow.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
+#include <filament/Options.h>
 #include <filament/Photometry.h>
 #include <filament/Primitives.h>
 #include <filament/Quality.h>

@@ -19,7 +19,7 @@ using test::pictureOfLamp;
 constexpr double kSide = 0.05; // of the lamp: 12.8 pixels wide
 constexpr float kLight = 100;
 
-LensFlare ghosts(float count, float spacing) {
+LensFlare ghosts(uint8_t count, float spacing) {
     return { .enabled = true,
              .threshold = 1,
              .ghostStrength = 0.5f,
@@ -117,13 +117,13 @@ TEST(LensFlare, PutsAGhostOnTheLineThroughTheMiddle) {
 
 TEST(LensFlare, MovesLightAndAddsNone) {
     for (const double2 at : { double2(0.3, 0.1), double2(-0.2, 0.3) }) {
-        for (const float count : { 1.0f, 2.0f, 4.0f }) {
+        for (const uint8_t count : { uint8_t{ 1 }, uint8_t{ 2 }, uint8_t{ 4 } }) {
             LensFlare options = ghosts(count, 0.55f);
             options.haloStrength = 0.25f;
             options.haloRadius = 0.2f;
             const Flare flare(options, at);
-            EXPECT_NEAR(flare.taken(), 0.75 * flare.bright(), 0.02 * flare.bright()) << count;
-            EXPECT_NEAR(flare.sum(), 0.75 * flare.bright(), 0.03 * flare.bright()) << count;
+            EXPECT_NEAR(flare.taken(), 0.75 * flare.bright(), 0.02 * flare.bright()) << int{ count };
+            EXPECT_NEAR(flare.sum(), 0.75 * flare.bright(), 0.03 * flare.bright()) << int{ count };
         }
     }
 }

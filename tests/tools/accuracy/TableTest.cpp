@@ -112,8 +112,8 @@ TEST(EffectSettings, EveryValueWorthMeasuringIsAccepted) {
 
 TEST(EffectSettings, WhatIsWrongIsNamedTogetherWithWhatWouldBeRight) {
     Settings settings;
-    EXPECT_THAT(change(settings, "environment.facesize=64").error().message, HasSubstr("environment.faceSize"));
-    EXPECT_THAT(change(settings, "environment.faceSize=65").error().message, HasSubstr("power of two"));
+    EXPECT_THAT(change(settings, "environment.facesize=64").error().message, HasSubstr("'faceSize'"));
+    EXPECT_THAT(change(settings, "environment.faceSize=65").error().message, HasSubstr("16, 32, 64"));
     EXPECT_THAT(change(settings, "samples=3").error().message, HasSubstr("1 or 4"));
     EXPECT_THAT(change(settings, "samples").error().message, HasSubstr("NAME=VALUE"));
     EXPECT_THAT(change(settings, "shBands=9").error().message, HasSubstr("1, 2 or 3"));

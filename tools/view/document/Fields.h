@@ -38,10 +38,23 @@ concept HasFields = requires {
     Fields<T>::list;
 };
 
+/// With the range of the option of that name, if T has options.
+template <class T, class M>
+Field<T, M> ranged(Field<T, M> field) {
+    if constexpr (HasOptions<T>) {
+        Option const* option = findOption(optionsOf<T>(), field.name);
+        if (!option || (option->kind != OptionKind::Number && option->kind != OptionKind::Integer)) return field;
+        const bool isFloat = option->storage == Option::Storage::Float; // limits as floats hold them: pi / 2 rounds up
+        field.low = isFloat ? static_cast<double>(static_cast<float>(option->least)) : option->least;
+        field.high = isFloat ? static_cast<double>(static_cast<float>(option->most)) : option->most;
+    }
+    return field;
+}
+
 /// Calls visit(field) for each.
 template <HasFields T, class Visit>
 void forEachField(Visit const& visit) {
-    std::apply([&](auto const&... fields) { (visit(fields), ...); }, Fields<T>::list);
+    std::apply([&](auto const&... fields) { (visit(ranged(fields)), ...); }, Fields<T>::list);
 }
 
 struct AnyMember {
@@ -106,59 +119,59 @@ template <> struct Fields<GltfLoadOptions> {
     static constexpr size_t others = 1; // progress
 };
 template <> struct Fields<EnvironmentLoadOptions> {
-    static constexpr auto list = std::tuple{ field("faceSize", &EnvironmentLoadOptions::faceSize, 16, 2048),
+    static constexpr auto list = std::tuple{ field("faceSize", &EnvironmentLoadOptions::faceSize),
                                              field("format", &EnvironmentLoadOptions::format),
                                              field("roughnessMapping", &EnvironmentLoadOptions::roughnessMapping),
-                                             field("samples", &EnvironmentLoadOptions::samples, 1, 65536) };
+                                             field("samples", &EnvironmentLoadOptions::samples) };
     static constexpr size_t others = 1; // progress
 };
 template <> struct Fields<EnvironmentSettings> {
-    static constexpr auto list = std::tuple{ field("illuminance", &EnvironmentSettings::illuminance, 0, 1e12),
-                                             field("rotationRadians", &EnvironmentSettings::rotationRadians, -1e6, 1e6),
+    static constexpr auto list = std::tuple{ field("illuminance", &EnvironmentSettings::illuminance),
+                                             field("rotationRadians", &EnvironmentSettings::rotationRadians),
                                              field("skybox", &EnvironmentSettings::skybox) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<SunLight> {
     static constexpr auto list = std::tuple{
-        field("directionWorld", &SunLight::directionWorld, -kFinite, kFinite),
-        field("illuminance", &SunLight::illuminance, 0, 1e12),
-        field("color", &SunLight::color, 0, 1e9), field("angularRadiusDegrees", &SunLight::angularRadiusDegrees, 0, 20),
-        field("showsDisc", &SunLight::showsDisc), field("haloSize", &SunLight::haloSize, 1, 1000),
-        field("haloFalloff", &SunLight::haloFalloff, 0, 10'000), field("castsShadows", &SunLight::castsShadows),
+        field("directionWorld", &SunLight::directionWorld),
+        field("illuminance", &SunLight::illuminance),
+        field("color", &SunLight::color), field("angularRadiusDegrees", &SunLight::angularRadiusDegrees),
+        field("showsDisc", &SunLight::showsDisc), field("haloSize", &SunLight::haloSize),
+        field("haloFalloff", &SunLight::haloFalloff), field("castsShadows", &SunLight::castsShadows),
         field("contactShadows", &SunLight::contactShadows), field("lightChannels", &SunLight::lightChannels) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<PointLight> {
     static constexpr auto list = std::tuple{
-        field("positionWorld", &PointLight::positionWorld), field("intensity", &PointLight::intensity, 0, 1e12),
-        field("color", &PointLight::color, 0, 1e9), field("rangeMeters", &PointLight::rangeMeters, 0, kFinite),
-        field("sourceRadiusMeters", &PointLight::sourceRadiusMeters, 0, kFinite),
+        field("positionWorld", &PointLight::positionWorld), field("intensity", &PointLight::intensity),
+        field("color", &PointLight::color), field("rangeMeters", &PointLight::rangeMeters),
+        field("sourceRadiusMeters", &PointLight::sourceRadiusMeters),
         field("castsShadows", &PointLight::castsShadows), field("contactShadows", &PointLight::contactShadows),
         field("lightChannels", &PointLight::lightChannels),
-        field("directionWorld", &PointLight::directionWorld, -kFinite, kFinite),
-        field("upWorld", &PointLight::upWorld, -kFinite, kFinite) };
+        field("directionWorld", &PointLight::directionWorld),
+        field("upWorld", &PointLight::upWorld) };
     static constexpr size_t others = 1; // profile
 };
 template <> struct Fields<SpotLight> {
     static constexpr auto list = std::tuple{
         field("positionWorld", &SpotLight::positionWorld),
-        field("directionWorld", &SpotLight::directionWorld, -kFinite, kFinite),
-        field("intensity", &SpotLight::intensity, 0, 1e12), field("color", &SpotLight::color, 0, 1e9),
-        field("rangeMeters", &SpotLight::rangeMeters, 0, kFinite),
-        field("innerConeRadians", &SpotLight::innerConeRadians, 0, static_cast<double>(kMostCone)),
-        field("outerConeRadians", &SpotLight::outerConeRadians, 0, static_cast<double>(kMostCone)),
-        field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters, 0, kFinite),
+        field("directionWorld", &SpotLight::directionWorld),
+        field("intensity", &SpotLight::intensity), field("color", &SpotLight::color),
+        field("rangeMeters", &SpotLight::rangeMeters),
+        field("innerConeRadians", &SpotLight::innerConeRadians),
+        field("outerConeRadians", &SpotLight::outerConeRadians),
+        field("sourceRadiusMeters", &SpotLight::sourceRadiusMeters),
         field("castsShadows", &SpotLight::castsShadows), field("contactShadows", &SpotLight::contactShadows),
-        field("lightChannels", &SpotLight::lightChannels), field("upWorld", &SpotLight::upWorld, -kFinite, kFinite) };
+        field("lightChannels", &SpotLight::lightChannels), field("upWorld", &SpotLight::upWorld) };
     static constexpr size_t others = 1; // profile
 };
 template <> struct Fields<RectLight> {
     static constexpr auto list = std::tuple{
         field("positionWorld", &RectLight::positionWorld),
-        field("directionWorld", &RectLight::directionWorld, -kFinite, kFinite),
-        field("upWorld", &RectLight::upWorld, -kFinite, kFinite), field("widthMeters", &RectLight::widthMeters, 0, 1e9),
-        field("heightMeters", &RectLight::heightMeters, 0, 1e9), field("luminance", &RectLight::luminance, 0, 1e12),
-        field("color", &RectLight::color, 0, 1e9), field("rangeMeters", &RectLight::rangeMeters, 0, kFinite),
+        field("directionWorld", &RectLight::directionWorld),
+        field("upWorld", &RectLight::upWorld), field("widthMeters", &RectLight::widthMeters),
+        field("heightMeters", &RectLight::heightMeters), field("luminance", &RectLight::luminance),
+        field("color", &RectLight::color), field("rangeMeters", &RectLight::rangeMeters),
         field("isTwoSided", &RectLight::isTwoSided), field("castsShadows", &RectLight::castsShadows),
         field("lightChannels", &RectLight::lightChannels) };
     static constexpr size_t others = 0;
@@ -166,20 +179,20 @@ template <> struct Fields<RectLight> {
 template <> struct Fields<DiscLight> {
     static constexpr auto list = std::tuple{
         field("positionWorld", &DiscLight::positionWorld),
-        field("directionWorld", &DiscLight::directionWorld, -kFinite, kFinite),
-        field("radiusMeters", &DiscLight::radiusMeters, 0, 1e9), field("luminance", &DiscLight::luminance, 0, 1e12),
-        field("color", &DiscLight::color, 0, 1e9), field("rangeMeters", &DiscLight::rangeMeters, 0, kFinite),
+        field("directionWorld", &DiscLight::directionWorld),
+        field("radiusMeters", &DiscLight::radiusMeters), field("luminance", &DiscLight::luminance),
+        field("color", &DiscLight::color), field("rangeMeters", &DiscLight::rangeMeters),
         field("isTwoSided", &DiscLight::isTwoSided), field("castsShadows", &DiscLight::castsShadows),
         field("lightChannels", &DiscLight::lightChannels) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<TubeLight> {
     static constexpr auto list = std::tuple{
-        field("positionWorld", &TubeLight::positionWorld), field("axisWorld", &TubeLight::axisWorld, -kFinite, kFinite),
-        field("lengthMeters", &TubeLight::lengthMeters, 0, 1e9),
-        field("radiusMeters", &TubeLight::radiusMeters, 0, 1e9),
-        field("luminance", &TubeLight::luminance, 0, 1e12), field("color", &TubeLight::color, 0, 1e9),
-        field("rangeMeters", &TubeLight::rangeMeters, 0, kFinite), field("castsShadows", &TubeLight::castsShadows),
+        field("positionWorld", &TubeLight::positionWorld), field("axisWorld", &TubeLight::axisWorld),
+        field("lengthMeters", &TubeLight::lengthMeters),
+        field("radiusMeters", &TubeLight::radiusMeters),
+        field("luminance", &TubeLight::luminance), field("color", &TubeLight::color),
+        field("rangeMeters", &TubeLight::rangeMeters), field("castsShadows", &TubeLight::castsShadows),
         field("lightChannels", &TubeLight::lightChannels) };
     static constexpr size_t others = 0;
 };
@@ -340,19 +353,10 @@ template <NamedEnum E>
 std::optional<E> fromName(E, std::string_view name) {
     return enumFromName<E>(name);
 }
-/// Null for a format that no environment has.
-inline const char* nameOf(Format value) {
-    for (const char* name : { "RGBA16F", "R11G11B10F", "RGB9E5", "RGBM" }) {
-        if (environmentFormatFromName(name) == value) return name;
-    }
-    return nullptr;
-}
-inline std::optional<Format> fromName(Format, std::string_view name) { return environmentFormatFromName(name); }
 template <NamedEnum E>
 std::string validNames(E) {
     return listed(enumNames<E>());
 }
-inline std::string validNames(Format) { return "RGBA16F, R11G11B10F, RGB9E5 or RGBM"; }
 
 /// Of the alternatives of AnyLight.
 inline constexpr std::array<const char*, std::variant_size_v<AnyLight>> kLightKinds{ "sun",  "point", "spot",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/LightFields.h"
 
+#include <filament/Options.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +21,11 @@ struct FieldList {
     void number(std::string_view name, float& value, float least, float most, bool isLogarithmic = false) {
         fields.push_back({ name, LightFieldKind::Number, &value, least, most, isLogarithmic });
     }
+    /// Of the sun, with the range of its option.
+    void option(std::string_view name, float& value, std::string_view optionName, bool isLogarithmic = false) {
+        Option const& option = *findOption(optionsOf<SunLight>(), optionName);
+        number(name, value, static_cast<float>(option.least), static_cast<float>(option.most), isLogarithmic);
+    }
     void meters(std::string_view name, float& value, float least = 0) { number(name, value, least, kMostMeters, true); }
     void flag(std::string_view name, bool& value) { fields.push_back({ name, LightFieldKind::Switch, &value }); }
     void place(double3& value) { fields.push_back({ "position, m", LightFieldKind::Place, &value }); }
@@ -32,10 +39,10 @@ struct FieldList {
         direction("direction", light.directionWorld);
         number("illuminance, lx", light.illuminance.value, 0, kMostIntensity, true);
         color(light.color);
-        number("half angle, degrees", light.angularRadiusDegrees, 0, 20);
+        option("half angle, degrees", light.angularRadiusDegrees, "angularRadiusDegrees");
         flag("shows its disc", light.showsDisc);
-        number("halo size", light.haloSize, 1, 1000, true);
-        number("halo falloff", light.haloFalloff, 0, 10'000, true);
+        option("halo size", light.haloSize, "haloSize", true);
+        option("halo falloff", light.haloFalloff, "haloFalloff", true);
         flag("casts shadows", light.castsShadows);
         flag("contact shadows", light.contactShadows);
         channels(light.lightChannels);

@@ -240,7 +240,6 @@ TEST(Document, RefusesWhatBreaksARuleOfSeveralFields) {
     expectRefused("view.colorGrading", [](Document& d) { d.view.colorGrading.whiteNits = 1; });
     expectRefused("view.quality", [](Document& d) { d.view.quality.shBands = 9; });
     expectRefused("environment.options.faceSize", [](Document& d) { d.environment.options.faceSize = 100; });
-    expectRefused("environment.options.format", [](Document& d) { d.environment.options.format = Format::R8; });
     expectRefused("nodes[1]", [](Document& d) { d.nodes[1].node = d.nodes[0].node; });
     expectRefused("modelLights[1]", [](Document& d) { d.modelLights[1].light = d.modelLights[0].light; });
     expectRefused("morphs[1]", [](Document& d) { d.morphs.push_back(d.morphs[0]); });

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/LoadOptions.h>
+
+#include "filament_core/values/OptionRows.h"
+
+#include <span>
+#include <vector>
+
+namespace filament {
+
+template <>
+std::span<const Option> optionsOf<GltfLoadOptions>() {
+    using O = GltfLoadOptions;
+    static const std::vector<Option> kOptions{
+        option("positions", &O::positions, "Storage of positions."),
+        option("tangents", &O::tangents, "Storage of tangent frames."),
+        option("deformable", &O::deformable, "Loads skins, morph targets and animations."),
+        option("allLevels", &O::allLevels, "Loads all levels of detail, and not only the finest."),
+        option("filesFromAnywhere", &O::filesFromAnywhere,
+               "Opens buffers and images outside of the model's folder: only for models that you trust.")
+    };
+    return kOptions;
+}
+
+template <>
+std::span<const Option> optionsOf<EnvironmentLoadOptions>() {
+    static constexpr std::array<std::string_view, 8> kFaceSizes{
+        "16", "32", "64", "128", "256", "512", "1024", "2048"
+    };
+    static constexpr std::array<std::string_view, 6> kSamples{ "16", "64", "256", "512", "1024", "4096" };
+    using O = EnvironmentLoadOptions;
+    static const std::vector<Option> kOptions{
+        option("faceSize", &O::faceSize, { 16, 2048, {}, kFaceSizes, true }, "Texels per side of a cube face."),
+        option("format", &O::format, "Storage of light: [quality](quality.md)."),
+        option("roughnessMapping", &O::roughnessMapping, "Roughness of each mip level."),
+        option("samples", &O::samples, { 1, 65536, {}, kSamples }, "Pieces of the sky that each texel integrates.")
+    };
+    return kOptions;
+}
+
+template <>
+std::span<const Option> optionsOf<EnvironmentSettings>() {
+    using S = EnvironmentSettings;
+    static const std::vector<Option> kOptions{
+        option("illuminance", &S::illuminance, { 0, 1e12, "lx" }, "Illuminance that radiance 1 stands for."),
+        option("rotationRadians", &S::rotationRadians, { -1e6, 1e6, "radians" }, "Rotation about the vertical axis."),
+        option("skybox", &S::skybox, "Draws the environment as background.")
+    };
+    return kOptions;
+}
+
+} // namespace filament
