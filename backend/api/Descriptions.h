@@ -173,7 +173,7 @@ struct ConstantValue {
 };
 
 struct ProgramDesc {
-    /// SPIR-V words (Vulkan) or ESSL text (GLES): whichever DeviceInfo::shaderLanguage asks for.
+    /// SPIR-V words (Vulkan) or ESSL text (GLES): as DeviceInfo::shaderLanguage requires.
     std::span<const std::byte> vertex;
     std::span<const std::byte> fragment;
     std::span<const std::byte> compute; ///< alone: a program for CmdDispatch
@@ -255,7 +255,7 @@ struct VertexLayout {
 };
 
 enum class CullMode : uint8_t { None, Front, Back };
-/// As seen in the picture (row 0 at the top), on both APIs.
+/// As seen in the image (row 0 at the top), on both APIs.
 enum class FrontFace : uint8_t { CounterClockwise, Clockwise };
 
 struct RasterState {

@@ -88,7 +88,7 @@ struct DriverStatistics {
 enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, DeviceLost, Other };
 
 /// Receives the driver's results. Called on the driver thread only; implementations return quickly. A read-back comes
-/// after all timers that ended before it in the stream: whoever has the pixels of a frame can have its times.
+/// after all timers that ended before it in the stream: the times of a frame are available with its pixels.
 class ResultSink {
 public:
     virtual ~ResultSink() = default;
@@ -115,7 +115,7 @@ struct DriverOptions {
     /// The folder that keeps compiled programs between runs, one file per device, at most kProgramCacheBytes; empty:
     /// none. Read when the driver is created, written when it ends.
     std::filesystem::path cacheDirectory{};
-    bool selfTest = false; ///< refuse a driver that draws a small known picture wrong: backend/create/SelfTest.h
+    bool selfTest = false; ///< reject a driver that draws a small known image wrong: backend/create/SelfTest.h
     /// The folder of the file that names the drivers which passed, so that they are not tested again; empty: none.
     std::filesystem::path selfTestNotes{};
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MesaEnvironment: the environment variables that Mesa's software rasteriser (llvmpipe, lavapipe) must find.
-///   Width   LP_NATIVE_VECTOR_WIDTH: 256 bits unless the user chose 128. Stored pictures were made with 256. With any
+///   Width   LP_NATIVE_VECTOR_WIDTH: 256 bits unless the user chose 128. Stored images were made with 256. With any
 ///           other width Mesa 22.3 reads uninitialised memory as soon as a depth buffer is bound: its loads of depth
 ///           know 4 and 8 lanes (lp_build_depth_stencil_load_swizzled).
 ///   Filters GALLIVM_PERF: no_aos_sampling, besides what the user chose. Otherwise textures of 8-bit numbers are

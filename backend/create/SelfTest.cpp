@@ -28,7 +28,7 @@ using Pixel = std::array<uint8_t, 4>;
 using Picture = std::array<Pixel, size_t{ kSide } * kSide>;
 constexpr Pixel kBackground{ 51, 102, 51, 51 };
 
-/// What a driver answers goes to whoever uses it, but to the test while that runs.
+/// Results of a driver go to its user, and to the test while that runs.
 class ForwardingSink final : public ResultSink {
 public:
     void onReadback(Ticket ticket, std::span<const std::byte> bytes) override {

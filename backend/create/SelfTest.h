@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SelfTest: a frame of 8 x 8 pixels whose bytes are known, drawn by a driver before it is used. Drivers that get it
-/// wrong would draw blank or wrong pictures without an error (docs/driver-faults.md).
+/// wrong would draw blank or wrong images without an error (docs/driver-faults.md).
 ///   Draws   a dispatch that fills a storage buffer; a pass of depth alone; a draw that reads both, is blended and
 ///           masked; a second subpass with the first one's pixels as input attachment, where passes are merged.
 ///   Fails   Unsupported, with the device, the driver, the first wrong pixel and the cure.

@@ -3,7 +3,7 @@
 ///   By handle: unlike inside of a pass, what is bound here may be destroyed before it is used.
 ///   Thread  the driver thread, context current.
 ///   Fails   prepareDispatch() says no when something that the pipeline needs is missing or could not be made.
-///   Cost    everything is bound anew for each dispatch: there are few, and ContextState knows what the context has.
+///   Cost    everything is bound again for each dispatch: there are few, and ContextState knows what the context has.
 #pragma once
 
 #include "backend/api/Slots.h"

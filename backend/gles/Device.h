@@ -56,7 +56,7 @@ struct Device {
     bool const messages; ///< validation: KHR_debug messages reach the sink
     DeviceInfo const info;
     ContextState state;
-    std::optional<BlobStore> programs{}; ///< binaries from run to run; none: nobody asked, or the device has none
+    std::optional<BlobStore> programs{}; ///< binaries from run to run; none: disabled, or unsupported by the device
     DriverStatistics statistics;         ///< of this thread; the driver publishes copies
     bool creating = false;               ///< an error is one of beginCreation(): created() tells it
     bool lost = false;                   ///< the context is gone: nothing works any more

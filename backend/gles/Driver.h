@@ -4,7 +4,7 @@
 ///   Thread  createGlesDriver(): the thread that will use it. listGlesDevices(): any; restores the thread's EGL state.
 ///           Several drivers, on several threads or on one, do not interfere.
 ///   Limits  ES 3.1 with EXT_clip_control and EXT_color_buffer_float (ES 3.2 has the latter); others are not listed.
-///   Fails   DeviceUnavailable: no libEGL, no driver behind it, or no device of the required name; the message says
+///   Fails   DeviceUnavailable: no libEGL, no driver behind it, or no device of the required name; the message tells
 ///           which, and what to install.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Fence: a point in the device's work that can be polled or waited for.
 ///   Thread  the driver thread.
-///   Fails   a lost context counts as reached, so that nobody waits forever; Device::lost is set.
+///   Fails   a lost context counts as reached, so that no thread waits forever; Device::lost is set.
 #pragma once
 
 #include "backend/gles/Device.h"

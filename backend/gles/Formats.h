@@ -30,8 +30,8 @@ GLenum glWrap(WrapMode mode);
 GLenum glMinFilter(SamplerDesc const& desc);
 GLenum glFilter(Filter filter);
 
-/// FrontFace refers to the picture with row 0 at the top. OpenGL uses window coordinates with y up and row 0 at y = 0,
-/// so its clockwise looks counter-clockwise in the picture.
+/// FrontFace refers to the image with row 0 at the top. OpenGL uses window coordinates with y up and row 0 at y = 0,
+/// so its clockwise looks counter-clockwise in the image.
 inline GLenum glFrontFace(FrontFace face) { return face == FrontFace::CounterClockwise ? GL_CW : GL_CCW; }
 
 /// "GL_OUT_OF_MEMORY" and the like.

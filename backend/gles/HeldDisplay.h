@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HeldDisplay: an initialised EGL display, for as long as somebody holds it.
+/// HeldDisplay: an initialised EGL display, for as long as it is held.
 ///   Why     EGL finds a display by the address of the connection to the window system. When a connection is closed and
 ///           a new one gets its address, a display that was never terminated comes back with the dead connection.
 ///   Life    a display of a window system is terminated with its last holder, while its connection is still open

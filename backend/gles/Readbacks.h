@@ -52,7 +52,7 @@ private:
         bool isUnorm16 = false;
     };
     std::optional<Source> open(CmdReadTexture const& command);
-    Plan planFor(Format format) const; ///< asks the bound read framebuffer
+    Plan planFor(Format format) const; ///< queries the bound read framebuffer
     void deliver(Pending const& pending);
 
     Device& mDevice;

@@ -31,7 +31,7 @@ WaylandEgl const& waylandEgl() {
     return library;
 }
 
-/// EGL offers more bits than one asks for, and those first.
+/// EGL returns configs with more bits than requested, and those first.
 bool hasEightBits(Egl const& egl, EGLDisplay display, EGLConfig config) {
     EGLint bits = 0;
     return egl.GetConfigAttrib(display, config, EGL_GREEN_SIZE, &bits) && bits == 8;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Surface: a window that images are copied to.
-///   Rows    the only place that turns a picture over: row 0 is the top row of a texture, but the bottom row of a
+///   Rows    the only place that flips an image: row 0 is the top row of a texture, but the bottom row of a
 ///           window.
 ///   Thread  the driver thread, context current.
 ///   Needs   a context on the display of the window (DriverOptions::display).

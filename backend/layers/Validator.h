@@ -71,8 +71,8 @@ public:
     void execute(CmdDispatch const& command);
 
 private:
-    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped). Bits
-    /// that differ between processors count as a crash: they must not reach a picture.
+    /// The effect of a broken rule in a real driver: a wrong image, or a crash (then the stream is dropped). Bits
+    /// that differ between processors count as a crash: they must not reach an image.
     enum class Harm : uint8_t { WrongResult, Crash };
     enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
 

@@ -95,7 +95,7 @@ std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket)
     if (bytes) return bytes;
     DriverThread& driver = mState->driver;
     driver.watch().check(); // an app that only polls reaches no other check
-    // Drivers look for answers when they replay: without another stream nobody would.
+    // Drivers look for answers when they replay: without another stream none would.
     if (driver.replayedSubmissions() == driver.submissions()) driver.requestIdle();
     return bytes;
 }

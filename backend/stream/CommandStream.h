@@ -55,7 +55,7 @@ struct LatencyStatistics {
     LatencyDistribution backPressure;   ///< acquire() waiting for a buffer
 };
 
-/// Whoever waits for an answer gives up after this. A frame of a minute is no fault: a driver that draws on the CPU
+/// A wait for a result gives up after this. A frame of a minute is no fault: a driver that draws on the CPU
 /// needs it for what a GPU draws at once, for thousands of lights say, and longer on a busy machine.
 inline constexpr std::chrono::minutes kLongestFrame{ 15 };
 

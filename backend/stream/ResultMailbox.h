@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ResultMailbox: where the driver leaves results and any thread picks them up.
 ///   Thread  any; one short lock per call. The on...() functions are called on the driver thread.
-///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: if nobody takes them,
+///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: if they are not taken,
 ///           the oldest timers and timings and the newest errors are dropped (the number of dropped errors is
 ///           reported).
 ///   Fails   never for lack of memory: a read-back then has no bytes, and an error fewer words.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Barriers: makes commands that run in parallel on the GPU look serial.
 ///   What is known  the last Use of every level and layer of every texture; which kinds of commands wrote buffers that
-///                  nobody was told about yet, and which stages read buffers since a writer last waited for them.
+///                  no barrier covers yet, and which stages read buffers since a writer last waited for them.
 ///   How            image(), bufferWrite(), ... collect what the next command needs; flush() emits it as one
 ///                  vkCmdPipelineBarrier, or nothing. Sampled textures go back to ShaderRead together, when the next
 ///                  pass or dispatch begins, so that uploads, blits and passes in a row cost one barrier, not one each.
-///                  Buffers are not told apart, but for transfers in a row: what was written becomes visible to all.
+///                  Buffers share one state, except for transfers in a row: writes become visible to all.
 ///                  Textures that share memory: one that is used takes it, and the one that had it has no contents.
 ///   Thread  the driver thread.
 ///   Limits  a level and layer that is an attachment of a pass is not sampled in it.

@@ -3,7 +3,7 @@
 ///   By handle: unlike inside of a pass, what is bound here may be destroyed before it is used.
 ///   Thread  the driver thread.
 ///   Fails   prepareDispatch() says no when something that the pipeline needs is missing or failed to be created.
-///   Cost    everything is bound anew for each dispatch: there are few.
+///   Cost    everything is bound again for each dispatch: there are few.
 #pragma once
 
 #include "backend/api/Commands.h"

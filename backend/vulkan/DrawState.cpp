@@ -6,7 +6,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-/// Vulkan has no negative scissor offsets: the part beyond the left and top edges of the picture is cut off.
+/// Vulkan has no negative scissor offsets: the part beyond the left and top edges of the image is clipped.
 VkRect2D scissorOf(Rect const& rect) {
     const auto cut = [](int32_t start, uint32_t length) {
         return static_cast<uint32_t>(std::max<int64_t>(int64_t{ length } + std::min(start, 0), 0));

@@ -30,7 +30,7 @@ struct PhysicalDevice {
     bool provokingVertexLast = false;
     bool halfFloatShaders = false;
     bool depthResolve = false;
-    bool imageFormatList = false;       ///< images may say which formats their views have
+    bool imageFormatList = false;       ///< images may list the formats of their views
     bool swapchains = false;            ///< presents to windows
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only

@@ -28,7 +28,7 @@ public:
 private:
     Device& mDevice;
     VkPipelineCache mHandle = VK_NULL_HANDLE;
-    std::optional<BlobStore> mKept; ///< none: nobody asked
+    std::optional<BlobStore> mKept; ///< none: disabled
 };
 
 } // namespace filament::backend::vulkan

@@ -27,10 +27,10 @@ struct Quirks {
     bool spoilsFourthUniforms = false;
 
     /// Driver  lavapipe, found in Mesa 22.3.6.
-    /// What    compiles a stage anew for every draw that binds other uniforms, 3 to 4 ms each, where uniforms alone
+    /// What    recompiles a stage for every draw that binds other uniforms, 3 to 4 ms each, where uniforms alone
     ///         decide a condition: a material whose roughness is a parameter, say, and not a texture.
     /// Why     it puts the values of such uniforms into the code (lvp_inline_uniforms), and gives up only where the
-    ///         stage does not shrink to half. So its source reads; but it subtracts unsigned sizes, and goes on where
+    ///         stage does not shrink to half. So its source reads; but it subtracts unsigned sizes, and continues where
     ///         the stage grows. Its shader cache hides that only as long as values stay the same. A condition that
     ///         mixes a uniform with what varies is tried, too: every draw then copies the intermediate code of its
     ///         stage, and keeps it as long as the pipeline, or for ever: 40 MB a frame for the 64 materials of the
@@ -43,7 +43,7 @@ struct Quirks {
     /// Driver  lavapipe, found in Mesa 25.0.7 and 26.1.6; 22.3.6 does not have it.
     /// What    after a pipeline without colour attachments, all attachments of the later pipelines of a command buffer
     ///         are blended and masked like their first. A tone mapper that reads attachment 0 and writes 1 in a second
-    ///         subpass leaves 1 as it was, and so the whole picture, in every frame that also draws depth alone.
+    ///         subpass leaves 1 unchanged, and so the whole image, in every frame that also has a depth-only pass.
     /// Why     handle_graphics_pipeline() of lvp_execute.c clears all blend state, and with it that attachments have
     ///         their own (independent_blend_enable), which only the start of a command buffer sets.
     /// Cure    colorReferences(): such a pass has one colour, which is unused.
@@ -66,8 +66,8 @@ inline constexpr size_t kMaxSpareBindings = 2;
 uint32_t spareBindings(BindGroupLayout const& layout,
                        std::span<VkDescriptorSetLayoutBinding, kMaxSpareBindings> bindings);
 
-/// How many colours each subpass refers to, and how many the blend state of its pipelines has: those of the pass, but
-/// for clearsIndependentBlend one at least.
+/// The number of colours in each subpass and in the blend state of its pipelines: those of the pass; at least one for
+/// clearsIndependentBlend.
 uint32_t colorReferences(Quirks const& quirks, PassLayout const& layout);
 
 } // namespace filament::backend::vulkan

@@ -188,7 +188,7 @@ private:
                 VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE);
         constexpr VkResolveModeFlagBits kFirstSample = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // by every device
         part.resolve.depthResolveMode = kFirstSample;
-        // nobody reads it, but not every device can resolve depth alone
+        // unused, but not every device can resolve only depth
         part.resolve.stencilResolveMode = hasStencil(layout.depthFormat) ? kFirstSample : VK_RESOLVE_MODE_NONE;
         part.resolve.pDepthStencilResolveAttachment = &part.depthResolve;
         auto& to = mSubpasses[mSubpassCount++];

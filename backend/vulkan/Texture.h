@@ -45,7 +45,7 @@ public:
     ~Texture() override;
 
     VkImage image() const { return mImage; }
-    /// What shaders sample; made on first use, but for the view of everything. Null without TextureUsage::Sampled, or
+    /// What shaders sample; created on first use, except for the view of all. Null without TextureUsage::Sampled, or
     /// if the device refuses.
     VkImageView sampledView(TextureRange const& range);
     /// 2D view of one level and layer in its attachmentFormat(), made on first use; null if the device refuses.

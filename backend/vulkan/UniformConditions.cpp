@@ -200,7 +200,7 @@ private:
 
     bool readsUniforms(uint32_t condition) { return (knowledgeOf(condition, 0) & kUniform) != 0; }
 
-    /// A phi of a loop that is asked about itself counts as a constant: the other ways into it decide.
+    /// A phi that depends on itself through a loop counts as a constant: its other inputs decide.
     Known knowledgeOf(uint32_t id, int depth) {
         constexpr int kMostDepth = 4000;
         Value* it = value(id);
