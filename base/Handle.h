@@ -18,7 +18,7 @@
 
 namespace filament {
 
-/// As many objects of one type as can have handles. Whoever survives missing memory survives this; OutOfMemory.h tells
+/// As many objects of one type as can have handles. Code that handles missing memory handles this; OutOfMemory.h tells
 /// them apart.
 class OutOfHandles : public std::bad_alloc {
 public:

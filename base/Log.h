@@ -2,7 +2,7 @@
 /// Log: writes lines of text to a sink.
 ///   Thread  any; lines never interleave.
 ///   Sink    standard error by default; setLogSink replaces it (tests collect, tools prefix).
-///   Fails   if there is no memory for a line, a line that says so takes its place.
+///   Fails   if there is no memory for a line, a fixed line about that replaces it.
 ///   Cost    formats only when the severity is at or above the threshold.
 #pragma once
 

@@ -16,7 +16,7 @@
 
 namespace filament {
 
-/// "loading 'a.glb': out of memory; free some and try again". If `cause` is OutOfHandles, the text says so instead.
+/// "loading 'a.glb': out of memory; free some and try again". If `cause` is OutOfHandles, the text names that instead.
 Error outOfMemory(std::string_view doing, std::string_view object = {}, std::bad_alloc const& cause = {}) noexcept;
 
 /// Returns function(), which returns a Result. A size that is too large for any memory (std::length_error) also counts

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Elementary functions with the same bits on every machine. Those of the C++ library differ from release to release:
 /// glibc 2.41 rounds sinf() and its like correctly where 2.36 did not, and chooses code by the CPU. A rotation of
-/// texture coordinates then differs in its last bit, and a picture with it.
+/// texture coordinates then differs in its last bit, and an image with it.
 ///   Method  sums, products, quotients, square roots, fma() and exact functions (rint, frexp, ldexp), which IEEE 754
 ///           defines to the bit: argument reduction and Taylor series (J.-M. Muller, Elementary Functions, 3rd edition,
 ///           chapters 3 and 11), in double precision without contraction.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RGBD: radiance in four bytes, as EXT_lights_image_based stores it in pictures: a colour and the number that it is to
+/// RGBD: radiance in four bytes, as EXT_lights_image_based stores it in images: a colour and the number that it is to
 /// be divided by. unpackRgbd() is the nearest float to colour / divisor, exact for a divisor of 255 as for one of 1.
 ///   Packing: finite values above the maximum are clamped to it, all components by the same factor; NaN and negative
 ///   values become 0. The divisor is the largest that fits, so that the brightest component keeps 7 bits or more.

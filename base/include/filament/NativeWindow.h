@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// NativeWindow, NativeDisplay: windows that somebody else opened, as the engine presents to them. docs/windows.md.
+/// NativeWindow, NativeDisplay: windows opened by other libraries, to which the engine presents. docs/windows.md.
 ///   In      handles of the window system, as window libraries return them: nothing here includes its headers.
 ///   Life    the display outlives the engine, the window the swap chain.
 ///   Thread  the driver thread uses the display, too. X11: call XInitThreads() before the first call of Xlib (GLFW and

@@ -24,7 +24,7 @@ enum class ErrorCode : uint8_t {
     DeviceLost,        ///< the device was there and went away
     OutOfMemory,       ///< host or device memory exhausted
     Timeout,           ///< gave up waiting
-    Cancelled,         ///< the program asked for its end
+    Cancelled,         ///< the program requested its end
     Internal,          ///< a bug in this library: please report it
 };
 

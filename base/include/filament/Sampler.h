@@ -22,7 +22,7 @@ struct Sampler {
     friend bool operator==(Sampler const&, Sampler const&) = default;
 };
 
-/// Single texels up to the edge: tables, pixel art, pictures shown pixel by pixel.
+/// Single texels up to the edge: tables, pixel art, images shown pixel by pixel.
 inline constexpr Sampler kUnfilteredSampler{ .magFilter = Filter::Nearest,
                                              .minFilter = Filter::Nearest,
                                              .mipFilter = MipFilter::None,
