@@ -75,7 +75,7 @@ constexpr bool isPureRead(AccessKind kind) {
     return kind != AccessKind::Color && kind != AccessKind::Depth && kind != AccessKind::TransferWrite;
 }
 
-/// For inputs of a pass that asks for the number of its attachment (PassContext::colorIndex()).
+/// For inputs of a pass that needs the number of its attachment (PassContext::colorIndex()).
 inline constexpr uint8_t kAnyAttachment = 0xFF;
 
 /// One pass's use of one texture.
@@ -102,7 +102,7 @@ struct Texture {
     bool beginsAnew = false;                 ///< Previous: as if there was none
 };
 
-/// A picture that outlives its frame.
+/// A texture that outlives its frame.
 struct History {
     TextureId previous; ///< as a frame before this one left it; only read
     TextureId current;  ///< of this frame: written first, then read like any texture; previous of the next frame
@@ -191,11 +191,11 @@ public:
     BufferId createBuffer(std::string_view name, uint64_t size);
     BufferId importBuffer(backend::BufferHandle buffer, std::string_view name, uint64_t size, InitialContents contents);
     void markOutput(BufferId buffer);
-    /// A picture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
+    /// A texture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
     /// whenever `current` was written. Without a frame before this one, or with one whose description was another,
     /// `previous` is filled with `clear` (for depth formats {depth, stencil}) before the first pass:
     /// PassContext::historyAge() tells. So it is with `beginsAnew`: what was kept is not what this frame follows. The
-    /// textures share no memory with others, and go when TransientPool's keepFrames graphs have not asked for them.
+    /// textures share no memory with others, and are freed after TransientPool's keepFrames graphs without them.
     History history(GraphTextureDesc const& desc, std::array<float, 4> const& clear = {}, bool beginsAnew = false);
     /// The contents are needed after the frame although no pass reads them. Imported textures are always outputs.
     void markOutput(TextureId texture);

@@ -88,7 +88,7 @@ public:
     backend::BufferHandle buffer(BufferId id) const;
 
     /// How many graphs ago History::previous, which this pass declared, was written: 1 for the graph before this one.
-    /// 0: never, with another description, or it begins anew; it holds the clear value.
+    /// 0: never, with another description, or it is reset; it holds the clear value.
     uint32_t historyAge(TextureId previous) const;
 
     /// The layout for pipelines of this pass. Passes without attachments have none.

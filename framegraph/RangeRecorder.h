@@ -2,7 +2,7 @@
 /// RangeRecorder: records a long list of items on the job system, each range into its own command buffer, and joins the
 /// buffers in order.
 ///   In      count, grain, and body(commands, begin, end), which records the items [begin, end).
-///   Bits    the ranges depend on count and grain only, and a body knows nothing about the bindings of other ranges:
+///   Bits    the ranges depend on count and grain only, and a body does not depend on the bindings of other ranges:
 ///           the stream has the same commands and payloads for any number of workers, also without parallelism
 ///           (recordRangesInTurn).
 ///   Thread  record(): one at a time, the thread that owns the buffer, which takes part. body: any, in parallel.
