@@ -98,7 +98,7 @@ public:
     WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner);
 
     void placeWorker(uint32_t worker) const;
-    /// Again, without a warning, if the policy asks for it.
+    /// Again, without a warning, if the policy requires it.
     void placeWorkerAfterWait(uint32_t worker) const;
     /// For background threads: anywhere except on the avoided cores.
     void placeBackgroundThread() const;

@@ -19,7 +19,7 @@ struct AffinityPolicy {
     Kind kind = Kind::None;
     std::vector<int> avoidedCores{}; ///< no worker runs there, whatever the kind
     /// Workers place themselves again each time they wake up, because a system that moves processes between groups of
-    /// cores (Android's cpusets) undoes what they asked for. One system call per wake-up.
+    /// cores (Android's cpusets) undoes their pinning. One system call per wake-up.
     bool repinsAfterWaits = false;
 
     static AffinityPolicy none() { return {}; }

@@ -6,7 +6,7 @@
 ///   Shared  before the owner sleeps, and when a continuation is attached, the plain part is added to the atomic one
 ///           and the owner loses its privilege, so that the last thread to finish can decide from the atomic part
 ///           alone.
-///   Guard   while somebody must be notified of the end (a sleeper, a continuation), the count is one larger than the
+///   Guard   while a thread must be notified of the end (a sleeper, a continuation), the count is one larger than the
 ///           number of jobs. The thread that leaves only this extra unit closes the group: it takes out the
 ///           continuation and the sleeper, then returns the unit. The memory therefore cannot go away while that thread
 ///           still uses it.
@@ -72,11 +72,11 @@ public:
         const int64_t flags = mShared.load(std::memory_order_relaxed) & kFlags;
         const Closing closing{ flags & kHasContinuation ? mContinuation.load(std::memory_order_relaxed) : nullptr,
                                flags & kHasSleeper ? mSleeper.load(std::memory_order_relaxed) : nullptr };
-        mShared.store(0, std::memory_order_release); // flags and guard in one: the owner cannot ask again in between
+        mShared.store(0, std::memory_order_release); // flags and guard in one: the owner cannot test again in between
         return closing;
     }
 
-    /// Asks the last job to ring `bell`. False if there is nothing to wait for, or only for a moment.
+    /// Lets the last job ring `bell`. False if there is nothing to wait for, or only for a moment.
     bool announceSleeper(Bell& bell) {
         if (!isPending(mShared.load(std::memory_order_acquire) + mLocal * kUnit)) return false;
         mSleeper.store(&bell, std::memory_order_relaxed);

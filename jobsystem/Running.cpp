@@ -68,7 +68,7 @@ void endUnattended(const char* name) {
 } // namespace detail
 
 /// The jobs of one group that this thread has run but not yet reported. While the thread continues with jobs of the
-/// same group, the group cannot be done, so nobody needs the count: a run of thefts touches the group's cache line only
+/// same group, the group cannot be done, so the count is unused: a run of thefts touches the group's cache line only
 /// once.
 class Scheduler::Report {
 public:
@@ -162,7 +162,7 @@ bool Scheduler::call(Seat const* seat, Found const& found) {
     const char* name = found.job->type->name;
     const int64_t begin = nanosecondsNow();
     const bool again = callUntraced(*found.job, found.priority);
-    record(seat, name, begin, found.stolen); // before the group is done, so that whoever waited finds it in the trace
+    record(seat, name, begin, found.stolen); // before the group is done, so that waiting threads find it in the trace
     return again;
 }
 

@@ -47,7 +47,7 @@ void Scheduler::startWorkers(std::string const& threadName) {
         } catch (std::system_error const& error) {
             log(Severity::Warning, "{} starts with only {} of {} workers: {}", threadName, i, workers, error.what());
             if (i > 0) return;
-            mHasWorkers = false; // as with JobSystemOptions::workers 0: all work runs on the threads that ask for it
+            mHasWorkers = false; // as with JobSystemOptions::workers 0: all work runs on the threads that wait for it
             mBackground.reset();
             return;
         }

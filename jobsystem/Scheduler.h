@@ -85,7 +85,7 @@ private:
         int64_t now = 0; ///< the current time, or a little earlier; 0: unknown. Reading a clock takes as long as a fork
         bool watches = false; ///< pushes rely on this thread and wake nobody
         bool passesOn =
-                false; ///< it stood in for pushes that woke nobody: if it leaves work behind, it must wake somebody
+                false; ///< it stood in for pushes that woke nobody: if it leaves work behind, it must wake another
     };
 
     // Scheduler.cpp

@@ -85,7 +85,7 @@ std::optional<Priority> Scheduler::visibleWork(Priority least) {
     return least == Priority::FrameCritical ? std::nullopt : seen;
 }
 
-// Once no thread watches, a push wakes one. Earlier pushes are seen by whoever searches afterwards, because both the
+// Once no thread watches, a push wakes one. Earlier pushes are seen by later searches, because both the
 // flag and the search are in the total order of seq_cst operations.
 void Scheduler::stopWatching(Hunt& hunt) {
     if (hunt.watches) mWatched.store(false, std::memory_order_seq_cst);
