@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// biasTextures: lets a view ask for other mip levels than those that its pixels would read.
+/// biasTextures: lets a view bias the mip levels that its pixels would read.
 ///   What    every look-up that takes its level from derivatives, or from gradients that the author gives, is made a
 ///           second time with the functions of shaders/material/surface/texture_bias.glsl, and one of the two is taken
 ///           by a specialisation constant. A driver that knows the constant removes the other: without a bias the code

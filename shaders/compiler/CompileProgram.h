@@ -37,7 +37,7 @@ enum class Optimization : uint8_t {
 };
 
 struct ProgramCompileOptions {
-    bool exact = true; ///< the same bits on both APIs
+    bool exact = true; ///< identical bits on both APIs
     /// Parts of the fragment stage marked mediump are computed in 16 bits on Vulkan too (halfFromRelaxed()), which
     /// needs DeviceFeatures::halfFloatShaders. Otherwise Vulkan computes them in 32 bits: Mesa ignores
     /// RelaxedPrecision.

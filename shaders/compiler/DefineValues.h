@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// initializeVariables: a local variable without a value starts as zero, before drivers choose different values.
-///   In      valid SPIR-V. Run it before the optimiser, which removes the values that nobody reads.
+///   In      valid SPIR-V. Run it before the optimiser, which removes unused values.
 ///   Thread  any. Fails: never for a valid module. Cost: one pass over the words.
 #pragma once
 

@@ -9,7 +9,7 @@ namespace filament::shader {
 
 Result<void> checkRules(MaterialDefinition const& definition);
 
-/// What neither mirrors light nor is lit has no reflections of the picture: the property is left out, with a warning.
+/// Materials that are unlit or have no specular do not reflect the screen: the property is ignored, with a warning.
 /// One text can so serve several shading models (Filament's glTF materials do that).
 void leaveOutReflections(MaterialDefinition& definition);
 

@@ -24,7 +24,7 @@ const char* glslType(ParameterType type) {
     return kNames[static_cast<size_t>(type)];
 }
 
-/// Everything is highp unless the author asks for less: on some devices mediump really is fp16.
+/// Everything is highp unless the author requests less: on some devices mediump really is fp16.
 const char* glslPrecision(Precision precision) {
     switch (precision) {
     case Precision::Low:

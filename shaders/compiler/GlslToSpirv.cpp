@@ -180,7 +180,7 @@ namespace {
 
 // SPIRV-Tools' own list for performance (Optimizer::RegisterPerformancePasses) with fewer repetitions: dead code is
 // removed three times instead of nine, and local variables once instead of twice, which saves a third of the time.
-// Of 261 stages of the engine's materials, 195 keep every byte and the others differ by a few words; no picture
+// Of 261 stages of the engine's materials, 195 keep every byte and the others differ by a few words; no image
 // changes.
 void registerPerformancePasses(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateWrapOpKillPass())

@@ -63,7 +63,7 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
     return joined(both);
 }
 
-/// For shadow maps and gathered pictures, which are kept while nothing changes what they show.
+/// For shadow maps and the TAA history, which are kept while nothing changes their contents.
 void describeInputs(Prepared& prepared) {
     MaterialPackage& package = prepared.definition.package;
     package.depthReadsParameters = prepared.definition.vertex || cutsHoles(prepared.definition, prepared.needs);

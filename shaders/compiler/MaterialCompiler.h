@@ -28,19 +28,19 @@ class JobSystem;
 namespace filament::shader {
 
 struct CompileOptions {
-    bool exact = true; ///< the same bits on both APIs (ExactLowering.h)
+    bool exact = true; ///< identical bits on both APIs (ExactLowering.h)
     Optimization optimization = Optimization::Performance;
     bool spirv = true; ///< languages in the package
     bool essl = true;
     Platform platform = Platform::All; ///< which defaults
     uint16_t filteredVariants = 0;     ///< VariantBits never requested, besides the material's own variantFilter
     std::optional<uint16_t> onlyVariant = std::nullopt; ///< compiles this one alone, for tests of shaders
-    /// Files besides the engine's own (which are asked first): usually those beside the .mat.
+    /// Files besides the engine's own (which come first): usually those beside the .mat.
     IncludeResolver includes{};
     jobs::JobSystem* jobs = nullptr; ///< null: compile on the calling thread only
     /// Macros in front of both blocks: name, value.
     std::vector<std::pair<std::string, std::string>> defines{};
-    /// Receives "file:line: what is odd", in the order of the text (MaterialWarnings.h). Null: nobody looks for it.
+    /// Receives "file:line: what is odd", in the order of the text (MaterialWarnings.h). Null: no warnings.
     std::vector<std::string>* warnings = nullptr;
 };
 

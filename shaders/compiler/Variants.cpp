@@ -6,14 +6,14 @@
 namespace filament::shader {
 namespace {
 
-/// What blends casts shadows only if its author says so, and backgrounds leave depth only if they write it.
+/// Transparent materials cast shadows only with transparentShadow, and backgrounds only have depth if they write it.
 bool leavesDepth(MaterialDefinition const& definition) {
     const Blending blending = definition.package.blending;
     return (!definition.fullScreenTriangle || definition.package.depthWrite) &&
            (blending == Blending::Opaque || blending == Blending::Masked || definition.package.transparentShadow);
 }
 
-/// Only they know where their vertices were in the last frame. What blends has no motion of its own.
+/// Only they can compute the previous positions of their vertices. Transparent materials have no motion vectors.
 bool placesVertices(MaterialDefinition const& definition) {
     MaterialPackage const& package = definition.package;
     const bool isSolid = package.blending == Blending::Opaque || package.blending == Blending::Masked;

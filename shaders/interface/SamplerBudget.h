@@ -5,7 +5,7 @@
 ///
 ///     material            its own   of the engine, with every effect on
 ///     lit                    9        7
-///     lit, screen space      8        8   reflects or refracts the picture
+///     lit, screen space      8        8   screen-space reflections or refraction
 ///     unlit                 12        4
 ///     without fog           +1       -1
 ///     featureLevel 3        16        as above; using all 16 needs a device with more than 16
@@ -31,7 +31,7 @@ inline constexpr uint32_t kSamplersOfEveryDevice = 16;
 /// What the Pass group of a material holds besides PassUniforms.
 enum class PassKind : uint8_t {
     Lit,       ///< surfaces under lights: the textures of the environment
-    LitScreen, ///< those that reflect or refract the picture as well
+    LitScreen, ///< with screen-space reflections or refraction
     Unlit,     ///< surfaces that light does not reach, the sky among them
     Picture,   ///< the domain postprocess
 };
@@ -43,7 +43,7 @@ constexpr bool isLitKind(PassKind kind) { return kind == PassKind::Lit || kind =
 enum PassReaders : uint8_t {
     kReadByLit = 1,
     kReadByUnlit = 2,
-    kReadByScreenSpace = 4, ///< by lit materials that reflect or refract the picture
+    kReadByScreenSpace = 4, ///< by lit materials with screen-space reflections or refraction
     kReadForFog = 8,        ///< but not by materials compiled without fog
 };
 

@@ -54,11 +54,11 @@ enum PassBinding : uint8_t {
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
     kBindingOcclusion = 6,   ///< sampler2D: where surfaces are peeled (TransparencyTerm), the depth of a layer;
-                             ///< otherwise ambient occlusion of what is opaque, for lit materials; r: visibility; with
+                             ///< otherwise ambient occlusion of opaque surfaces, for lit materials; r: visibility; with
                              ///< bent normals gba: encodeLean() of the open direction
-    kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres
+    kBindingSceneDepth = 7,  ///< sampler2D: linear depth of opaque surfaces, in metres
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
-    kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels
+    kBindingPicture = 9,     ///< sampler2D: scene colour of opaque surfaces, pre-exposed, with blurred levels
 };
 
 // ---- FrameUniforms
@@ -92,7 +92,7 @@ struct FrameUniforms {
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
                                  ///< them
-    float4 jitter;               ///< xy: by which clipFromWorld moves the picture, times w of clip coordinates; z:
+    float4 jitter;               ///< xy: by which clipFromWorld moves the image, times w of clip coordinates; z:
                                  ///< metres from which on transparencyWeight() falls; w: unused
 };
 
@@ -100,15 +100,15 @@ struct FrameUniforms {
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
     float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last
-                   ///< level of the picture behind, or the DebugView whose value surfaces leave; w: mip levels that are
+                   ///< level of the scene colour behind, or the DebugView whose value surfaces leave; w: mip levels
                    ///< added to those of materials' textures
-    float4 picture; ///< pixels of the picture behind that there are: xy to zw
+    float4 picture; ///< valid pixels of the scene colour behind: xy to zw
     float4 reflection; ///< of mirrored rays; x: cells that they visit at most; y: metres; z: thickness of what they
-                       ///< hit, metres; w: last level of the pyramid of distances
-    float4x4 lastClipFromWorld; ///< of the last frame, from this frame's world; this frame's, if there was none
-    float4 lastAlongView; ///< the distance along the view of the last frame: its product with a point of this frame's
+                       ///< hit, metres; w: last level of the hierarchical depth buffer
+    float4x4 lastClipFromWorld; ///< of the previous frame, from this frame's world; this frame's, if there was none
+    float4 lastAlongView; ///< linear depth in the previous frame: its product with a point of this frame's
                           ///< world, w = 1
-    float4 lastTime; ///< FrameUniforms::time of the last frame
+    float4 lastTime; ///< FrameUniforms::time of the previous frame
 };
 
 inline constexpr uint32_t kMaxShadowMaps = 128; ///< of a view
@@ -188,8 +188,8 @@ enum DeformationBinding : uint8_t {
     kBindingBones = 0,       ///< BoneUniforms, dynamic
     kBindingMorph = 1,       ///< MorphUniforms, dynamic
     kBindingMorphDeltas = 2, ///< sampler2D, RGBA32F: see kMorphTextureWidth
-    kBindingLastBones = 3,   ///< BoneUniforms of the last frame, dynamic; of variants with kVariantMotion only
-    kBindingLastMorph = 4,   ///< MorphUniforms of the last frame, dynamic; the same
+    kBindingLastBones = 3,   ///< BoneUniforms of the previous frame, dynamic; of variants with kVariantMotion only
+    kBindingLastMorph = 4,   ///< MorphUniforms of the previous frame, dynamic; with kVariantMotion only
 };
 
 inline constexpr uint32_t kMaxBones = 256;
@@ -237,14 +237,14 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityLightProfiles = 1013, ///< 1: some light of the view has a profile
     kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
     kQualityScreenOcclusion = 1015, ///< 0: none; 1: visibility; 2: with bent normals
-    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it; 2: the level of the picture,
+    kQualityScreenRefraction = 1016, ///< 1: refraction reads the scene colour; 2: the level of the scene colour,
                                      ///< as a negative number in red
-    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture; 2: -1 - the metres to what is hit,
+    kQualityScreenReflections = 1017, ///< 1: screen-space reflections are on; 2: -1 - the metres to the hit,
                                       ///< in red
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
     kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
-    kQualityMipBias = 1021, ///< 1: materials' textures are read at other mip levels than pixels ask for; all surfaces
+    kQualityMipBias = 1021, ///< 1: materials' textures are read at biased mip levels; all surfaces
                             ///< have this one
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
@@ -263,7 +263,7 @@ enum TransparencyTerm : uint8_t {
     kTransparencyWeightedLight = 1, ///< their colour and alpha by weight, to be added up
     kTransparencyCover = 2,         ///< their alpha alone, for how much they cover together
     kTransparencyDepth = 3,         ///< nothing: their depth counts
-    kTransparencyNextDepth = 4,     ///< the same, of what is farther than a layer
+    kTransparencyNextDepth = 4,     ///< the nearest depth behind a layer
     kTransparencyLayer = 5,         ///< their colour, where they are that layer
     kTransparencyBeyond = 6,        ///< their colour, where they are farther than it
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The built-in GLSL functions that the shader library calls, for compiling it as C++, for float and for double. They
-/// come from GLM, but for those that the C++ library rounds in its own way (base/math/Elementary.h). `using namespace
+/// come from GLM, except those that the C++ library rounds in its own way (base/math/Elementary.h). `using namespace
 /// glsl` makes them visible in a namespace that includes GLSL.
 ///   Rules   shaders/lib must not use built-ins that are missing here: the C++ code and the tests would not compile.
 #pragma once

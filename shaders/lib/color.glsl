@@ -49,7 +49,7 @@ vec3 toneMap(vec3 color, int mapper) {
 }
 
 // Inverse of toneMapFilmic(), per component: the root of its quadratic, in the form that does not cancel. The light
-// that an already tone-mapped picture must emit to look unchanged. x in [0, 1]; 1 gives the light at which the curve
+// that an already tone-mapped image must emit to look unchanged. x in [0, 1]; 1 gives the light at which the curve
 // reaches 1.
 // fp32 only: the bright end is steep.
 float inverseTonemap(float x) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth buffers and distances along the view.
+// Depth buffers and linear depth.
 
 // Farther than anything: where a depth buffer holds nothing.
 const float kFarDistance = 1e30f;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The histogram of auto exposure: 64 bins of the logarithm of luminance, 3/8 of a stop wide.
-// fp32 only: 16 bits cannot count the pixels of a picture.
+// fp32 only: 16 bits cannot count the pixels of an image.
 
-const float kFirstStop = -12.0f;      // of the first bin: darker counts as that
+const float kFirstStop = -12.0f;      // of the first bin: darker pixels count in it
 const float kBinsOfAStop = 8.0f / 3.0f;
 const float kBins = 64.0f;
 

@@ -50,7 +50,7 @@ float moduloStep(float x, float modulus) {
 }
 
 // (seconds + rest) modulo `modulus`, in [0, modulus) for modulus > 0: to the last bits of `rest` although `seconds` may
-// be years. The second step mends a missed floor, the third the sum. The error is a few roundings of `modulus`; beyond
+// be years. The second step corrects a missed floor, the third the sum. The error is a few roundings of `modulus`; beyond
 // 2^24 periods it grows with their number. fp32 only.
 float timeModulo(float seconds, float rest, float modulus) {
     float x = moduloStep(moduloStep(seconds, modulus), modulus);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadow maps of moments, which can be blurred and filtered like pictures: the mean of a depth and of its square bound the
+// Shadow maps of moments, which can be blurred and filtered like images: the mean of a depth and of its square bound the
 // part of a filter's texels that lies behind a receiver. Donnelly and Lauritzen 2006, "Variance Shadow Maps"; with warped
 // depths Lauritzen and McCool 2008, "Layered Variance Shadow Maps". fp32 only.
 
@@ -8,7 +8,7 @@ const float kWarpAway = 5.0f;
 const float kLeastDeviation = 5e-4f; // of depths: what rounding of blurred squares may look like
 const float kLeastWarpedDeviation = 2e-4f;
 
-// A depth of a map (1 at the light, 0 where nothing is) as a distance between -1 and 1, linear in metres.
+// A depth of a map (1 at the light, 0 for background) as a distance between -1 and 1, linear in metres.
 // nearOverFar: of a perspective map, whose depth is near / distance; 0: the depth is linear already.
 float momentDepth(float depth, float nearOverFar) {
     float distance = 1.0f - saturate(depth);

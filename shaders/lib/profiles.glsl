@@ -4,7 +4,7 @@
 //   Accuracy  angles within 4e-7 radians: the drivers' own arc functions differ by more, and from each other.
 //   fp32 only.
 
-// The arc tangent of x in [0, 1], within 2e-8 but for rounding. Abramowitz and Stegun 1964, 4.4.49.
+// The arc tangent of x in [0, 1], within 2e-8 except for rounding. Abramowitz and Stegun 1964, 4.4.49.
 float arcTangentOfUnit(float x) {
     float s = x * x;
     float high = 0.1065626393f + s * (-0.0752896400f + s * (0.0429096138f + s * (-0.0161657367f + s * 0.0028662257f)));

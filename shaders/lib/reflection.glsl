@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of what a picture shows: how far one of them can be trusted, and how blurred it is. All of it is fp32
-// only: rays of the picture are.
+// Screen-space reflections: the confidence of a hit, and its blur. All of it is fp32
+// only, like screen-space rays.
 
 // A smooth step from 0 to 1 over [0, 1]. Returns [0, 1]. fp32 only.
 float smoothUnit(float x) {
@@ -8,8 +8,8 @@ float smoothUnit(float x) {
     return t * t * (3.0f - 2.0f * t);
 }
 
-// 1 inside of the picture, falling to 0 over the outer `border` of each side, where neighbours of the hit are missing.
-// uv in the picture's [0, 1]^2, or outside of it: 0. border in [0.001, 0.5]. Returns [0, 1]. fp32 only.
+// 1 inside of the screen, falling to 0 over the outer `border` of each side, where neighbours of the hit are missing.
+// uv in the screen's [0, 1]^2, or outside of it: 0. border in [0.001, 0.5]. Returns [0, 1]. fp32 only.
 float insideWeight(vec2 uv, float border) {
     float x = min(uv.x, 1.0f - uv.x);
     float y = min(uv.y, 1.0f - uv.y);
@@ -29,7 +29,7 @@ float reachWeight(float share) { return smoothUnit((1.0f - share) * 4.0f); }
 // Limited to 45 degrees. alpha in [0, 1]. Returns [0, 1]. fp32 only.
 float lobeRadius(float alpha) { return min(2.0f * alpha / max(1.0f - alpha * alpha, 1e-3f), 1.0f); }
 
-// The level of a chain of blurred pictures that is as blurred as a disc of this radius: level n blurs as a Gaussian
+// The level of a chain of blurred images that is as blurred as a disc of this radius: level n blurs as a Gaussian
 // with a deviation of about 0.6 2^n pixels, and a Gaussian has one half within 1.18 deviations. radius in pixels, >= 0.
 // Returns >= 0. fp32 only.
 float blurLevel(float radius) { return log2(max(1.41f * radius, 1.0f)); }

@@ -88,7 +88,7 @@ float refractionPerceptualRoughness(float perceptualRoughness, float ior) {
 // perceptualRoughness in [0, 1]. Returns [0, 1.712].
 float transmittedDeviation(float perceptualRoughness) { return 1.712f * perceptualRoughness * perceptualRoughness; }
 
-// The level of a picture whose texels, read with linear weights, are blurred by this standard deviation in pixels. Each
+// The level of an image whose texels, read with linear weights, are blurred by this standard deviation in pixels. Each
 // level is the one before it with the weights 1, 3, 3, 1, which have the variance 3/4 of its texels: (4^n - 1) / 4 in
 // all. Linear weights have 1/6 of a texel: 4^n / 6. Returns 0 below a half of a pixel. pixels >= 0. fp32 only: squares
 // exceed 65504.

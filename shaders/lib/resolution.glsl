@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Filters that make a picture of fewer pixels larger, that gather its samples over frames, and that raise its contrasts;
+// Filters that upscale an image, that accumulate its samples over frames, and that sharpen it;
 // included after color.glsl.
 
 // Weights of the texels at -1, 0, 1 and 2 for a place f in [0, 1] between those at 0 and 1: Catmull and Rom 1974, "A
@@ -21,7 +21,7 @@ vec3 lightFromBounded(vec3 bounded) {
 
 // ---- the edge-adaptive filter: Lottes 2021, "AMD FidelityFX Super Resolution" (presentation), its part EASU
 
-// How far the change from `before` over `here` to `after` goes one way: 1 for a ramp and beside an edge, 0 for a line and
+// How monotonic the change from `before` over `here` to `after` is: 1 for a ramp and beside an edge, 0 for a line and
 // for noise. Any brightness.
 float monotony(float before, float here, float after) {
     float most = max(abs(after - here), abs(here - before));
@@ -58,7 +58,7 @@ float sharpeningWeight(vec3 least, vec3 most) {
     return -clamp(room, 0.0f, kMostSharpening);
 }
 
-// ---- gathering
+// ---- temporal accumulation
 
 // Of a sample `away` pixels from the middle of a pixel along one axis: a box whose edges are ramps of twice the width
 // `ramp`, in [1/16, 1/2]. Its integral is 1 for each of them.

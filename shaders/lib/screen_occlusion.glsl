@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ambient occlusion by what a picture shows: points and planes behind its pixels, what one sample hides, what lies
+// Screen-space ambient occlusion: points and planes behind pixels, occlusion of one sample, and what lies
 // between two horizons, and how an occlusion texture holds it. Points are in view space: the camera is the origin and
 // looks down -z.
 //   Ray     of a pixel: the point of its distance d along the view is (d ray, -d)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gathering pictures over frames needs; included after color.glsl.
+// Functions of temporal accumulation; included after color.glsl.
 // fp32 only: the colours of the history are fp16 already, and its weights need more.
 
 const float kLargestHalf = 65504.0f;

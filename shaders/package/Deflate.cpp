@@ -20,7 +20,7 @@ constexpr uint64_t kMaxRatio = 258 * 8 / 2;
 
 Bytef* zlibBytes(std::byte* bytes) { return reinterpret_cast<Bytef*>(bytes); }
 Bytef* zlibInput(std::byte const* bytes) {
-    return zlibBytes(const_cast<std::byte*>(bytes)); // zlib only reads it, but does not say so
+    return zlibBytes(const_cast<std::byte*>(bytes)); // zlib only reads it, although its parameter is not const
 }
 
 /// zlib's state for one direction; `end` destroys it.

@@ -10,7 +10,7 @@
 namespace filament::shader {
 
 PassKind passKind(MaterialPackage const& package);
-/// Reflects or refracts what the picture shows.
+/// Screen-space reflections or refraction.
 bool readsScreen(MaterialPackage const& package);
 
 /// Every ViewBinding.
@@ -23,7 +23,7 @@ backend::BindGroupLayout passGroupLayout(PassKind kind);
 uint32_t samplerCount(backend::BindGroupLayout const& group);
 
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
-/// `isOfMotion`: for kVariantMotion; others have no binding for the last frame.
+/// `isOfMotion`: for kVariantMotion; others have no binding for the previous frame.
 backend::BindGroupLayout deformationGroupLayout(bool isOfMotion = false);
 
 /// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms,

@@ -78,7 +78,7 @@ enum VariantBit : uint16_t {
     kVariantHalf = 256,   ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
     kVariantMerged = 512, ///< for materials with currentPixel parameters: they are subpass inputs, not textures
     kVariantDepth = 1024, ///< depth alone, for shadow maps: no light, no colour; combined with kVariantSkinning only
-    /// Where the last frame showed what is seen now; combined with kVariantSkinning only. In materials that place their
+    /// Motion vectors; combined with kVariantSkinning only. In materials that place their
     /// vertices themselves; all others are drawn with that of the engine's material `motion`.
     kVariantMotion = 2048,
     kVariantDebug =
@@ -114,7 +114,7 @@ struct StageCode {
     friend bool operator==(StageCode const&, StageCode const&) = default;
 };
 
-/// Variants, and copies of packages, share code, which nobody changes: a lit material has one fragment stage for all
+/// Variants, and copies of packages, share code, which is immutable: a lit material has one fragment stage for all
 /// sets of lights. Never null.
 using SharedStage = std::shared_ptr<const StageCode>;
 SharedStage sharedStage(StageCode code);
@@ -176,7 +176,7 @@ inline bool transmitsLight(MaterialPackage const& package) {
 }
 
 /// Whether Quality::transparency may compose its surfaces without sorting them, if they test depth and leave none: they
-/// stand in the scene, cover what is behind them, draw no depth of their own first, and show no copy of the picture.
+/// are placed in the scene, cover their background, have no depth pass of their own, and do not refract.
 inline bool blendsInAnyOrder(MaterialPackage const& package) {
     const bool covers = package.blending == Blending::Transparent || package.blending == Blending::Fade;
     const bool stands = package.vertexDomain == VertexDomain::Object || package.vertexDomain == VertexDomain::World;

@@ -2,7 +2,7 @@
 // What the passes of depth of field share; included after shaders/lib/distance.glsl. The material has the parameter
 // `focus`: the members of prepare::Focus.
 
-// Radius of the disc, in pixels of the picture, as which a lens shows what a depth buffer holds; < 0: before the focus.
+// Radius of the disc, in pixels, of a point at the depth of a depth buffer; < 0: in front of the focus.
 float blurOfDepth(float depth) {
     mat4 clip = getClipFromViewMatrix();
     float nearness = 0.0;

@@ -3,7 +3,7 @@
 // (FrameTargets::motion), `lastFromPixel`, `perSample` (1 / size) and `jitter` (pixels by which this frame is moved), and
 // the constants `hasMotion` and `isElsewhere` (the camera moved).
 
-// point: pixel and its depth. Returns shares of the picture's width and height; beyond it: nowhere.
+// point: pixel and its depth. Returns fractions of the screen's width and height; outside of it: nowhere.
 vec2 movedSince(vec3 point) {
     if (materialConstants_hasMotion) {
         vec4 motion = texelFetch(materialParams_motion, ivec2(point.xy), 0);

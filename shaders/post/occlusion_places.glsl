@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels the texels of an occlusion texture stand for, and the distances there. Includes need: the parameter
+// The pixels of the texels of an occlusion texture, and linear depth there. Includes need: the parameter
 // `depth`, the values `last` and `inverseOfDepth`, and the constant `grid`: 0 full, 1 half, 2 checkerboard.
 //   inverse  what is linear in the depth and over the pixels of a plane, and greater if nearer: 1 / distance of a
 //            perspective projection; of a parallel one how much nearer than the far plane, in widths of pixels.
@@ -8,7 +8,7 @@ const int kGridFull = 0;
 const int kGridHalf = 1;
 const int kGridCheckerboard = 2;
 
-// The last pixels stand for texels beyond the picture: there are some where the picture's size is odd.
+// Texels beyond the screen, which exist if its size is odd, use the last pixels.
 vec2 pixelOfTexel(vec2 texel) {
     vec2 pixel = texel;
     if (materialConstants_grid == kGridHalf) pixel = texel * 2.0;
@@ -18,7 +18,7 @@ vec2 pixelOfTexel(vec2 texel) {
     return min(pixel, materialParams.last);
 }
 
-// 1 / kFarDistance where nothing is. Of the nearest pixel of the picture.
+// 1 / kFarDistance for background. Of the nearest pixel on screen.
 float inverseAt(vec2 pixel) {
     vec2 inside = clamp(pixel, vec2(0.0), materialParams.last);
     float depth = texelFetch(materialParams_depth, ivec2(inside), 0).x;

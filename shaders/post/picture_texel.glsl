@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture whose components are in [0, 1], whatever it holds: display values, or light that is bounded; included after
+// A texel with components in [0, 1] of any image: display values, or compressed light; included after
 // shaders/lib/resolution.glsl and temporal.glsl. The material has the parameter `picture` and the constant `isSceneLinear`.
 
 // NaN counts as 0.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex stage of post-process materials: one triangle that covers the picture, computed from the vertex index alone.
+// Vertex stage of post-process materials: one triangle that covers the screen, computed from the vertex index alone.
 // Vertices 0, 1, 2 are (-1, -1), (3, -1), (-1, 3); depth 0 is the far plane.
 
 void main() {

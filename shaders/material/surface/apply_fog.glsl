@@ -49,7 +49,7 @@ highp vec4 fogOfFragment() {
 
 // FOG_COVERS: alpha is how much of the pixel the surface covers, and the colour contains it. FOG_ADDS: the surface adds
 // to what is behind, which has fog of its own. FOG_FILTERS: it multiplies what is behind, and fog in front hides the
-// filter. seen: light of the picture behind, in the colour, which has its fog already; share: how much of the surface
+// filter. seen: scene colour behind, in the colour, which has its fog already; share: how much of the surface
 // shows it.
 void applyFog(inout highp vec4 color, highp vec3 seen, highp vec3 share) {
     highp vec4 fog = fogOfFragment();

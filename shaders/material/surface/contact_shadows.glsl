@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadows of what is too small or too near for shadow maps: a ray from the fragment towards the light through the
-// depths of the picture (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
+// depth buffer (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
 
 const highp float kContactBias = 0.25; // of a pixel's width: what rises less above the plane of the fragment is that plane
 const highp float kContactFade = 0.75; // of the ray: what is farther away fades
@@ -8,11 +8,11 @@ const highp float kDepthUnit = 1.2e-7; // of a depth buffer with floats near 1
 
 // What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the
 // view at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
-// In a parallel projection the point is at axes x place.x + axes y place.y + the middle of the picture + forward d.
+// In an orthographic projection the point is at axes x place.x + axes y place.y + the image centre + forward d.
 struct ContactReceiver {
     highp vec3 normal; // of the plane, towards the camera
     highp vec3 rise;   // heights of the axes
-    highp float middle; // height of the middle of the picture; 0: perspective
+    highp float middle; // height of the image centre; 0: perspective
     highp float height; // of the camera
     highp float bias;
 };

@@ -25,7 +25,7 @@ highp vec3 towardsLight() {
     return isPoint ? normalizeOrZero(-vertex_worldPosition) : vec3(view[0].z, view[1].z, view[2].z);
 }
 
-// Straight through, in the colour channel of this map. Lights bend no more than the pictures behind thin surfaces do.
+// Straight through, in the colour channel of this map. Light is not bent, as in the refraction of thin surfaces.
 highp float sharePassed(MaterialInputs inputs) {
     float passed = 0.0;
     int channel = int(passUniforms.raster.y) - 1;

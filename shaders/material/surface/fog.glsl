@@ -41,7 +41,7 @@ highp float fogAlong(FogRay ray, highp float from) {
     return ray.meters > medium.w ? 0.0 : fogOpacity(depth, frameUniforms.fogLight.w);
 }
 
-// The point of a pixel. depth: in the depth buffer. Where nothing is, at infinity.
+// The point of a pixel. depth: in the depth buffer. Background is at infinity.
 highp vec4 fogPointAt(highp vec2 pixel, highp float depth) {
     highp vec4 point = frameUniforms.worldFromClip * vec4(pixel * passUniforms.target.zw * 2.0 - 1.0, depth, 1.0);
     if (depth == frameUniforms.exposure.w) point.w = 0.0;

@@ -10,7 +10,7 @@ layout(location = 0) out vec4 fragment_color;
 const float kMinNoV = 1e-4;
 
 // A uniform that conditions read. Mesa's Vulkan driver may compile a stage for the values of uniforms that alone decide
-// a condition, in a moving picture anew in each frame: to it, this one belongs to the fragment. gl_FragCoord.x is
+// a condition, during motion again in each frame: to it, this one belongs to the fragment. gl_FragCoord.x is
 // positive. (Its w is not: with several samples it is that of the pixel's middle, where the triangle's plane may lie behind
 // the camera.) tests/filament_core/engine/CompilationsTest.cpp
 highp float ofFragment(highp float uniformValue) { return gl_FragCoord.x > 0.0 ? uniformValue : 0.0; }

@@ -23,7 +23,7 @@ vec3 leftBySpecular(Surface surface) { return 1.0 - surface.boundary; }
 
 #if defined(REFRACTION)
 
-// Of the environment behind, what the picture does not show.
+// The environment behind, where the scene colour ends.
 vec3 environmentSeen(Surface surface) {
 #if defined(REFRACTION_OF_PICTURE)
     vec3 seen = vec3(0.0);
@@ -113,8 +113,8 @@ highp vec3 throughLayers(Surface surface, highp vec3 light) {
 
 #endif
 
-// Light of the picture. Unlike that of the environment it is pre-exposed. What surroundings hide is what the picture
-// shows: nothing occludes it.
+// Refracted scene colour. Unlike that of the environment it is pre-exposed, and not occluded: it contains the
+// occluders.
 #if defined(REFRACTION_OF_PICTURE)
 
 highp vec3 refractedPicture(Surface surface) {

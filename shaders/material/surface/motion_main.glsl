@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of variants that leave motion alone: how far from here the last frame showed this point. What the
-// surface is made of does not matter, because the pass draws over known depths.
+// Fragment stage of motion variants: the way from this pixel to the point's place in the previous frame. Surface
+// properties do not matter, because the pass draws over known depths.
 
 layout(location = 0) in vec4 vertex_lastClip;
 layout(location = 1) in vec2 vertex_distances;
 layout(location = 0) out vec4 fragment_motion; // FrameTargets::motion
 
-const float kOutOfPicture = 4.0; // in widths and heights of the picture: farther than any two pixels are apart
+const float kOutOfPicture = 4.0; // in widths and heights of the screen: farther than any two pixels are apart
 const float kLargestHalf = 65504.0;
 
 void main() {

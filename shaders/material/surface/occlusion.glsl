@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Occlusion of ambient light by the surroundings, as the material knows them (ambientOcclusion, bentNormal) and as the
-// picture shows them (Quality::ao), and by the surface itself, of what reaches a normal from a map from below.
+// Occlusion of ambient light by the surroundings, by the material (ambientOcclusion, bentNormal) and in
+// screen space (Quality::ao), and by the surface itself, of light from below to the normal of a map.
 
 const int kOcclusionBent = 2; // of quality_screenOcclusion
 
-// What the picture shows: xyz: how far the mean open direction leans from the normal, w: visibility.
+// Screen-space occlusion: xyz: offset of the mean unoccluded direction from the normal, w: visibility.
 highp vec4 screenOcclusion() {
     highp vec4 open = vec4(0.0, 0.0, 0.0, 1.0);
     if (quality_screenOcclusion != 0) {

@@ -22,7 +22,7 @@ void applyMask(inout vec4 baseColor) {
 #endif
 }
 
-// The exposure converts nits to picture values, weighted by alpha.
+// The exposure converts nits to exposed values, weighted by alpha.
 void addEmissive(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_EMISSIVE)
     float factor = mix(1.0, getExposure(), material.emissive.a);

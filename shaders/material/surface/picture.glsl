@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a refracting surface sees of the picture (kBindingPicture): the light of the pixel at which the ray leaves the
-// object, blurred as much as the object's roughness blurs what is that far behind it. Where the picture does not show
-// what is behind, the environment does.
+// The scene colour behind a refractive surface (kBindingPicture): the light of the pixel at which the ray leaves the
+// object, blurred as much as the object's roughness blurs surfaces that far behind it. Off-screen the environment
+// replaces it.
 
-const highp float kPictureBorder = 0.0625; // of the view's height: beyond the picture its edge fades to the environment
+const highp float kPictureBorder = 0.0625; // of the view's height: off-screen its edge fades to the environment
 const highp float kLeastNearness = 1e-6;   // 1 / m
 
 #include "shaders/material/surface/picture_texel.glsl"
@@ -11,7 +11,7 @@ const highp float kLeastNearness = 1e-6;   // 1 / m
 struct Behind {
     highp vec3 light;       // pre-exposed, times its share
     highp vec3 environment; // the share left to the environment
-    highp float level;      // of the picture that green is read from
+    highp float level;      // of the scene colour that green is read from
 };
 
 // Of one colour channel, or all.
@@ -35,7 +35,7 @@ highp float blurredPixels(highp float deviation, highp float distance, highp flo
     return deviation * perTangent * max(way, 0.0);
 }
 
-// 1 on the picture, less beside it.
+// 1 on screen, less outside.
 highp float shareOfPicture(highp vec2 pixel) {
     highp vec2 end = min(passUniforms.picture.zw, passUniforms.target.xy);
     highp vec2 beyond = max(passUniforms.picture.xy - pixel, pixel - end);
@@ -62,11 +62,11 @@ Look lookAt(highp vec3 offset, highp float deviation) {
         highp float widest = pictureLevel(blurredPixels(deviation, distance, 0.0));
         highp float nearness = pictureTexel(pixel, min(widest, last)).a;
         highp float wanted = pictureLevel(blurredPixels(deviation, distance, nearness));
-        share *= saturate(1.0 + last - wanted); // wider lobes see more than the picture
+        share *= saturate(1.0 + last - wanted); // wider lobes reach beyond the screen
         level = min(wanted, last);
     }
     share *= shareOfPicture(pixel);
-    if (ofFragment(frameUniforms.ambient.x) <= 0.0) share = 1.0; // no environment: the picture's edge goes on
+    if (ofFragment(frameUniforms.ambient.x) <= 0.0) share = 1.0; // no environment: the edge is repeated
     highp vec3 light;
 #if defined(REFRACTION_THIN)
     if (level == 0.0) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of the picture, for lit materials with `reflections : screenspace`: the mirrored ray is followed through
-// the pyramid of distances of what is opaque, from cell to cell: through cells of which it stays in front in one step,
-// through the others by way of their parts, down to pixels. What it hits has the colour that the picture shows there:
-// for opaque surfaces the last frame's picture, brought to where this frame shows the same things.
-//   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines of the picture are walked, and what
+// Screen-space reflections, for lit materials with `reflections : screenspace`: the mirrored ray is traced through
+// the hierarchical depth buffer of opaque surfaces, cell by cell: cells that it crosses in front in one step, others
+// subdivided down to pixels. The colour of a hit is the scene colour there: for opaque surfaces that of the previous
+// frame, reprojected to this one.
+//   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines on screen are walked, and what
 //           is linear in the world is interpolated as a fraction of w. Uludag 2014, "Hi-Z Screen-Space Cone-Traced
 //           Reflections", GPU Pro 5: the pyramid.
 
-const highp float kReflectionBorder = 0.08;     // of the picture, over which hits fade
+const highp float kReflectionBorder = 0.08;     // of the screen, over which hits fade
 const highp float kReflectionBias = 0.0009765625; // of the distance: what counts as the same surface
 const highp float kIntoNextCell = 0.03125; // pixels: beyond the border, whatever rounding does
 
@@ -24,12 +24,12 @@ PictureHit noHit() { return PictureHit(vec3(0.0), 0.0, 0.0); }
 // For DebugView::Reflections: red is -1 - metres, or -0.5 where nothing is hit.
 highp vec3 codeOfHit(PictureHit hit) { return vec3(hit.weight > 0.0 ? -1.0 - min(hit.meters, 6e4) : -0.5, 0.0, 0.0); }
 
-// A ray as a line of the picture.
+// A ray as a line on screen.
 struct PictureRay {
     highp vec2 start, along; // pixels: along: to where it ends
     highp vec2 w;            // 1 / w at both ends
     highp vec2 distances;    // along the view, over w
-    highp float end;         // of the line that lies in the picture, [0, 1]
+    highp float end;         // of the line that lies on screen, [0, 1]
 };
 
 highp vec2 pixelOfClip(highp vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * passUniforms.target.xy; }
@@ -119,7 +119,7 @@ highp float hitOfRay(PictureRay ray) {
     return found;
 }
 
-// What the picture has where it showed the hit, and how much of the reflection that is. `share`: of the ray, [0, 1].
+// The scene colour at the hit, and its part of the reflection. `share`: of the ray, [0, 1].
 PictureHit lookAtHit(highp vec3 direction, highp float meters, highp float share, highp float perceptualRoughness) {
     highp vec4 place = frameUniforms.clipFromWorld * vec4(vertex_worldPosition + direction * meters, 1.0);
     highp vec2 uv = place.xy / max(place.w, 1e-30) * 0.5 + 0.5;

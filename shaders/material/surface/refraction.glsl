@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment stands
-// for the scene behind, unless the material refracts the picture. Directions are in 32 bits, whatever the precision of
+// for the scene behind, unless the material refracts the scene colour. Directions are in 32 bits, whatever the precision of
 // the lighting.
 
 #include "shaders/material/surface/transmission.glsl"

@@ -5,7 +5,7 @@
 // that texel. The map holds the same depth there if nothing is in between, so surfaces do not shadow themselves however
 // flat the light is, and a bias of a fraction of a texel is enough for creases (after Isidoro 2006, "Shadow Mapping:
 // GPU-based Tips and Techniques", whose plane comes from derivatives of the map's coordinates). Depths are reversed: 0
-// is where nothing is, however far a plane goes beyond.
+// is background, however far a plane extends beyond.
 //
 // Where some caster lets light through (Quality::coloredShadows), each colour channel has a map of its own, in which
 // the caster fills as many texels as it stops of that colour (McGuire and Enderton 2011, "Colored Stochastic Shadow

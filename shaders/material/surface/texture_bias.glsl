@@ -9,5 +9,5 @@ bvec4 mipBias_isBiased() { return bvec4(quality_mipBias != 0); }
 float mipBias_levels() { return passUniforms.raster.w; }
 float mipBias_factor() { return exp2(passUniforms.raster.w); }
 
-// Functions that nobody calls do not reach the pass that needs them. Nothing reads this, so it is removed behind it.
+// Unused functions do not reach the pass that needs them. This call is unused, so it is removed after that pass.
 float mipBias_unread = mipBias_isBiased().x ? mipBias_levels() : mipBias_factor();

@@ -3,7 +3,7 @@
 // of the guide, 4.5.6.
 
 #if defined(FULL_SCREEN_TRIANGLE)
-// Covers the picture at the far plane without attributes: (-1, -1), (3, -1), (-1, 3).
+// Covers the screen at the far plane without attributes: (-1, -1), (3, -1), (-1, 3).
 vec3 meshPosition() {
     return vec3(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, frameUniforms.exposure.w);
 }

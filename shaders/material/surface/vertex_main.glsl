@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex stage of surface materials, entry points: attributes -> materialVertex() -> varyings, or the place in the last
+// Vertex stage of surface materials, entry points: attributes -> materialVertex() -> varyings, or the previous
 // frame.
 
 #if defined(WIDE_LINES)
@@ -22,7 +22,7 @@ vec4 widened(vec4 clip, vec4 end, float side, float width) {
     float largest = max(abs(along.x), abs(along.y));
     vec3 direction = normalizeOrZero(largest > 0.0 ? vec3(along / largest, 0.0) : vec3(0.0));
     float halfWidth = width > 0.0 ? min(width, kMaxLineWidth) : 0.0; // NaN: nothing
-    clip.xy += vec2(-direction.y, direction.x) * (side * halfWidth * clip.w) / pixels; // the picture is 2 wide
+    clip.xy += vec2(-direction.y, direction.x) * (side * halfWidth * clip.w) / pixels; // the screen is 2 wide
     return clip;
 }
 #endif
@@ -91,7 +91,7 @@ vec4 clipPosition(MaterialVertexInputs inputs, mat4 clipFromWorld) {
 #if defined(VARIANT_MOTION)
 
 layout(location = 0) out vec4 vertex_lastClip;
-layout(location = 1) out vec2 vertex_distances; // along the view: in the last frame, and now
+layout(location = 1) out vec2 vertex_distances; // linear depth: in the previous frame, and now
 
 float alongView(vec3 p) {
     mat4 view = frameUniforms.viewFromWorld;
