@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BasisBits, BasisHuffman: the bits and the prefix codes of BasisLZ. KTX 2.0 Specification, appendix "BasisLZ/ETC1S
 /// Bitstream", section "Compressed Huffman Tables"; codes are numbered as in RFC 1951, 3.2.2.
-///   In      untrusted bytes. Behind the last one are zeros, and hasEnded() then says so: a caller checks once, at the
+///   In      untrusted bytes. Behind the last one are zeros, and hasEnded() is then true: a caller checks once, at the
 ///           end of a loop whose length does not depend on the bits.
 ///   Thread  one for each reader; a table is read-only once it is read.
 ///   Limits  16383 symbols, codes of 16 bits.

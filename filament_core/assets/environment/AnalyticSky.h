@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// AnalyticSky: a clear daylight sky with its sun, as a picture that lights scenes without any file.
+/// AnalyticSky: a clear daylight sky with its sun, as a panorama that lights scenes without any file.
 ///   Model   luminance and chromaticity of Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight";
 ///           the sun's disc as in its appendix (Rayleigh and aerosol extinction); below the horizon a Lambert ground
 ///           lit by that sky.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CubeLight: an environment that its file holds pre-filtered, as cubes of radiance and harmonics of irradiance.
 ///   In      levels of half the size each; the first is the radiance itself.
-///   Out     what bakeEnvironment() makes of a picture, without an irradiance cube: the file knows only coefficients.
+///   Out     like bakeEnvironment() of a panorama, without an irradiance cube: the file has only coefficients.
 ///   Space   directions of the cube are those of IblDirections.h. The cube lies in the world as a matrix says, whose
 ///           columns are unit vectors at right angles; it may mirror.
 ///   Thread  runs on the job system; the same bits for any number of workers.
@@ -24,7 +24,7 @@ struct CubeLight {
 /// RGBA16F, with roughness mapped linearly to levels.
 EnvironmentData environmentFromCube(CubeLight const& light, jobs::JobSystem& jobs);
 
-/// The first level as an equirectangular picture of the world, twice as wide as high, for tools that know only those;
+/// The first level as an equirectangular panorama of the world, twice as wide as high, for tools that know only those;
 /// a bilinear look-up per pixel. `width` is even.
 HdrImage pictureFromCube(CubeLight const& light, uint32_t width, jobs::JobSystem& jobs);
 

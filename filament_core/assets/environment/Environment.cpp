@@ -37,7 +37,7 @@ void report(EnvironmentOptions const& options, std::string_view stage, size_t do
     if (options.progress) options.progress(stage, done, total);
 }
 
-/// The error of a load that nobody wants any more.
+/// The error of a cancelled load.
 Result<void> goesOn(EnvironmentOptions const& options) {
     if (!options.cancellation || !options.cancellation->isRequested()) return {};
     return fail(ErrorCode::Cancelled, "loading the environment was cancelled");

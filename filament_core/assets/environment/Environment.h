@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadEnvironment: turns an equirectangular .hdr or .exr into the cubes and coefficients that light a scene.
-///   In      a picture (HdrReader.h) or a cube map in a KTX 2.0 file (CubePicture.h); world direction d sees a picture
+///   In      a panorama (HdrReader.h) or a cube map in a KTX 2.0 file (CubePicture.h); world direction d sees one
 ///           at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi. Or a file of writeEnvironmentPackage() or
 ///           writeBakedEnvironment(), whose sizes, format and mapping then count.
 ///   Out     EnvironmentData, with the same bits from the cache and from the baker, for any number of workers.
-///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
+///   Cache   one file per content of the panorama, options and baker version, in `cacheDirectory`. Damaged files are
 ///           detected by their checksum and baked again; a directory that cannot be written causes a warning, not an
 ///           error.
-///   Thread  any; two simultaneous loads of the same picture bake twice and leave one file.
-///   Memory  the picture and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
+///   Thread  any; two simultaneous loads of the same panorama bake twice and leave one file.
+///   Memory  the panorama and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for
 ///           options.
-///   Cost    about a second on two cores for a 1024 x 512 picture the first time, then about 10 ms.
+///   Cost    about a second on two cores for a 1024 x 512 panorama the first time, then about 10 ms.
 #pragma once
 
 #include "base/Result.h"
@@ -44,7 +44,7 @@ struct EnvironmentOptions {
 
 struct EnvironmentStatistics {
     uint32_t sourceWidth = 0, sourceHeight = 0;
-    HdrRepairs repairs;               ///< of the picture
+    HdrRepairs repairs;               ///< of the panorama
     EncodeLoss specularLoss, skyLoss; ///< caused by the range of the format
     bool fromCache = false;
 };
@@ -54,14 +54,14 @@ inline constexpr uint32_t kIrradianceFaceSize = 32;
 
 struct EnvironmentData {
     Image specular; ///< cube
-    Image sky;      ///< cube, one level: the picture itself at its own pixel density
+    Image sky;      ///< cube, one level: the panorama itself at its own pixel density
     /// Cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F. Without texels for an
     /// environment of which only the coefficients are known.
     Image irradiance;
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
     RoughnessMapping mapping = RoughnessMapping::Quadratic; ///< the roughness of each level of `specular`
-    float3x3 worldFromCube{ 1.0f };                         ///< of a picture: the identity
+    float3x3 worldFromCube{ 1.0f };                         ///< of a panorama: the identity
     EnvironmentStatistics statistics;
 };
 
@@ -77,13 +77,13 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
                                         EnvironmentOptions const& options = {});
 
 /// A KTX 2.0 file that loadEnvironment() reads without baking, on any machine, with the same bits
-/// (EnvironmentPackage.h). `data` is that of a picture: it has no rotation.
+/// (EnvironmentPackage.h). `data` is that of a panorama: it has no rotation.
 Result<void> writeEnvironmentPackage(EnvironmentData const& data, std::filesystem::path const& path);
 
-/// The same in the layout of the cache. It belongs to this version of the baker: others refuse it and say so.
+/// In the layout of the cache. It belongs to this version of the baker: others reject it with an error.
 Result<void> writeBakedEnvironment(EnvironmentData const& data, std::filesystem::path const& path);
 
-/// Texels per side of a sky face for a picture of this width, a power of two in [16, 512]: at least a quarter of the
+/// Texels per side of a sky face for a panorama of this width, a power of two in [16, 512]: at least a quarter of the
 /// horizon.
 uint32_t skyFaceSize(uint32_t sourceWidth);
 

@@ -11,10 +11,10 @@
 
 namespace filament::assets {
 
-/// Identifies a cached file: content of the picture, options that change the result, version of the baker.
+/// Identifies a cached file: content of the panorama, options that change the result, version of the baker.
 uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options);
 
-/// The key of a file that stands for itself instead of for a picture in the cache: what cmgen writes.
+/// The key of a file that stands for itself instead of for a panorama in the cache: what cmgen writes.
 uint64_t bakedEnvironmentKey(RoughnessMapping mapping);
 /// Whether these bytes claim to be an environment that is already baked.
 bool isBakedEnvironment(std::span<const std::byte> bytes);

@@ -7,7 +7,7 @@
 ///   filament.irradianceSh       27 numbers: nine coefficients of red, green and blue (shaders/lib/ibl.glsl)
 ///   filament.irradiance         a KTX 2.0 file: the irradiance cube; may be missing
 ///   filament.skybox             a KTX 2.0 file: the background
-///   filament.picture            what EnvironmentStatistics says of the picture: nine numbers
+///   filament.picture            EnvironmentStatistics of the panorama: nine numbers
 ///   Formats RGBA16F, R11G11B10F, RGB9E5 and RGBA8, which means RGBM; irradiance is RGBA16F. Texts are ASCII.
 ///   Thread  pure functions.
 ///   Limits  2048 texels per side of a face, a power of two.

@@ -13,7 +13,7 @@ constexpr uint32_t kCubeRowsPerJob = 4;
 constexpr uint32_t kLeastSubSamples = 4; // per axis: the source's bilinear kernel gets 4 samples per texel
 constexpr uint32_t kMostSubSamples = 32;
 
-// Towards the poles the rows of the picture are stretched: a pixel covers 1 / sin(polar) times less azimuth than at the
+// Towards the poles the rows of a panorama are stretched: a pixel covers 1 / sin(polar) times less azimuth than at the
 // equator. Averaging that many pixels of a row makes every row as sharp as the equator, and preserves its sum.
 HdrImage widenedTowardsPoles(HdrImage const& image, jobs::JobSystem& jobs) {
     HdrImage wide{ .width = image.width, .height = image.height, .pixels = {}, .repairs = {} };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// IblCube: an environment as a cube of floats with its mip chain, the input of every baking step.
-///   In      a sanitised equirectangular picture.
+///   In      a sanitised equirectangular panorama.
 ///   Out     levels of size, size / 2, ... 1; each texel is the mean radiance over its solid angle, so the sum of
 ///           radiance times solid angle is the same for all levels.
 ///   Storage each face has a border of one texel copied from its neighbours: bilinear look-ups never cross a face.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Maps directions of the world to a cube map and to an equirectangular picture.
+/// Maps directions of the world to a cube map and to an equirectangular panorama.
 ///   Cube    faces +x -x +y -y +z -z with the s and t of the table that OpenGL ES and Vulkan share (ES 3.2 table 8.25,
 ///           Vulkan 1.3 table "Cube map face and coordinate selection"); row 0 of a face is t = -1.
 ///   Picture direction d is seen at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi; row 0 is the zenith.

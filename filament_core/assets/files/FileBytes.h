@@ -25,7 +25,7 @@ Result<std::string> readText(std::filesystem::path const& path, size_t most);
 Result<void> replaceFile(std::filesystem::path const& path, std::span<const std::byte> bytes);
 
 /// Deletes the temporary files that replaceFile() left in `folder` when its process was killed: those whose process is
-/// gone and that nobody has written to for a minute, or for an hour whatever the process (it may be on another
+/// gone and that has not been written to for a minute, or for an hour whatever the process (it may be on another
 /// machine). Returns their number. Never fails.
 size_t removeLeftovers(std::filesystem::path const& folder);
 

@@ -57,10 +57,10 @@ public:
     /// Fills `values` if the array exists; an error for another length. Returns whether the array exists.
     bool numbers(std::span<double> values) const;
     std::vector<float> numberList() const;
-    /// A list of texts in what is the file's own business ("extras"): empty if this is no object, or its member `key`
+    /// A list of texts in application-specific data ("extras"): empty if this is no object, or its member `key`
     /// is anything else.
     std::vector<std::string> textsOf(const char* key) const;
-    std::vector<double> numbersOf(const char* key) const; ///< the same for numbers
+    std::vector<double> numbersOf(const char* key) const; ///< like textsOf(), for numbers
 
 private:
     void refuse(std::string_view expected) const;

@@ -108,7 +108,7 @@ public:
         mMeridians.push_back(mMeridians.front()); // the same bits on both sides of the seam
     }
 
-    /// `profile`: upwards in the picture, as v grows.
+    /// `profile`: upwards in the texture, as v grows.
     void surface(std::span<const ProfilePoint> profile) {
         for (size_t i = 0; i < profile.size(); ++i) {
             const uint32_t first = addRow(profile[i]);
@@ -188,7 +188,7 @@ float gridCoordinate(float size, uint32_t i, uint32_t segments) {
     return static_cast<float>(size * ((2.0 * i - segments) / (2.0 * segments)));
 }
 
-/// One side of a box: which axes are right and up in its picture, and whether they point to their negative ends.
+/// One side of a box: which axes are right and up in its texture, and whether they point to their negative ends.
 struct BoxSide {
     int right, up, out;
     bool rightIsNegative, upIsNegative, outIsNegative;

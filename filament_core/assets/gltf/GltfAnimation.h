@@ -3,7 +3,7 @@
 ///   In      a document whose buffers are loaded, and the mapping of its nodes.
 ///   Out     one AnimationData each, in the order of the file. Empty ones are kept, because indices identify
 ///           animations. Weights apply to every node that shows the mesh of their node. Times that do not grow are
-///           mended (KeyTimes.h), with one warning for each animation, which names `file`, animation and channels.
+///           repaired (KeyTimes.h), with one warning for each animation, which names `file`, animation and channels.
 ///   Limits  2^26 numbers and 2^22 moved nodes in all animations together.
 ///   Fails   Corrupt: an accessor that leaves its buffer. A channel that is invalid by itself (no key with a
 ///           finite time, counts that do not match, a node without morph targets) is dropped, with a warning that

@@ -4,7 +4,7 @@
 ///   Out     radiance times the light's intensity, in the levels that the file has.
 ///   Images  a PNG with alpha is RGBD: radiance is colour / alpha, without a transfer curve. Others are sRGB.
 ///   Space   the extension's faces form a left-handed cube, as cube maps of every API do, and the bottom row of a
-///           picture is the one that the APIs' tables call the first (README of the extension: "flipped"). The cube's z
+///           image is the one that the APIs' tables call the first (README of the extension: "flipped"). The cube's z
 ///           is turned round to make it right-handed: right, up and forward of a viewer in the cube are +X, +Y and -Z,
 ///           those of a camera of glTF. The light's rotation turns the result. Irradiance coefficients are in the
 ///           cube's space, too. glTF's direction of a point (s, t) of face f, both from -1 to 1, s to the right and t
@@ -49,7 +49,7 @@ struct GltfEnvironment {
 
 GltfEnvironment planEnvironment(GltfDocument const& document);
 
-/// An error for pictures that are not what the light says; nothing is decoded yet.
+/// An error for images that contradict the light; nothing is decoded yet.
 void checkFaces(GltfDocument const& document, GltfEnvironment const& environment, Diagnostics& diagnostics);
 
 /// Fills in one face of one level.

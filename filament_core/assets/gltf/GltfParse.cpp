@@ -296,7 +296,7 @@ GltfImage parseImage(JsonNode const& node, Counts const& counts) {
     return image;
 }
 
-/// The image of an extension takes the place of the core one, which is a fallback for loaders without the extension.
+/// The image of an extension replaces the core one, which is a fallback for loaders without the extension.
 GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
     GltfTexture texture{ node["sampler"].index(counts.samplers, "samplers"),
                          node["source"].index(counts.images, "images") };

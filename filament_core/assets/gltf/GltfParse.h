@@ -26,7 +26,7 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
                                                    size_t variantCount);
 Sampler parseGltfSampler(JsonNode const& node);
 LightData parseGltfLight(JsonNode const& node);
-/// What is no camera of the specification is mended, with a warning.
+/// Cameras outside of the specification are repaired, with a warning.
 CameraData parseGltfCamera(JsonNode const& node);
 GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount);
 std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, size_t profileCount); ///< of a node

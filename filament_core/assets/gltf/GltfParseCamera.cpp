@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of a file (glTF 2.0, section 3.10). What the specification forbids is mended with a warning: a model
+// The cameras of a file (glTF 2.0, section 3.10). Violations of the specification are repaired with a warning: a model
 // whose camera is broken is still a model.
 #include "filament_core/assets/files/JsonTree.h"
 #include "filament_core/assets/gltf/GltfParse.h"

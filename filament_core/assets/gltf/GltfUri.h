@@ -32,7 +32,7 @@ struct GltfFolder {
 
     std::filesystem::path directory;
     FilesFrom from;
-    GltfResolver resolve; ///< takes the place of the file system
+    GltfResolver resolve; ///< replaces the file system
 };
 
 Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder const& folder);

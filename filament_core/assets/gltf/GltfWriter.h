@@ -63,11 +63,11 @@ struct GlbImageBasedLight {
     double4 rotation{ 0, 0, 0, 1 }; ///< quaternion x, y, z, w
     float intensity = 1;
     std::array<double3, 9> irradiance{};
-    uint32_t size = 0;                                ///< of the pictures of the first level
+    uint32_t size = 0;                                ///< of the images of the first level
     std::vector<std::array<uint32_t, 6>> levels = {}; ///< indices of images
 };
 
-/// The inverse of the loader, except that RGBD rounds. The pictures are added to `images`. Fails: InvalidArgument if
+/// The inverse of the loader, except that RGBD rounds. The images are added to `images`. Fails: InvalidArgument if
 /// worldFromCube is not a rotation of the extension's cube.
 Result<GlbImageBasedLight> glbImageBasedLight(CubeLight const& light, std::vector<GlbImage>& images);
 

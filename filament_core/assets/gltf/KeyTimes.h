@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// KeyTimes: mends keys whose times do not grow, as glTF 2.0, section 3.11.2 asks of them, so that they can be played.
-///   In      a sampler with as many values as its times ask for; times may be any floats.
+/// KeyTimes: repairs keys whose times do not grow, which glTF 2.0, section 3.11.2 requires, so that they can be played.
+///   In      a sampler with as many values as its times require; times may be any floats.
 ///   Out     times are finite and never decrease, and each key has the values that it had. Keys without a finite time
 ///           are left out, the others are sorted; of equal times all stay, in the order of the file.
 ///   Why     other loaders play such files. gltfio sorts keys by time and keeps the last of equal ones (a map from

@@ -2,7 +2,7 @@
 /// ModelBounds: the smallest axis-aligned box around the vertices of a model in its rest pose.
 ///   Why     the box of a rotated box is up to 1.7 times as large as what is in it, and off its centre.
 ///   In      ModelData. Deformed primitives: restPositions, or their restBounds where a program made them without.
-///   Out     exact but for the rounding of the stored positions.
+///   Out     exact except for the rounding of the stored positions.
 ///   Thread  any; the data is only read.   Memory: none.   Fails: never.
 ///   Cost    3 ns a vertex and node; nothing for a part whose box lies inside of what is already covered.
 #pragma once

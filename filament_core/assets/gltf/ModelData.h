@@ -114,7 +114,7 @@ struct CameraData {
     float halfHeightMeters = 1;            ///< parallel; > 0
     float nearMeters = 0.01f;              ///< > 0, or 0 if parallel
     float farMeters = 0;                   ///< parallel: > nearMeters. Perspective: not kept
-    float aspect = 0;                      ///< width / height; 0: that of the picture
+    float aspect = 0;                      ///< width / height; 0: that of the view
 };
 
 /// EXT_lights_ies: forward is -Z of the node.
@@ -149,7 +149,7 @@ struct NodeData {
 /// MSFT_lod: a thing in several levels of detail.
 struct LevelsData {
     std::vector<uint32_t> nodes; ///< into ModelData::nodes: two or more, the finest first
-    /// Of each level: how much of the picture's area (prepare/ScreenCoverage.h) the thing covers at least where the
+    /// Of each level: the smallest screen coverage (prepare/ScreenCoverage.h) of the object at which the
     /// level is shown. >= 0, and not more than that of the level before.
     std::vector<double> leastCoverage;
 };

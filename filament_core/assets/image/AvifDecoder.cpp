@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// AVIF: libavif reads the file and AV1 says which codes come out, bit for bit. Conversion to RGB is our own: that of
+// AVIF: libavif reads the file and AV1 defines the decoded codes bit for bit. Conversion to RGB is our own: that of
 // libavif goes through libyuv, whose rounding depends on the processor.
 //   Sources  AVIF 1.1; MIAF (ISO/IEC 23000-22), 7.3.6.7: order of transformations; ITU-T H.273, 8.3: coefficients and
 //            ranges
@@ -74,7 +74,7 @@ std::optional<std::pair<double, double>> lumaWeights(avifMatrixCoefficients matr
     }
 }
 
-/// What the header can say against a picture.
+/// Reasons in the header to reject an image.
 Result<void> checkAvif(avifDecoder const& decoder, std::string_view name) {
     avifImage const& image = *decoder.image;
     if (decoder.imageCount != 1) return avifRefusal(name, "is an animation; export one picture of it");
@@ -127,7 +127,7 @@ uint2 placeInPlanes(avifImage const& image, uint2 pixel) {
     }
 }
 
-/// Light and shade of one decoded picture as red, green and blue in [0, 1]. Only additions, multiplications and
+/// Luma and chroma of one decoded image as red, green and blue in [0, 1]. Only additions, multiplications and
 /// divisions of doubles: the same bits on every processor.
 class AvifColors {
 public:

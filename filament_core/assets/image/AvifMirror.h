@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// mirrorOf: which sides of an AVIF picture change places: 0 top and bottom, 1 left and right. libavif 1.0 renamed it.
+/// mirrorOf: which sides of an AVIF image are swapped: 0 top and bottom, 1 left and right. libavif 1.0 renamed it.
 #pragma once
 
 #include <avif/avif.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ExrBlock: OpenEXR stores some rows of a picture, or a tile, as one block, each compressed on its own. Private to
+/// ExrBlock: OpenEXR stores some rows of an image, or a tile, as one block, each compressed on its own. Private to
 /// this folder.
 ///   Out     whole rows; a row has all samples of its first channel, then all of the second, ...
 ///   Fails   false if the packed bytes are not exactly such a block.

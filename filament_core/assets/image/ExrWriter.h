@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// encodeExr: a picture as an OpenEXR file of scan lines. Private to this folder.
+/// encodeExr: an image as an OpenEXR file of scan lines. Private to this folder.
 ///   In      samples pixel after pixel, as they lie in memory; row 0 is the top row.
 ///   Out     a complete file of version 2: the eight attributes that each must have, the chromaticities of linear
 ///           Rec. 709, and blocks of 16 rows, compressed with ZIP, or as they are where that would not make them
-///           smaller. Samples keep their bits, also those of infinities and NaNs. The same picture and version of zlib
+///           smaller. Samples keep their bits, also those of infinities and NaNs. The same image and version of zlib
 ///           give the same bytes.
 ///   Thread  any; pure.
 ///   Memory  the file, and a few times one block.

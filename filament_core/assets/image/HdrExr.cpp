@@ -99,7 +99,7 @@ Result<void> chooseChannels(ExrHeader& header) {
     return {};
 }
 
-/// More than any picture needs that can be read; a file of a few bytes could ask for gigabytes.
+/// More than any readable image needs; a file of a few bytes could request gigabytes.
 constexpr size_t kMaxBlockBytes = size_t{ 1 } << 29;
 
 Result<ExrHeader> parseHeader(ByteCursor& cursor) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Reads high dynamic range pictures: Radiance .hdr (RGBE) and OpenEXR .exr.
+/// Reads high dynamic range images: Radiance .hdr (RGBE) and OpenEXR .exr.
 ///   In      a file, or its bytes and a name for error messages. The content decides the format, not the extension.
 ///   Out     HdrImage, sanitised: NaN, infinite and negative components are replaced and counted in `repairs`.
 ///   .hdr    flat, old and new run lengths; rows top-down or bottom-up; EXPOSURE lines are divided out; not XYZE.

@@ -36,8 +36,8 @@ std::string_view nextWord(std::string_view& line) {
     return word;
 }
 
-// "-Y 512 +X 1024": rows from the top, pixels from the left. The format allows column-major orders, but nobody uses
-// them.
+// "-Y 512 +X 1024": rows from the top, pixels from the left. The format allows column-major orders, but no
+// program writes them.
 Result<RgbeHeader> parseResolution(std::string_view line, RgbeHeader header) {
     const std::string_view rows = nextWord(line), height = nextWord(line);
     const std::string_view columns = nextWord(line), width = nextWord(line);

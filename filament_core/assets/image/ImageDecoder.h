@@ -17,7 +17,7 @@
 ///   Memory  at most 1 GiB of pixels (16384 x 16384), and of progressive JPEGs twice that while decoding; the size is
 ///           checked before anything is allocated.
 ///   Limits  an AVIF has at most 2^26 pixels, because the codec holds them several times. A JPEG has at most 500 scans:
-///           each costs a pass over the whole picture, and some bytes in the file.
+///           each costs a pass over the whole image, and some bytes in the file.
 ///   Fails   Corrupt or Unsupported with the reason and the byte at which the decoder stopped; never crashes, for any
 ///           bytes. Data that is damaged or ends early is an error.
 #pragma once
@@ -48,7 +48,7 @@ uint2 avifSize(std::span<const std::byte> bytes);
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name);
 
-/// A picture of more than 8 bits a channel, scaled to 16: four numbers a pixel, in the byte order of the machine.
+/// An image of more than 8 bits a channel, scaled to 16: four numbers a pixel, in the byte order of the machine.
 struct DeepImage {
     uint32_t width = 0, height = 0;
     std::vector<uint16_t> codes;
@@ -65,12 +65,12 @@ Result<DeepImage> decodeDeepAvif(std::span<const std::byte> bytes, std::string_v
 
 /// Whether it is one of both.
 bool isDeepImage(std::span<const std::byte> bytes);
-/// isDeepImage() has been asked.
+/// isDeepImage() has been called.
 Result<DeepImage> decodeDeepImage(std::span<const std::byte> bytes, std::string_view name);
 
 /// The errors of decodeImage() that the header shows.
 Result<void> checkPngOrJpeg(std::span<const std::byte> bytes, std::string_view name);
-/// What decodeImage() calls when the first bytes of the file say so.
+/// Called by decodeImage() according to the first bytes of the file.
 Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name);
 Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name);
 Result<Image> decodeWebp(std::span<const std::byte> bytes, std::string_view name);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Writes pictures: PNG for display, OpenEXR and Radiance .hdr for scene-linear light. Also reads PNG.
+/// Writes images: PNG for display, OpenEXR and Radiance .hdr for scene-linear light. Also reads PNG.
 ///   In      tightly packed pixels, row 0 is the top row; the span's size is checked against width and height.
 ///   Out     a complete file or none: written under another name and renamed. PNG codes are those of the pixels.
-///           EXR pixels are linear Rec. 709, and say so.
+///           EXR pixels are linear Rec. 709, and are marked so.
 ///   Thread  any; no shared state.
-///   Memory  at most a second copy of the picture.
-///   Fails   Unreadable with path and reason; an empty picture is the caller's bug.
+///   Memory  at most a second copy of the image.
+///   Fails   Unreadable with path and reason; an empty image is the caller's bug.
 ///   Cost    PNG uses zlib's fastest level: 1280 x 720 in about 15 ms; files are a third larger than at the default
 ///           level.
 #pragma once

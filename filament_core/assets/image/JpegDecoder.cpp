@@ -40,7 +40,7 @@ JpegReading& readingOf(j_common_ptr common) { return *static_cast<JpegReading*>(
     std::longjmp(reading.out, 1); // NOLINT(cert-err52-cpp): libjpeg's way
 }
 
-// libjpeg goes on with grey or a guess where data is damaged or missing; a picture like that is an error here. The
+// libjpeg continues with grey or a guess where data is damaged or missing; such an image is an error here. The
 // other warnings are about bytes between segments and about tags.
 void onMessage(j_common_ptr common, int level) {
     static constexpr std::array kDamage{ JWRN_ARITH_BAD_CODE, JWRN_BOGUS_PROGRESSION, JWRN_HIT_MARKER,

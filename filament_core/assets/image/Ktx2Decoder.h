@@ -4,8 +4,8 @@
 ///   Reads   BC1 to BC7, ETC1, ETC2, EAC and ASTC LDR (blocks/BlockFormat.h); plain formats of 1 to 4 channels with 4
 ///           to 32 bits; Basis Universal's ETC1S (BasisLZ) and UASTC LDR 4x4. Supercompressed with Zstandard or zlib.
 ///           Two-dimensional textures, arrays and cubes. Not video, nor colours that are multiplied by alpha.
-///   Out     RGBA8 where 8 bits hold all of it, RGBA8Srgb if the file says so; otherwise RGBA16F, or RGBA32F if asked
-///           for. The file's KTXswizzle and KTXorientation are applied. Row 0 is at the top, faces are +x -x +y -y +z
+///   Out     RGBA8 where 8 bits hold all of it, RGBA8Srgb if the file is sRGB; otherwise RGBA16F, or on request
+///           RGBA32F. KTXswizzle and KTXorientation are applied. Row 0 is at the top, faces are +x -x +y -y +z
 ///           -z. Of Basis textures, by the channels of their descriptor:
 ///             ETC1S  RGB: r g b 1.  RGB, AAA: r g b a.  RRR: r r r 1.  RRR, GGG: r r r g.
 ///             UASTC  RGB: r g b 1.  RGBA: r g b a.  RRR: r r r 1.  RRRG: r r r g.  RG: r g 0 1.

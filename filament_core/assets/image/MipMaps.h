@@ -20,7 +20,7 @@ namespace filament::assets {
 /// direction (0: no limit).
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize = 0);
 
-/// The same of a picture with more than 8 bits a channel, as RGBA16F: light of colours, code / 65535 of data. The first
+/// Of an image with more than 8 bits a channel, as RGBA16F: light of colours, code / 65535 of data. The first
 /// level has the nearest halves; the others are means of 16-bit light, which are exact to 1/65535.
 Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize = 0);
 

@@ -3,7 +3,7 @@
 ///   In      RGB10A2 as devices store it: red in the lowest bits of a little-endian word. Alpha is left out.
 ///   Out     a complete PNG without chunks of colour but `sRGB`: red, green and blue, a code c as
 ///           round(c * 65535 / 1023), and `sBIT`, which says that ten bits are significant.
-///   Thread  any; pure.   Memory: two copies of the picture.   Fails: std::bad_alloc.
+///   Thread  any; pure.   Memory: two copies of the image.   Fails: std::bad_alloc.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// decodeTexture: an image of a model as texels, with the levels that its file has.
 ///   In      the bytes of a PNG, JPEG, WebP, AVIF or KTX 2.0 file; `name` is used in error messages.
-///   Out     RGBA8; of pictures with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are
-///           wanted. One level of pictures; of KTX 2.0 the levels of the file if they end with 1 x 1, otherwise its
+///   Out     RGBA8; of images with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are
+///           requested. One level of images; of KTX 2.0 the levels of the file if they end with 1 x 1, otherwise its
 ///           first.
 ///   Thread  any; no shared state.
 ///   Limits, fails  as decodeImage() and decodeKtx2(). Cubes, arrays, and texels of KTX 2.0 with more than 8 bits are
@@ -22,20 +22,20 @@ namespace filament::assets {
 struct DecodedTexture {
     Image image;                  ///< empty if `deep` is not
     std::optional<bool> isSrgb{}; ///< what the file says of its colours, if it says it
-    DeepImage deep{};             ///< a picture with more than 8 bits a channel
+    DeepImage deep{};             ///< an image with more than 8 bits a channel
 };
 
 enum class TextureDepth : uint8_t {
-    EightBits, ///< pictures with more are rounded
+    EightBits, ///< images with more are rounded
     AllBits,
 };
 
-/// `maxSize`: larger levels of the file are left out; a picture is not made smaller. 0: no limit.
+/// `maxSize`: larger levels of the file are skipped; an image is not downscaled. 0: no limit.
 Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize = 0,
                                      TextureDepth depth = TextureDepth::EightBits);
 
 /// All levels of a decoded texture: those that it has, or those of withMipMaps(). Starts with the first one that is not
-/// larger than `maxSize`. RGBA8Srgb of colours, RGBA8 of data, RGBA16F of deep pictures.
+/// larger than `maxSize`. RGBA8Srgb of colours, RGBA8 of data, RGBA16F of deep images.
 Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize);
 
 } // namespace filament::assets
