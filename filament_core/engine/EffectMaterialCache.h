@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// EffectMaterialCache: the full-screen materials that a renderer's passes have asked for (passes/EffectMaterials.h).
+/// EffectMaterialCache: the full-screen materials that a renderer's passes have used (passes/EffectMaterials.h).
 ///   In      names of shaders/post and constants.   Out: materials of the engine, which renderers share.
 ///   Thread  the app thread.   Memory: an entry for each material and set of constants.   Fails: std::bad_alloc.
 #pragma once

@@ -47,7 +47,7 @@ struct TextureState {
     backend::TextureHandle handle;     ///< none: rejected, see createTexture()
     backend::DeviceTextureDesc desc{}; ///< debugName is empty: see `name`
     std::string name;
-    bool hasContents = false; ///< somebody uploaded or drew something
+    bool hasContents = false; ///< something was uploaded or drawn
 };
 
 struct VertexBufferState {
@@ -91,7 +91,7 @@ struct LightProfileState {
 };
 
 struct RenderTargetState {
-    Texture color, depth; ///< depth: none, unless somebody asks. The app may have destroyed them: HandleTable::held()
+    Texture color, depth; ///< depth: optional. The app may have destroyed them: HandleTable::held()
     bool generateMips = false;
     std::string name;
 };
@@ -150,7 +150,7 @@ struct Engine::Impl {
     Impl(Impl const&) = delete;
     Impl& operator=(Impl const&) = delete;
 
-    /// Before anything sees that the engine has ended: loads and renderers let go of their device objects.
+    /// Before the end of the engine is visible: loads and renderers release their device objects.
     void endDependents() noexcept;
     /// Sends everything pending to the driver thread.
     void flush();
@@ -222,7 +222,7 @@ struct Engine::Impl {
     scene::MaterialInstance const* motionInstance();
     /// Of the material `debug_draw`, made once: what surfaces hide, or do not.
     scene::MaterialInstance const* debugDrawInstance(bool isTested);
-    /// The same as engineMaterial() for a pass that draws pictures; asserts that they fit.
+    /// engineMaterial() for a full-screen pass; asserts that they fit.
     scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
                                               passes::FullScreenInterface const& given);
     /// From the next drainPending() on every instance has a bind group for views of this filter, too. Views of several
@@ -282,7 +282,7 @@ struct Engine::Impl {
     bool aUseEnded = false;                 ///< something was destroyed, removed or replaced since
 
     engine::Defaults defaults;
-    MaterialInstance drawingMotion;                  ///< none: no frame asked for motion
+    MaterialInstance drawingMotion;                  ///< none: no frame needed motion vectors
     std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t rasterChanges = 0;                      ///< of instances; they change the order in which scenes draw

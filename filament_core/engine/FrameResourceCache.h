@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameResourceCache: the engine's own materials, tables and samplers that a renderer's frames are drawn with.
-///   In      what a view and its scene ask for.   Out: passes::FrameResources.
+///   In      requirements of a view and its scene.   Out: passes::FrameResources.
 ///   Memory  an entry for each material. What is missing is made and recorded into `pending` of the engine; finding
-///           what is there allocates nothing.
+///           existing resources allocate nothing.
 ///   Thread  the app thread.   Fails: std::bad_alloc; what was made by then serves the next frame.
 #pragma once
 
@@ -17,7 +17,7 @@ class FrameResourceCache {
 public:
     explicit FrameResourceCache(Engine::Impl& engine) : mEngine(engine), mEffects(engine) {}
 
-    /// `isToneMapped`: the picture goes through the view's tone mapper.
+    /// `isToneMapped`: the image goes through the view's tone mapper.
     passes::FrameResources find(View const& view, prepare::FramePacket const& packet, passes::PipelineSource pipelines,
                                 bool isToneMapped);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ImageTarget: the picture that Renderer::renderToImage() draws, as a swap chain of one image.
-///   Memory  one image, made anew when the size changes.
+/// ImageTarget: the target of Renderer::renderToImage(), as a swap chain of one image.
+///   Memory  one image, recreated when the size changes.
 ///   Thread  the app thread.   Fails: std::bad_alloc; there is no image then.
 #pragma once
 

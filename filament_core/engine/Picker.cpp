@@ -21,7 +21,7 @@ static_assert(passes::kPickSide * passes::kPickSide == prepare::kMostCandidates)
 // Of what lies in one plane, depths in two texels may differ by rounding.
 constexpr float kEqual = 1.0f / (1 << 20);
 
-/// The nearest; of equal ones that which is drawn last, as in a picture.
+/// The nearest; of equal ones the last drawn, as on screen.
 PickHit nearestHit(std::vector<PickHit> const& candidates, std::span<const std::byte> texels, Camera const& camera,
                    uint2 size, uint2 pixel) {
     PickHit nearest;
@@ -86,7 +86,7 @@ PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare:
     const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel);
     const Ticket ticket = mEngine.stream->nextTicket();
     mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
-    if (pick.renderables.empty()) return { ticket.value }; // nobody needs to be asked
+    if (pick.renderables.empty()) return { ticket.value }; // nothing to draw
     try {
         record(view, pick, resources, pixel, ticket);
     } catch (std::bad_alloc const&) {
@@ -129,7 +129,7 @@ Picker::Pendings::iterator Picker::find(PickTicket ticket) {
 }
 
 std::optional<PickHit> Picker::take(PickTicket ticket) {
-    if (!ticket) return PickHit{}; // memory ran out when it was asked
+    if (!ticket) return PickHit{}; // out of memory in ask()
     const auto entry = find(ticket);
     Pending const& pending = entry->second;
     PickHit hit;

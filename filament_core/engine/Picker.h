@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Picker: what pixels of views show, asked and answered; implements the picks of Renderer.
+/// Picker: requests and results of picks; implements those of Renderer.
 ///   Thread  the app thread.
 ///   Memory  made at the first pick: a depth texture of 64 x 64 texels, uniforms of what a pixel may show, and an entry
 ///           for each ticket until it is taken.

@@ -74,7 +74,7 @@ Result<Image> PixelReads::wait(PixelTicket ticket) {
             if (!bytes) return bytes.error();
             image.pixels = std::move(*bytes);
         }
-        // A read of an image that the device refused returns no bytes, so that nobody waits for ever.
+        // A read of an image that the device refused returns no bytes, so that no caller waits for ever.
         if (image.pixels.empty()) return noImage(image.width, image.height);
         return std::move(image);
     });

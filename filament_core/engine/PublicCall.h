@@ -23,7 +23,7 @@ inline const void* thisThread() {
     return &here;
 }
 
-/// An engine as something sees it that may outlive it.
+/// A reference to an engine from an object that may outlive it.
 class EngineLink {
 public:
     explicit EngineLink(Engine& engine) : mEngine(engine.share()) {}

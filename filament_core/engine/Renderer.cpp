@@ -63,7 +63,7 @@ prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
     return inputOf(view, effects, contents);
 }
 
-/// What a frame is drawn to. `depth`: null: nobody asks.
+/// What a frame is drawn to. `depth`: null: unused.
 struct Target {
     engine::TextureState& color;
     engine::TextureState* depth = nullptr;
@@ -158,7 +158,7 @@ struct Renderer::Impl final : engine::Dependent {
     /// Both only ever grow.
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
-    /// As the view asks for it, at the share of its pixels that there is time for. Depths are not cut, and what nothing
+    /// The view's resolution scale, limited by dynamic resolution. Depths are not cut, and what nothing
     /// would read is not drawn.
     prepare::ViewInput inputFor(Scene const& scene, View const& view, bool hasDepthTarget) const {
         Effects effects = clamped(view.effects);
@@ -171,7 +171,7 @@ struct Renderer::Impl final : engine::Dependent {
         return input;
     }
 
-    /// What earlier frames left, from the gathered picture to the places of shadow maps, belongs to their scene and
+    /// The state of earlier frames, from the TAA history to the shadow atlas, belongs to their scene and
     /// view. To another one it is as if there had been none.
     void beginAnewWithAnother(Scene const& scene, View const& view, Target const& target) {
         if (last.isFollowedBy(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr))) return;
@@ -397,7 +397,7 @@ struct Renderer::Impl final : engine::Dependent {
     engine::FrameTimingLog timings;
     engine::PixelReads pixels;
     engine::ImageTarget imageTarget;
-    std::optional<engine::Picker> picker; ///< once somebody picked
+    std::optional<engine::Picker> picker; ///< after the first pick
     uint64_t frame = 0;
     prepare::LastFrame last; ///< that was drawn
     ResolutionController shares;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kWrongBounds = "the minimum of the bounds is above their maximum, or no number";
 
-/// Those of nobody have their minimum above their maximum on every axis.
+/// Empty ones have their minimum above their maximum on every axis.
 bool hasBounds(GeometryDesc const& desc) {
     if (glm::all(glm::greaterThan(desc.boundsMin, desc.boundsMax))) return false;
     if (!glm::all(glm::lessThanEqual(desc.boundsMin, desc.boundsMax))) misused(kWrongBounds);

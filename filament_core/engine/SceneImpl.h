@@ -59,7 +59,7 @@ struct Scene::Impl {
     scene::MinMax boundsOf(GeometryDesc const& desc) const;
     /// From now on the renderable's bounds are those of its vertices, unless `desc` names others.
     void follow(Renderable renderable, GeometryDesc const& desc);
-    /// Gives renderables whose bounds nobody named those that their vertices have now.
+    /// Updates renderables without explicit bounds to the bounds of their vertices.
     void followVertices() const;
 
     Engine::Impl& engine; ///< while the link is alive

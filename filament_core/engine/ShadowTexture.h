@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ShadowTexture: the textures of a renderer's shadow maps, depths and moments, and what they hold.
-///   Use     use() while a frame is planned, with what its packet asks for; forget() before that is recorded, keep()
+///   Use     use() while a frame is planned, with the needs of its packet; forget() before that is recorded, keep()
 ///           once it is.
-///   Memory  one D32F texture of the size asked for last, and one of moments if they were asked for. They go when
+///   Memory  one D32F texture of the last requested size, and one of moments if requested. They go when
 ///           kIdleFrames frames had no shadows.
 ///   Thread  the app thread; creations are recorded into Engine::Impl::pending.
 ///   Fails   std::bad_alloc; the texture then holds nothing, and the next frame draws all maps.

@@ -63,7 +63,7 @@ constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority
 
 /// Whether Quality::transparency may compose what this material draws without sorting it: it stands in the scene,
 /// covers what is behind it, tests depth and leaves none, has no stencil state, draws no depth of its own first, and
-/// shows no copy of the picture.
+/// does not refract the scene colour.
 bool blendsInAnyOrder(MaterialInstance const& instance);
 
 class Drawables {
@@ -73,7 +73,7 @@ public:
     static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
     static constexpr uint32_t kBlendedOrder = 1u << 31;
     static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
-    /// Opaque, but leaves no depth by which it could keep its place: drawn after the sky, before what blends.
+    /// Opaque without depth test or depth write: drawn after the sky, before transparent objects.
     static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
     static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
     static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but shows what is drawn behind it

@@ -27,7 +27,7 @@ struct Material {
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
     uint32_t instanceCount = 0;
-    uint32_t optionalAttributes = 0; ///< of package.requiredAttributes: read only where constants say so
+    uint32_t optionalAttributes = 0; ///< of package.requiredAttributes: read only if constants enable it
     MaterialDescription description;
     std::vector<std::byte> initialParameters; ///< of instances; empty: zeros
     /// Where an instance's parameters hold a float that its roughness does not exceed anywhere; none: not known.
@@ -79,7 +79,7 @@ struct MaterialInstance {
     std::vector<TextureBinding> textures; ///< parallel to the package's texture parameters, in their order
     InstanceRaster raster{};
     bool parametersDirty = true;
-    bool texturesDirty = true;    ///< all groups have to be made anew
+    bool texturesDirty = true;    ///< all groups have to be recreated
     bool lacksGroups = false;     ///< for a filter that came into use after the others
     backend::BufferHandle buffer; ///< none while the material has no block
     /// By TextureFilter, those in use: bind groups name their samplers. Without textures all are the same group.

@@ -53,9 +53,9 @@ enum RenderableFlag : uint8_t {
     kNeverDrawn = 4, ///< its geometry is empty, it is in no layer, or it is hidden
     kCollapsed = 8,  ///< the transform collapses it to a point, so there is nothing to draw
     kBonesMirror = 16,
-    kCastsNoShadows = 32, ///< the user says so
+    kCastsNoShadows = 32, ///< set by the user
     kCannotCast = 64,     ///< its material blends, or places it in the view of a camera
-    kHidden = 128,        ///< the user says so; then kNeverDrawn, too
+    kHidden = 128,        ///< set by the user; then kNeverDrawn, too
 };
 
 struct Renderables {

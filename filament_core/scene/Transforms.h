@@ -92,7 +92,7 @@ public:
 private:
     struct Links {
         uint32_t parent = kScene;
-        uint32_t firstChild = kScene, lastChild = kScene; ///< lists end with kScene, which is nobody's child
+        uint32_t firstChild = kScene, lastChild = kScene; ///< lists end with kScene, which is never a child
         uint32_t next = kScene, previous = kScene;
         uint32_t childCount = 0;
         uint32_t depth = 0; ///< 1 for roots

@@ -18,7 +18,7 @@
 
 namespace filament::engine {
 
-/// A material instance that takes the place of a shared one in one copy. Destroyed at its end.
+/// A material instance that replaces a shared one in one copy. Destroyed at its end.
 class OwnMaterial {
 public:
     OwnMaterial(Engine::Impl& engine, MaterialInstance shared);

@@ -451,7 +451,7 @@ Result<ReadModel> prepared(Result<assets::ModelData> data, jobs::JobSystem& jobs
     if (!data) return data.error();
     ReadModel model;
     model.data = std::move(*data);
-    if (options.cancellation && options.cancellation->isRequested()) return model; // nobody takes it
+    if (options.cancellation && options.cancellation->isRequested()) return model; // it is discarded
     prepareUpload(model, jobs, choice);
     return model;
 }

@@ -28,7 +28,7 @@ struct Model::Impl {
         std::string name;
         uint32_t parent = kRoot; ///< into `nodes`, before this one
         double4x4 parentFromNode{ 1.0 };
-        assets::NodePose pose{};      ///< the same, decomposed
+        assets::NodePose pose{};      ///< the local transform, decomposed
         bool isVisible = true;        ///< of its own, at rest
         uint32_t visibleWith = kRoot; ///< another node that hides it, before this one
     };

@@ -17,7 +17,7 @@ using Words = std::vector<uint32_t>;
 
 constexpr uint64_t kMaxTypeBytes = 1u << 20;
 
-/// What a valid module asks of its surroundings.
+/// Requirements of a valid module.
 class Module {
 public:
     explicit Module(Words const& words) {

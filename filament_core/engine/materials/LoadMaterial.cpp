@@ -19,7 +19,7 @@ using backend::ConstantValue;
 
 constexpr uint32_t bitOf(Attribute attribute) { return 1u << static_cast<uint32_t>(attribute); }
 
-/// Constants of the materials for glTF say which of these a mesh has.
+/// Constants of the glTF materials select which of these a mesh has.
 constexpr uint32_t kOptionalInGltf = bitOf(Attribute::Color) | bitOf(Attribute::Uv0) | bitOf(Attribute::Uv1);
 
 const char* typeName(ConstantValue::Type type) {

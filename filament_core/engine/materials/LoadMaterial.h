@@ -3,8 +3,8 @@
 ///   Thread  pure.   Memory: the material, and the text of an error.
 ///   Fails   as readPackage() and, for packages that are not part of this program, checkSpirv(); NotFound, with the
 ///           nearest name, for a constant that the material lacks; InvalidArgument for a constant of another type.
-///   Cost    20 to 40 ms for one of glTF's packages, nearly all of it unpackMaterial(); whoever makes several materials
-///           of one package unpacks it once.
+///   Cost    20 to 40 ms for one of glTF's packages, nearly all of it unpackMaterial(): unpack a package once
+///           for several materials.
 #pragma once
 
 #include "base/Result.h"

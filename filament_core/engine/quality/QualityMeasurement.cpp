@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// measureQualityCosts(): draws every value of every choice in turns, timed by the device and compared as a picture.
+// measureQualityCosts(): draws every value of every choice in turns, timed by the device, and compares the images.
 #include "base/Result.h"
 #include "base/Suggest.h"
 #include "base/math/Elementary.h"
@@ -21,7 +21,7 @@ namespace filament {
 namespace {
 
 constexpr uint32_t kFewestRounds = 15; // half of them suffice for a median between least and largest
-constexpr uint32_t kGatheredFrames = 16, kFramesOfSmoothEdges = 64; // of a still picture
+constexpr uint32_t kGatheredFrames = 16, kFramesOfSmoothEdges = 64; // of a static view
 constexpr double kDarkest = 0.01;                                   // of the mean: darker values count as this
 constexpr double kMostLinear = 65504;                               // the largest half float
 
@@ -141,7 +141,7 @@ public:
         return effect;
     }
 
-    /// What errors are measured against: the picture of the most exact settings, and the same with smooth edges.
+    /// References of errors: the image of the most exact settings, and that image with smooth edges.
     Result<void> drawExact() {
         Quality quality = qualityPreset(QualityPreset::Reference);
         if (const Result<void> drawn = draw(quality, 1, mExact); !drawn) return drawn;
@@ -229,7 +229,7 @@ private:
     View mView;
     Owned<SwapChain> mDisplay, mLinear;
     Pictures mExact, mSmooth;
-    bool mIsCpu; // a CPU driver: its clock goes on while other processes have the cores, processor time does not
+    bool mIsCpu; // a CPU driver: its clock continues while other processes have the cores, processor time does not
 };
 
 Result<void> check(CostMeasurement const& measurement) {
