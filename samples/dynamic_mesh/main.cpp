@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dynamic_mesh [vulkan|gles] [OUT.png]: waves on a pond, whose vertices the program computes anew for every frame.
+// dynamic_mesh [vulkan|gles] [OUT.png]: waves on a pond, whose vertices the program computes in every frame.
 #include <filament/filament.h>
 
 #include <cmath>

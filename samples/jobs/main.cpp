@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
         }
     });
 
-    // Two groups: the jobs of the first count, and the second goes on where it ends.
+    // Two groups: the jobs of the first count, and the second continues where it ends.
     std::array<size_t, kRows> counts{};
     size_t sum = 0;
     JobGroup counting(jobs), adding(jobs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// picking [vulkan|gles] [OUT.png]: asks what a few pixels show, prints it, and frames what was hit.
+// picking [vulkan|gles] [OUT.png]: picks a few pixels, prints the hits, and frames them.
 #include <filament/filament.h>
 
 #include <glm/ext/matrix_transform.hpp>

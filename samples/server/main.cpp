@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// server [vulkan|gles]: renders what standard input asks for, one request a line, and answers each with one line:
+// server [vulkan|gles]: renders the requests of standard input, one per line, and answers each with one line:
 //     SHAPE RED GREEN BLUE ROUGHNESS OUT.png        box, ball, cone, capsule or ring; numbers in [0, 1]
 // A request that it does not understand, or cannot serve, gives an error line, and the next one is served.
 #include <filament/filament.h>

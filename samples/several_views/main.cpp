@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// several_views [vulkan|gles] [OUT.png]: a scene in perspective, from above and from the side, all in one picture.
+// several_views [vulkan|gles] [OUT.png]: a scene in perspective, from above and from the side, all in one image.
 #include <filament/filament.h>
 
 #include <glm/ext/matrix_transform.hpp>

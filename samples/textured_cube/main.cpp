@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// textured_cube PICTURE [vulkan|gles] [OUT.png]: a picture (PNG, JPEG, EXR, HDR) on all sides of a cube, in the sun.
+// textured_cube PICTURE [vulkan|gles] [OUT.png]: an image (PNG, JPEG, EXR, HDR) on all sides of a cube, in the sun.
 #include <filament/filament.h>
 
 #include <glm/ext/matrix_transform.hpp>
