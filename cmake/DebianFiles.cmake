@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Runs within CPack, when the files of every component are in a folder of their own: adds what Debian's policy asks of each
+# Runs within CPack, when the files of every component are in a folder of their own: adds what Debian's policy requires of each
 # package (licence, changelog), and leaves a file that two components install only to the one that the other depends on.
 string(REGEX MATCH "20[0-9][0-9]" year "${FILAMENT_PACKAGE_DATE}")
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)

@@ -179,7 +179,7 @@ endif()
 set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # Mesa's CPU drivers compile a shader when it is first drawn: half the time of a test on a machine that knows none yet, half
-# as much without LLVM's optimiser. The stored pictures are those of optimised code, so each of them shows that both give
+# as much without LLVM's optimiser. The stored images are from optimised code, so each of them shows that both give
 # the same bits.
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 

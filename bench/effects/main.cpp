@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// effects_bench [--frames N] [--size WxH] [--only TEXT] [--unseen] [--json FILE]: what effects cost where they are
-// seen, and that they cost nothing where a scene cannot show them. Both frames of a pair are drawn in turns, first one,
+// effects_bench [--frames N] [--size WxH] [--only TEXT] [--unseen] [--json FILE]: the cost of effects where they are
+// visible, and that invisible ones cost nothing. Both frames of a pair are drawn in turns, first one,
 // then the other first, and the ratio is that of each pair: its median, and the interval in which the true median lies
 // with 95 % certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program
-// fails. The last line is the time of a pass that fetches one texel a pixel: the floor below everything that works on
-// whole pictures.
+// fails. The last line is the time of a pass that fetches one texel a pixel: the lower bound of all full-screen passes.
 #include "tools/common/CommandLine.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
@@ -42,9 +41,9 @@ struct Pair {
     std::string name{}; ///< empty: passes are timed
     const char* file = nullptr;
     std::function<void(Scene&, View&)> plain{};  ///< the frame to compare with
-    std::function<void(Scene&, View&)> effect{}; ///< the same with the effect
+    std::function<void(Scene&, View&)> effect{}; ///< the scene with the effect
     bool isUnseen = false;
-    bool hasMirror = false; ///< a floor that reflects the picture
+    bool hasMirror = false; ///< a floor with screen-space reflections
     Moving moving = Moving::Nothing;
 };
 
@@ -266,7 +265,7 @@ void addFinish(std::vector<Pair>& all, const char* file) {
     all.push_back({ "motion blur, nothing moves", file, withEffects([](View&) {}), moving, true });
 }
 
-/// What a finished picture takes, beside a plain one.
+/// Time of a frame with all effects, against a plain one.
 void addChain(std::vector<Pair>& all, const char* file) {
     const auto chain = [](uint8_t samples, BloomResolution bloom = BloomResolution::Half) {
         return [samples, bloom](Scene& scene, View& view) {

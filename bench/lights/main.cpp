@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights_bench: what a frame costs with 1, 10, 50, 200, ... lamps of half a metre's range above a floor that fills the
-// picture, on both APIs. --shapes point rect disc tube profile compares areas, and points with a
+// image, on both APIs. --shapes point rect disc tube profile compares areas, and points with a
 //   profile, with points: --lamps 1 --range 0.
 //   Method  one engine per API; every round draws every number of lamps on each, so that all see the same machine.
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
@@ -132,7 +132,7 @@ private:
         mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = mView.size, .name = "lights_bench" }));
     }
 
-    // Lamps all over what the camera sees of the floor; the first one in the middle.
+    // Lamps all over the visible floor; the first one in the middle.
     void addScene(Case const& one) {
         mScenes.push_back(std::make_unique<Scene>(mEngine));
         Scene& scene = *mScenes.back();

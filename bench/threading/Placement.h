@@ -11,7 +11,7 @@
 
 namespace filament::bench {
 
-/// Logical cores that this process could use when it started, ascending; asked once.
+/// Logical cores that this process could use when it started, ascending; queried once.
 std::vector<int> const& allowedCores();
 
 /// The core of thread `index` when threads are pinned one per core: 0 is the caller.

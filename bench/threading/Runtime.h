@@ -53,7 +53,7 @@ public:
     /// After `idle` nanoseconds without work: nanoseconds from "start a job" until another thread runs it.
     virtual std::optional<int64_t> wakeUp(int64_t idle) = 0;
 
-    /// More jobs at once would take too long or too much memory; workloads scale down to this number and say so.
+    /// More jobs at once would take too long or too much memory; workloads scale down to this number and report it.
     virtual uint32_t affordableJobs() const { return std::numeric_limits<uint32_t>::max(); }
 };
 

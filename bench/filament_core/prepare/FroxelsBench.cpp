@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of assigning lights to froxels: milliseconds of wall clock (medians), with 0 workers besides the caller, or
 // 1. `assign`: lights of a hall of 60 x 10 x 60 metres, which the camera looks along; every eighth is a spot. `range`:
-// centimetres. `assignMoving`: lamps around a model of one metre that fills the picture, moved before every call.
+// centimetres. `assignMoving`: lamps around a model of one metre that fills the screen, moved before every call.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 #include "filament_core/prepare/Froxels.h"
 

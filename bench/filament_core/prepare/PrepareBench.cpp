@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of preparing a frame, step by step and as a whole. Counters: nanoseconds per renderable, wall clock and all
-// threads together (medians); everything is visible, but for cullSmall.
+// threads together (medians); everything is visible, except in cullSmall.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 #include "filament_core/prepare/SelectLights.h"
 
@@ -25,7 +25,7 @@ void cull(benchmark::State& state) {
             state, setup, [] { return 0; }, [&](int) { return setup.cull(); });
 }
 
-/// Of a picture so small that most boxes are asked whether they cover a centre of a pixel.
+/// At a resolution so low that most boxes are tested for covering a centre of a pixel.
 void cullSmall(benchmark::State& state) {
     Setup setup(state);
     setup.view.size = { 16, 16 };
@@ -114,7 +114,7 @@ void frame(benchmark::State& state) {
     samples.report(state, setup.count);
 }
 
-/// Frames of `renderables` with shadow views besides the main one, each of which sees all of them; counters per
+/// Frames of `renderables` with shadow views besides the main one, each of which contains all of them; counters per
 /// renderable and view.
 void views(benchmark::State& state) {
     Setup setup(state);
