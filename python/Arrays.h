@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Arrays: numbers and pictures of Python as the engine's values, and the engine's as NumPy's.
+/// Arrays: numbers and images of Python as the engine's values, and the engine's as NumPy's.
 ///   Fails   InvalidArgumentError that names what was given, what is wrong and what is valid; only finite numbers come
 ///           through.
 ///   Thread  one that holds the interpreter's lock.
@@ -50,7 +50,7 @@ std::vector<float> rowsOf(py::handle values, const char* name, size_t columns);
 /// uint8 of shape (height, width, 4) from RGBA8, float32 from RGBA16F: half floats, converted exactly.
 py::array arrayOf(Image const& image);
 
-/// A picture of Python: uint8 codes or float light, (height, width, 3 or 4).
+/// An image of Python: uint8 codes or float light, (height, width, 3 or 4).
 struct PictureArray {
     uint32_t width = 0, height = 0;
     bool isFloat = false;

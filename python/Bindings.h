@@ -51,7 +51,7 @@ struct EngineObject {
     std::shared_ptr<Owner> owner;
 };
 
-/// The view of a picture, and what it refers to.
+/// The view of an image, and what it refers to.
 struct ViewObject {
     View view;
     std::shared_ptr<TextureObject> dirt; ///< of Effects::bloom; null: none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far two pictures differ: by imgdiff's counts, filament-accuracy's relative error and FLIP.
+// Differences of two images: by imgdiff's counts, filament-accuracy's relative error and FLIP.
 #include "python/Bindings.h"
 #include "tools/accuracy/Picture.h"
 #include "tools/conformance/Flip.h"

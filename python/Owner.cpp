@@ -88,7 +88,7 @@ void Owner::end() {
         for (std::shared_ptr<void>& value : mDropped) new std::shared_ptr<void>(std::move(value));
         return;
     }
-    mEngine->useOnThisThread(); // nobody uses it any more
+    mEngine->useOnThisThread(); // it is unused now
     mThread = std::this_thread::get_id();
     for (HeldBase* held : std::vector(mHeld.begin(), mHeld.end())) held->take();
     std::exchange(mDropped, {}).clear();

@@ -28,7 +28,7 @@ uint2 sizeOf(std::pair<int64_t, int64_t> const& size) {
 std::string optionText(py::handle value, const char* name) {
     if (py::isinstance<py::str>(value)) return value.cast<std::string>();
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "on" : "off";
-    if (PyIndex_Check(value.ptr())) { // arrays say so, too
+    if (PyIndex_Check(value.ptr())) { // true for arrays, too
         if (const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()))) return py::str(whole);
         PyErr_Clear();
     }

@@ -4,7 +4,7 @@
 
   PYTHONPATH=build/release/python /usr/bin/python3 python/examples/error_over_time.py [--backend gles] [--out FILE.png]
 
-Each cell below is a step, as in a notebook. The true pictures are made here, of pictures of the engine: edges by drawing 16
+Each cell below is a step, as in a notebook. The reference images are means of the engine's images: edges by drawing 16
 samples a pixel, penumbras by averaging hard shadows of many suns within one disc.
 """
 # %% Set-up
@@ -58,7 +58,7 @@ def view_of(size):
     return view
 
 
-# %% Measuring: the picture after so many frames, and the median device time of a frame
+# %% Measuring: the image after so many frames, and the median device time of a frame
 def measured(engine, scene, view, frames=1, timed=7):
     renderer = fc.Renderer(engine, pass_timers=True)
     picture = renderer.render(scene, view, output="light", frames=frames)

@@ -30,7 +30,7 @@ class ConformanceComparison:
     passed: bool
     differing: int  # pixels
     max_difference: float
-    fault: str  # why the picture cannot be right; empty if it can
+    fault: str  # why the image must be wrong; empty if it can
 
 
 @dataclasses.dataclass(frozen=True)
