@@ -100,7 +100,7 @@ TEST(HandleAllocator, NeverGivesOutZeroEvenWhenGenerationsWrap) {
     }
 }
 
-// Files decide how many objects there are: one too many is an error for whoever loads them.
+// Files decide how many objects there are: one too many is an error of the load.
 TEST(HandleAllocator, RefusesTheHandleAfterTheLastAndGoesOnOnceOneIsFree) {
     HandleAllocator<struct TestTag> handles;
     constexpr uint32_t kMost = Handle<struct TestTag>::kIndexMask + 1;

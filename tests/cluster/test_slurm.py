@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """scripts/cluster on a real Slurm, which this test starts for itself (private_slurm.py): four machines, of which one dies
 while it draws a shard, and a shard that fails once. The merged reports must have the bytes of one run. Also measures a
-picture of the path tracer with 1, 2 and 4 workers.
+image of the path tracer with 1, 2 and 4 workers.
 
 test_slurm.py --bin BIN --out DIR: programs; the folder of report.json. Skipped (77) where Slurm is not installed."""
 import argparse

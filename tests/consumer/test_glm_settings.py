@@ -16,7 +16,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 MESSAGE = "filament_core was compiled with GLM's default vectors"
 BOTH = {"g++", "clang++"}
-# flags: the compilers with which they change the vectors. GLM takes its features from the dialect for g++, and asks clang.
+# flags: the compilers with which they change the vectors. GLM takes its features from the dialect for g++, and queries clang.
 REFUSED = {
     ("GLM_FORCE_CTOR_INIT",): BOTH,  # copies are no longer trivial: vectors travel by reference
     ("GLM_FORCE_SIZE_T_LENGTH",): BOTH,  # another type of index, and of template

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the C++ examples of the documents assume to be there: each is compiled as the body of a function in which these
-// names are known (check_code.py). An example may declare any of them anew.
+// names are known (check_code.py). An example may redeclare any of them.
 #pragma once
 
 #include <filament/BuiltInMaterials.h>

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Follows a tutorial literally, as its reader would, and compares its pictures.
+"""Follows a tutorial literally, as its reader would, and compares its images.
 
   run_tutorial.py DOCUMENT.md --bin DIR [--prefix DIR] [--work DIR] [--store]
 
@@ -9,7 +9,7 @@ In the order of the document, in an empty folder:
     paragraph;
   - a block of `sh` is run by bash, which stops at the first command that fails; --bin comes first in its PATH, and PREFIX is
     the installed package;
-  - a picture below a comment <!-- shows: out/gles.png --> must be that file, bit for bit. --store stores it instead.
+  - an image below a comment <!-- shows: out/gles.png --> must be that file, bit for bit. --store stores it instead.
 Every other block is an error: nothing in a tutorial is untested.
 """
 import argparse

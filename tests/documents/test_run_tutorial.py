@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Following a tutorial finds commands that fail, pictures that differ, and blocks that nobody would know what to do with."""
+"""Following a tutorial finds commands that fail, images that differ, and blocks that nobody would know what to do with."""
 import pathlib
 import subprocess
 import sys

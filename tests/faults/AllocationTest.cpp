@@ -28,7 +28,7 @@ void expectNamed(Result<void> const& outcome, std::vector<std::string> const& er
     EXPECT_TRUE(code == ErrorCode::OutOfMemory || !errors.empty()) << outcome.error().message;
 }
 
-/// Draws a frame once memory is available again: the picture, or news of a lost device, must be the same twice.
+/// Draws a frame once memory is available again: the image, or the report of a lost device, must be the same twice.
 void expectSoundFrames(Engine& engine, FaultStage& stage, uint64_t expectedPacket, Result<void> const& outcome) {
     for (int i = 0; i < 2; ++i) {
         const Result<Image> image = stage.draw();

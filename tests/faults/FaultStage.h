@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FaultStage: an engine with a small scene, for injecting faults anywhere.
-///   In      a backend, workers, and the injector of backend/layers/Faulty.   Out: pictures, or errors.
+///   In      a backend, workers, and the injector of backend/layers/Faulty.   Out: images, or errors.
 ///   Thread  the app thread.
 #pragma once
 
@@ -66,7 +66,7 @@ inline scene::Material const& ballMaterial() {
     return ball;
 }
 
-/// Spheres in rows, each at a child of one root, and a sun; pictures of 32 x 32 pixels.
+/// Spheres in rows, each at a child of one root, and a sun; images of 32 x 32 pixels.
 class FaultStage {
 public:
     explicit FaultStage(Engine& engine, StageOptions const& options = {})

@@ -92,7 +92,7 @@ private:
 TEST(SlowDriver, ThatIsStuckInACommandIsNamedWithItByWhoeverWaits) {
     LogLines lines;
     Slow slow({ .commandDelay = 400ms });
-    // The engine warns after ten seconds; its stream can be asked to warn earlier.
+    // The engine warns after ten seconds; its stream can be set to warn earlier.
     const auto stream = backend::CommandStream::start(
             [&](backend::ResultSink& sink) -> Result<std::unique_ptr<backend::Driver>> {
                 auto device = backend::createDriver(backend::BackendType::Null, {}, sink);

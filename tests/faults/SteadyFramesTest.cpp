@@ -153,7 +153,7 @@ TEST_P(SteadyFrames, AllocateNothing) {
             GetParam().make(stage, frame++);
             stage.draw();
         };
-        stage.driver->arm({ .streamDelay = std::chrono::milliseconds(2) }); // as many frames are ahead as ever
+        stage.driver->arm({ .streamDelay = std::chrono::milliseconds(2) }); // the same number of frames is ahead
         while (frame < kWarmUp) draw();
         stage.driver->arm({});
         for (const Whose whose : { Whose::App, Whose::Driver, Whose::Jobs }) {

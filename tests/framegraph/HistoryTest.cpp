@@ -34,7 +34,7 @@ struct Frame {
 
 class HistoryTest : public DeviceGraphTest {
 protected:
-    /// A pass that reads the previous picture, and one that writes the current one, as the frame requests.
+    /// A pass that reads the previous image, and one that writes the current one, as the frame requests.
     Seen frame(Frame const& what = {}) {
         const TextureId out = target();
         const History taa = graph.history(
@@ -81,7 +81,7 @@ protected:
         return seen;
     }
 
-    TextureHandle previous, current; // of the last frame
+    TextureHandle previous, current; // previous: of the last graph
     uint32_t age = 0;
     std::string explained;
 };

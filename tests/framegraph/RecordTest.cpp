@@ -128,7 +128,7 @@ TEST_F(Record, MultisampledAttachmentsResolve) {
     EXPECT_EQ(descs[0].layout.samples, 4);
     EXPECT_EQ(descs[0].layout.resolveMask, 1);
     EXPECT_TRUE(descs[0].colors[0].resolve);
-    EXPECT_EQ(descs[0].colors[0].store, StoreOp::Discard); // only the resolved picture is wanted
+    EXPECT_EQ(descs[0].colors[0].store, StoreOp::Discard); // only the resolved image is wanted
 }
 
 TEST_F(Record, MultisampledDepthIsReadThroughItsResolveTarget) {

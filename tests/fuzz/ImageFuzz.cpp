@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every decoder of pictures; the first bytes decide, so that a corpus of all formats serves all of them.
+// Every decoder of images; the first bytes decide, so that a corpus of all formats serves all of them.
 #include "tests/filament_core/assets/environment/EnvironmentFuzzBody.h"
 #include "tests/filament_core/assets/image/ImageFuzzBody.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A job that runs out of memory: whoever waits for its group is told, and nobody else is affected.
+// A job that runs out of memory: waits for its group report it, and nothing else is affected.
 #include "tests/jobsystem/JobSystemFixture.h"
 
 #include <atomic>

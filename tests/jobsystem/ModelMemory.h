@@ -57,7 +57,7 @@ public:
     bool isAlive(int location) const { return mLocations[location].alive; }
     bool isConstructedFor(int thread, int location) const;
 
-    /// The thread's own time goes on: what it does from here on is not known to whoever synchronised with it before.
+    /// The thread's own time advances: later writes are invisible to threads that synchronised with it before.
     void tick(int thread) { ++mViews[thread].clock[thread]; }
 
     Choices readable(int thread, int location, std::memory_order order) const;

@@ -12,7 +12,7 @@
 namespace filament::jobs::model {
 
 enum class Kind : uint8_t {
-    Resume, ///< goes on after a start or a sleep; touches nothing
+    Resume, ///< continues after a start or a sleep; touches nothing
     Load,
     Store,
     Exchange,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelSearch: the depth-first search over all choices. At every fork, a run asks which way to go; advance() makes the
+/// ModelSearch: the depth-first search over all choices. At every fork, a run requests a choice; advance() makes the
 /// next run differ at the last fork that has choices left.
 ///   Source  sleep sets: Godefroid 1996, "Partial-Order Methods for the Verification of Concurrent Systems", chapter 5.
 ///   Thread  one.  Memory: 4 bytes per fork of the current path.  Fails: never.

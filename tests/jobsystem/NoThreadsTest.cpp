@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the operating system refuses every thread, jobs run on the threads that ask for them.
+// Where the operating system refuses every thread, jobs run on the threads that wait for them.
 #include "tests/jobsystem/JobSystemFixture.h"
 
 #include <gtest/gtest.h>

@@ -181,7 +181,7 @@ TEST(ParkingLotModel, AFutexThatReturnsForNoReasonChangesNothing) {
     expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 1 }, { .spuriousReturns = 1 });
 }
 
-// With three and four threads, explores every run with at most two (three) switches that no thread asked for: most
+// With three and four threads, explores every run with at most two (three) switches forced by the model: most
 // concurrency errors need no more (Musuvathi and Qadeer 2007, "Iterative context bounding").
 TEST(ParkingLotModel, NoWakeUpIsLostAmongThreeAndFourThreads) {
     expectCorrect<Bits>({ .producers = 1, .jobs = 1, .workers = 2 }, { .preemptions = 2 });

@@ -41,7 +41,7 @@ private:
     LogSink mPrevious;
 };
 
-// Holds every worker in a job at the same time and asks each for its cores.
+// Holds every worker in a job at the same time and reads the cores of each.
 std::vector<std::vector<int>> coresOfWorkers(JobSystem& jobs) {
     std::mutex mutex;
     std::vector<std::vector<int>> cores;

@@ -87,7 +87,7 @@ TEST(Topology, OfAThreadWithOneCoreIsOneCore) {
     EXPECT_EQ(coresOfThisThread(), cores) << "a thread is restricted, not the process";
 }
 
-/// How often this process has loaded the machine's description after eight threads have asked for it together; -1 if
+/// How often this process has loaded the machine's description after eight threads have requested it together; -1 if
 /// their answers differ.
 int loadsForThreadsThatAskTogether() {
     std::vector<Topology> seen(8);
@@ -105,7 +105,7 @@ int loadsForThreadsThatAskTogether() {
     return sLoads;
 }
 
-// In a separate process, in which nobody has asked before.
+// In a separate process, without an earlier request.
 TEST(TopologyDeathTest, LoadsOnceForThreadsThatAskTogether) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(std::_Exit(loadsForThreadsThatAskTogether()), testing::ExitedWithCode(1), "");

@@ -42,7 +42,7 @@ class Folders(unittest.TestCase):
         (self.build / "build.ninja").touch()
 
     def configured(self, **environment):
-        """How setup calls cmake, but for the build."""
+        """How setup calls cmake, except for the build."""
         self.calls.unlink(missing_ok=True)
         done = self.run_script("setup", **environment)
         self.assertEqual(done.returncode, 0, done.stderr)

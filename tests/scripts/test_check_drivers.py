@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/check_drivers counts what a release draws otherwise, and notes it in the document and in the stored pictures."""
+"""scripts/check_drivers counts what a release draws otherwise, and notes it in the document and in the stored images."""
 import importlib.machinery
 import importlib.util
 import json

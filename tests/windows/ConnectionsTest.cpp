@@ -42,7 +42,7 @@ protected:
             WindowPicture picture(engine);
             picture.draw(chain, kWindowSize, number);
             engine.waitIdle();
-            XSync(connection.get(), 0); // the server has done what it was asked for
+            XSync(connection.get(), 0); // the server has executed all requests
             EXPECT_EQ(mServer->pixels(window, kWindowSize), picture.pixels(chain)) << "picture " << number;
         }
         engine.waitIdle();

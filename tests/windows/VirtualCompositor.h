@@ -45,7 +45,7 @@ private:
     bool startServer(uint2 size);
     bool connect();
 
-    std::filesystem::path mFolder; ///< of the socket and of pictures
+    std::filesystem::path mFolder; ///< of the socket and of images
     pid_t mServer = -1;
     wl_display* mDisplay = nullptr;
     std::unique_ptr<Window> mWindow;

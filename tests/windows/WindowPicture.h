@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// WindowPicture: draws a picture that looks different from every side and in every frame, and presents it.
+/// WindowPicture: draws an image that looks different from every side and in every frame, and presents it.
 ///   Out     pixels(): the image drawn last, three bytes a pixel, as displays have them.
 #pragma once
 

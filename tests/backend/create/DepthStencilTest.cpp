@@ -305,7 +305,7 @@ DRIVER_TEST(DepthStencil, FrontAndBackFacesHaveTheirOwnReferencesAndOperations) 
         desc.depthStencil = { .stencilTest = true,
                               .front = { .pass = StencilOp::Replace },
                               .back = { .pass = StencilOp::Zero } };
-        desc.raster.frontFace = FrontFace::Clockwise; // plane() is clockwise in the picture
+        desc.raster.frontFace = FrontFace::Clockwise; // plane() is clockwise in the image
     });
     const BufferHandle front = plane(gpu, 0.5f, 0);
     gpu.record(CmdBeginPass{ scene.pass });

@@ -93,7 +93,7 @@ DRIVER_TEST(Draw, ColorsInterpolateLinearlyOverTheScreen) {
     }
 }
 
-// One pixel per point: the picture shows which vertex it was.
+// One pixel per point: its colour identifies the vertex.
 std::vector<ColorVertex> pointRow(uint32_t count) {
     std::vector<ColorVertex> vertices;
     for (uint32_t i = 0; i < count; ++i)
@@ -265,7 +265,7 @@ DRIVER_TEST(Draw, LinesCoverTheSamePixelsOnEveryApi) {
 }
 
 DRIVER_TEST(Draw, CullingFollowsTheWindingAsSeenInThePicture) {
-    // In the picture (row 0 on top): right along the top edge, then down to the left, is clockwise.
+    // In the image (row 0 on top): right along the top edge, then down to the left, is clockwise.
     const std::vector<ColorVertex> clockwise{ { at(0, 0, 4, 4), kRed },
                                               { at(8, 0, 4, 4), kRed },
                                               { at(0, 8, 4, 4), kRed } };

@@ -248,7 +248,7 @@ DepthScene multisampledDepth(Gpu& gpu, Format format, uint32_t size) {
     return scene;
 }
 
-/// Depth at a position of the picture, in pixels; samples of one pixel differ by at least 0.015.
+/// Depth at a position of the image, in pixels; samples of one pixel differ by at least 0.015.
 double slopingDepth(double x, double y) { return x / 16 + y / 256; }
 
 /// From the left edge to `right`, all rows.

@@ -58,7 +58,7 @@ private:
     std::unique_ptr<Driver> mDriver;
 };
 
-/// The outcome of the test, if byte `byte` of its picture `ticket` is another one. No ticket: none is changed.
+/// The outcome of the test, if byte `byte` of its image `ticket` is another one. No ticket: none is changed.
 Result<std::unique_ptr<Driver>> testWith(BackendType type, uint64_t ticket, size_t byte, ResultSink& sink) {
     return makeTestedDriver(
             [&](ResultSink& results) -> Result<std::unique_ptr<Driver>> {
@@ -108,7 +108,7 @@ TEST_P(SelfTest, ItsFrameKeepsTheRulesOfStreams) {
     EXPECT_TRUE(driver) << driver.error().message;
 }
 
-/// Every byte of both pictures is one that the test looks at.
+/// Every byte of both images is one that the test looks at.
 TEST_P(SelfTest, OneWrongBitInAnyByteRefusesTheDriver) {
     SilentSink sink;
     ASSERT_TRUE(testWith(GetParam(), 0, 0, sink));

@@ -12,7 +12,7 @@ std::atomic<uint64_t> gAllocations{ 0 };
 
 void* countedAllocation(size_t size, size_t alignment) {
     gAllocations.fetch_add(1, std::memory_order_relaxed);
-    const size_t rounded = (size + alignment - 1) / alignment * alignment; // what aligned_alloc asks for
+    const size_t rounded = (size + alignment - 1) / alignment * alignment; // required by aligned_alloc
     if (void* memory = std::aligned_alloc(alignment, rounded ? rounded : alignment)) return memory;
     throw std::bad_alloc();
 }

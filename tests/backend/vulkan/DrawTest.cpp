@@ -44,7 +44,7 @@ protected:
 };
 
 TEST_F(FrontFaceTest, IsCounterClockwiseAsSeenInThePictureWithRowZeroOnTop) {
-    // y = -1 is the top row: lower left, lower right, upper left runs counter-clockwise in the picture.
+    // y = -1 is the top row: lower left, lower right, upper left runs counter-clockwise in the image.
     const std::vector<float> counterClockwise{ -1, 1, 1, 1, -1, -1 }, clockwise{ -1, 1, -1, -1, 1, 1 };
     EXPECT_TRUE(isDrawn(counterClockwise, FrontFace::CounterClockwise));
     EXPECT_FALSE(isDrawn(clockwise, FrontFace::CounterClockwise));

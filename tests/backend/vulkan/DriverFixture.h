@@ -117,7 +117,7 @@ private:
     uint64_t mNextTicket = 1;
 };
 
-/// A triangle that covers the whole picture, from the vertex index.
+/// A triangle that covers the whole image, from the vertex index.
 inline const std::string kFullScreenVertex = R"(
 void main() {
     vec2 corner = vec2(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);

@@ -61,7 +61,7 @@ TEST_F(QuirkTest, DepthAloneTakesTheBlendingOfAttachmentsWithoutItsCure) {
     const int mesa = lavapipeOf(driver->info());
     if (mesa >= 25) {
         EXPECT_EQ(seen, kRed) << driver->info().driverName << " draws right: say so in Quirks.h";
-    } else if (mesa <= 22) { // of those between we know nothing
+    } else if (mesa <= 22) { // versions in between are untested
         EXPECT_EQ(seen, kWhite) << driver->info().driverName;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of the faults of tests/faults on Vulkan and OpenGL ES: the picture after a fault equals the undisturbed one to
+// Some of the faults of tests/faults on Vulkan and OpenGL ES: the image after a fault equals the undisturbed one to
 // the bit, or there is none and the app is told. FILAMENT_STRESS tries every place.
 #include "tests/faults/AllocationSweep.h"
 #include "tests/faults/FaultStage.h"
@@ -79,7 +79,7 @@ TEST_P(DeviceFaults, ARefusedObjectIsNamedAndTheRestIsDrawn) {
         const std::vector<std::string> errors = broken.engine->takeErrors();
         ASSERT_FALSE(errors.empty());
         EXPECT_TRUE(contains(errors[0], "out of device memory")) << errors[0];
-        // Without its image there is no picture; without any other object there is one, perhaps with less in it.
+        // Without its image there is no image; without any other object there is one, perhaps with less in it.
         EXPECT_EQ(first.ok(), second.ok());
         if (second.ok()) {
             EXPECT_EQ(second->pixels.size(), size_t{ 32 } * 32 * 4);

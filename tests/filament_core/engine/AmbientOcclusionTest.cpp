@@ -221,7 +221,7 @@ TEST(AmbientOcclusion, IsThatOfTracedRaysOfTheSameRadius) {
             const double most = method == Method::Sao ? form.mostOfSao : form.mostOfGtao;
             EXPECT_LT(error, most) << form.name << ' ' << toString(method);
             RecordProperty(std::string(form.name) + toString(method), std::to_string(error));
-            view.effects.ambientOcclusion.radiusMeters = 0.8f; // twice of what was asked: the bound notices
+            view.effects.ambientOcclusion.radiusMeters = 0.8f; // twice the requested radius: the bound detects it
             const Image wrong = stage.drawVisibility(scene, view);
             EXPECT_GT(errorOf(wrong, traced), most) << form.name << ' ' << toString(method);
         }
@@ -245,7 +245,7 @@ TEST(AmbientOcclusion, IsFiniteForAnyRadiusAndPlace) {
             const Image visibility = stage.drawVisibility(scene, view);
             EXPECT_EQ(test::bytePixel(visibility, 0, 0).x, 1.0f) << "the sky is open";
         }
-        // From 10^7 m away, through a lens of as much: as from nearby, but for the perspective.
+        // From 10^7 m away, through a lens of as much: as from nearby, except for the perspective.
         View view = occludedView({ 1.6e7, -0.8e7, 1.1e7 }, { 0, 0, 0 }, method, 0.4, { 33, 21 });
         view.camera.lens.verticalFovDegrees = 6e-6f;
         const Image far = stage.drawVisibility(stage.sceneOf(squares, view), view);

@@ -139,7 +139,7 @@ TEST(Fxaa, HasTheSameBitsOnBothApisForDisplays) {
     }
 }
 
-/// One texel of the picture that is no number, or the largest one there is.
+/// One texel of the scene colour that is NaN, or the largest number.
 TEST(AntiAliasing, ContainsBrokenTexels) {
     for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa }) {
         for (const char* light : { "1e30", "log(-1.0 - getUserTime().x)", "1.0 / getUserTime().x" }) {

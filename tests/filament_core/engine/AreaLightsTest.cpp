@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rectangles, discs and tubes in pictures: closed forms, both sides, nodes, and what must not happen.
+// Rectangles, discs and tubes in images: closed forms, both sides, nodes, and what must not happen.
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
 #include <filament/Light.h>
@@ -64,7 +64,7 @@ TEST_P(AreaLights, AHugeRectangleGivesPiTimesItsLuminance) {
 TEST_P(AreaLights, AMirrorShowsTheLuminanceOfTheLight) {
     const double angle = 40 * std::numbers::pi / 180;
     const double3 mirrored(-std::sin(angle), 0, std::cos(angle));
-    for (const double turned : { 0.0, 0.4 }) { // beside its picture
+    for (const double turned : { 0.0, 0.4 }) { // beside its image
         Patch patch(*engine, 40);
         patch.setSurface(float4(1), 1, 0);
         patch.scene.add(facing(patch.view, (mirrored + double3(0, turned, 0)) * 5.0, 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What frames leave to the next one (gathered pictures, reflections, motion, exposure, places of shadow maps) belongs
+// The state that frames leave to the next one (histories, reflections, motion vectors, exposure, shadow atlas) belongs
 // to a scene and a view: with another one, a renderer draws what one draws that has drawn nothing yet.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
@@ -17,7 +17,7 @@ namespace {
 struct BackwardLook {
     const char* name;
     void (*enable)(View&);
-    bool showsCamera = true; ///< its picture depends on where the camera was
+    bool showsCamera = true; ///< its image depends on where the camera was
 };
 
 constexpr BackwardLook kBackwardLooks[] = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Effects of what objects show draw only where objects may be (FramePacket::covered). An object without bounds has them
-// draw everywhere; the pictures of both must agree.
+// draw everywhere; the images of both must be equal.
 #include "tests/filament_core/engine/ShadowStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 

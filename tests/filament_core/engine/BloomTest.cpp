@@ -16,7 +16,7 @@ using test::LampStage;
 using test::pictureOfLamp;
 using test::sumOf;
 
-/// Of light along x, off the middle of the picture, pixels.
+/// Of light along x, off the middle of the image, pixels.
 double middleOf(Image const& image) {
     double sum = 0, moments = 0;
     for (uint32_t y = 0; y < image.height; ++y) {
@@ -45,7 +45,7 @@ double varianceOf(Image const& image) {
 
 // A level's lobe: of the weights 1, 3, 3, 1 on the way down, of two look-ups between texels on the way up. All texels
 // of a level are looked up a quarter off the centre of one of the smaller one: 7/16 of its width squared. A look-up d
-// of a texel's width off its centre widens the lobe by d (1 - d), which is 3/16 of half the picture and in the mean
+// of a texel's width off its centre widens the lobe by d (1 - d), which is 3/16 at half resolution and in the mean
 // 11/64 of a quarter, for the one look-up at the end. The weights of a quarter, 1 to 7, move light by 1.75 or 3.75.
 double varianceOfLevels(int levels, BloomResolution resolution) {
     const bool isQuarter = resolution == BloomResolution::Quarter;
@@ -124,7 +124,7 @@ TEST(Bloom, MovesLightAndAddsNone) {
     }
 }
 
-/// A picture of one light stays what it is, up to its edges.
+/// An image of one light stays what it is, up to its edges.
 TEST(Bloom, LeavesAnEvenPictureAlone) {
     for (const BloomResolution resolution : { BloomResolution::Half, BloomResolution::Quarter }) {
         const Image image = pictureOfLamp(0.75f, 4, [resolution](View& view) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What exists is changed: contents of buffers and textures, lights, geometry, bounds, visibility. Each picture has the
+// What exists is changed: contents of buffers and textures, lights, geometry, bounds, visibility. Each image has the
 // bits of one in which everything was made that way.
 #include "tests/filament_core/engine/ShadowStage.h"
 

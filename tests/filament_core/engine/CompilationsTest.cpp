@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes from frame to frame has Mesa's Vulkan driver compile nothing: it may compile a stage anew for every
+// Changes from frame to frame make Mesa's Vulkan driver compile nothing: it may recompile a stage for every
 // value of the uniforms that alone decide a condition, which takes seconds a frame. Counted in files of its shader
 // cache.
 #include "tests/base/ScopedVariable.h"

@@ -20,7 +20,7 @@
 
 namespace filament::test {
 
-/// Variants that a picture does not need.
+/// Variants that an image does not need.
 inline constexpr uint16_t kNoShadows = shader::kVariantShadowReceiver, // most of a lit material
         kSunOnly = kNoShadows | shader::kVariantPunctual, kNoLights = kSunOnly | shader::kVariantSun;
 

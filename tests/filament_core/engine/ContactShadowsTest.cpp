@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact shadows on both APIs: a thin pole darkens what a ray towards the light says, a bare plane stays bright under
-// any light and at any scale, and only lights that ask for them have them.
+// any light and at any scale, and only for lights that enable them.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <array>

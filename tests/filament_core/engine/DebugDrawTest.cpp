@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DebugDraw in pictures: which pixels lines and characters cover, what hides them, in which colour, on both APIs.
+// DebugDraw in images: which pixels lines and characters cover, what hides them, in which colour, on both APIs.
 #include "filament_core/prepare/DebugFont.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"

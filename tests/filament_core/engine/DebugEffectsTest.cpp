@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Debug views of effects of the picture on both APIs: circles of confusion, the weight of gathered frames, the
+// Debug views of post-processing on both APIs: circles of confusion, the history weight, the
 // histogram of auto exposure, each beside its closed form.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
@@ -172,7 +172,7 @@ TEST(DebugHistoryWeight, IsThatOfAChangeAfterEveryRasterState) {
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(codesAt(images[i], 16, 12)[c], 255 * 0.8, 0.51) << "change " << i;
 }
 
-/// The camera moves to the right by a quarter of the picture's width: what comes into it there is new.
+/// The camera moves to the right by a quarter of the image's width: what comes into it there is new.
 TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
     const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 64, 32 });
@@ -190,7 +190,7 @@ TEST(DebugHistoryWeight, IsNoneWhereNothingWasSeenBefore) {
     }
 }
 
-/// What an object leaves behind was not gathered there: its colour is limited to what is around.
+/// A disoccluded surface has no history: its colour is clamped to its neighbours.
 TEST(DebugHistoryWeight, IsOrangeWhereColoursAreLimited) {
     const std::vector<Image> images = test::sameOnBothApis<SquaresStage>([&](SquaresStage& stage) {
         stage.showHistoryWeight({ 64, 32 });
@@ -235,7 +235,7 @@ int heightOf(Image const& image, int bin, int3 color) {
     return pixels;
 }
 
-/// A quarter of the picture has another light than the rest; each second pixel of each second row is counted.
+/// A quarter of the image has another light than the rest; each second pixel of each second row is counted.
 TEST(DebugHistogram, HasBarsAsHighAsTheirCounts) {
     for (const auto& [dark, bright] : { std::pair(0.125f, 2.0f), std::pair(0.01f, 0.9f), std::pair(0.3f, 30.0f) }) {
         for (const auto& [low, high] : { std::pair(0.4f, 0.95f), std::pair(0.0f, 1.0f), std::pair(0.1f, 0.2f) }) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DebugView::Luminance and Numerics on both APIs: pictures whose numbers come texel by texel from a texture.
+// DebugView::Luminance and Numerics on both APIs: images whose numbers come texel by texel from a texture.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <filament/DebugViews.h>
@@ -25,7 +25,7 @@ struct Numbers {
     std::vector<float4> texels{};
 };
 
-/// What `draw` makes of a stage of each API that shows the numbers; the pictures have the same bits.
+/// Images by `draw` of the numbers on each API, which have the same bits.
 Image numbersDrawn(Numbers const& numbers, std::function<Image(test::MaterialStage&, Renderer&)> const& draw) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
@@ -184,7 +184,7 @@ TEST(DebugNumerics, ClipsNothingInTargetsOfLight) {
     EXPECT_NEAR(mark.z, 0, 1e-6);
 }
 
-/// What half floats round away is there in this view alone: the picture itself is as it was.
+/// Only this view has the values that half floats round away: the normal image does not change.
 TEST(DebugNumerics, LeavesTheNextPictureAsItWas) {
     const Numbers numbers = everyKindOfNumber();
     std::vector<std::vector<std::byte>> pictures;

@@ -227,7 +227,7 @@ TEST(DebugMaterials, ShowWhatIsBehindHolesAndTheNearestOfWhatBlends) {
     expectValue(debugColorAt(images[1], 4, 4), double3(0, 0, 1), "beside the pane");
 }
 
-/// The same silhouettes as in the picture, whatever moves the vertices.
+/// The same silhouettes as in the normal image, for all vertex transformations.
 class DebugModels : public test::AssetTest, public testing::WithParamInterface<const char*> {};
 
 std::vector<Image> shotsOf(Backend backend, const char* file) {
@@ -366,7 +366,7 @@ TEST(DebugTransparentLayers, CountsWhatBlendsAndIsNotHidden) {
 
 // ---- triangles
 
-/// Of a square of two triangles around the middle of the picture: what each pixel's middle lies in.
+/// Of a square of two triangles around the image centre: which of them contains each pixel's centre.
 int triangleAt(double2 at) {
     if (std::max(std::abs(at.x), std::abs(at.y)) > 1) return 0;
     return at.x > at.y ? 1 : 2; // below the diagonal from the lower left: 0, 1, 2

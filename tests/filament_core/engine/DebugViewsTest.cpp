@@ -104,7 +104,7 @@ double3 pointOnPlane(View const& view, uint32_t x, uint32_t y, double height = 0
     return ray * ((height - view.camera.position().z) / ray.z);
 }
 
-/// Calls check(x, y, point, picture's colour) for the pixels whose point lies on the square of that half side around 0.
+/// Calls check(x, y, point, image's colour) for the pixels whose point lies on the square of that half side around 0.
 template <class Check>
 void forPointsOnSquare(View const& view, Image const& image, double half, Check const& check) {
     const double3 eye = view.camera.position();

@@ -112,7 +112,7 @@ TEST_P(EngineTest, LightsBrightenWhatTheyShineOn) {
 }
 
 /// A shadow map before a tone mapper that reads the colours of its own pass, in the first commands of a device. A
-/// driver with vulkan::Quirks::clearsIndependentBlend leaves such a picture blank.
+/// driver with vulkan::Quirks::clearsIndependentBlend leaves such an image blank.
 TEST_P(EngineTest, DrawsItsFirstFrameLikeTheNext) {
     Spheres spheres(*mEngine);
     spheres.view.quality.shadows = ShadowFilter::Pcf3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a package of cmgen draws is what its picture draws, on both APIs.
+// What a package of cmgen draws is what its image draws, on both APIs.
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What finishes a picture: grading, vignette, grain, fringes and auto exposure, each beside its closed form, with the
+// What finishes an image: grading, vignette, grain, fringes and auto exposure, each beside its closed form, with the
 // same bits on both APIs.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
@@ -29,7 +29,7 @@ Image drawInto(Engine& engine, Renderer& renderer, Scene const& scene, View cons
     return image ? std::move(*image) : Image{};
 }
 
-/// A picture of one light, on both APIs, which have the same bits.
+/// An image of one light, on both APIs, which have the same bits.
 Image evenPicture(float3 light, SetView const& set, Format format = Format::RGBA16F, uint2 size = kEvenSize) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
@@ -287,7 +287,7 @@ TEST(ChromaticAberration, MovesRedAndBlueApart) {
     EXPECT_NEAR(places.y, (places.x + places.z) / 2, 0.1);
 }
 
-/// Exposes `frames` frames of even pictures, a quarter of a second apart.
+/// Exposes `frames` frames of even images, a quarter of a second apart.
 std::vector<float> exposures(std::span<const float> lights, AutoExposure const& options) {
     std::vector<std::vector<float>> ofApis;
     for (const Backend backend : test::kBothApis) {

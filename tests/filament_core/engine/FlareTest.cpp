@@ -30,7 +30,7 @@ LensFlare ghosts(uint8_t count, float spacing) {
              .dispersion = 0 };
 }
 
-/// What the flare adds to a picture of the lamp, and takes from it, by component; the same bits on both APIs.
+/// What the flare adds to an image of the lamp, and takes from it, by component; the same bits on both APIs.
 struct Flare {
     Image plain, flared;
 
@@ -136,7 +136,7 @@ TEST(LensFlare, BlursAGhostByItsRadius) {
         options.ghostRadius = radius;
         const double2 at(0.35, 0.3);
         const Flare flare(options, at);
-        const double size = passes::flareGhosts(options, 256)[0].radius * 0.8; // in pixels of the picture
+        const double size = passes::flareGhosts(options, 256)[0].radius * 0.8; // in pixels of the image
         const double found = flare.meanDistance(flare.center());
         EXPECT_GT(found, 0.6 * size) << radius;
         EXPECT_LT(found, 0.75 * size + 12) << radius;
@@ -220,7 +220,7 @@ TEST(LensFlare, BelowItsThresholdNothingChanges) {
     EXPECT_EQ(test::differingPixels(flare.plain, flare.flared), 0u);
 }
 
-/// Lamps of 60 000 beside black, in pictures of all sizes.
+/// Lamps of 60 000 beside black, in images of all sizes.
 TEST(LensFlare, IsFiniteAtItsEndsAndInAllSizes) {
     for (const uint2 size : { uint2(1, 1), uint2(3, 70), uint2(131, 17), uint2(64, 64) }) {
         for (const bool isMost : { false, true }) {
@@ -249,7 +249,7 @@ TEST(LensFlare, IsFiniteAtItsEndsAndInAllSizes) {
 }
 
 /// Only what is not a number shows that; its flare is none, and that of an infinity one of the brightest light. The
-/// next frame knows nothing of it.
+/// next frame is unaffected.
 TEST(LensFlare, KeepsWhatIsNoNumberWhereItIs) {
     for (const char* light : { "vec3(uintBitsToFloat(0x7FC00000u))", "vec3(uintBitsToFloat(0x7F800000u))" }) {
         for (const Backend backend : test::kBothApis) {

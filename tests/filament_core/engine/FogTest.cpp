@@ -106,7 +106,7 @@ TEST(Fog, SurfacesHaveTheColourOfTheClosedForm) {
 
 TEST(Fog, EndsAtTheCutOff) {
     Fog fog = fogOf(0.2f);
-    fog.cutOffMeters = 6.15f; // a circle around the middle of the picture
+    fog.cutOffMeters = 6.15f; // a circle around the middle of the image
     expectClosedForm(paintText(""), fog, 6);
     expectClosedForm(kBlackLit, fog, 6);
 }
@@ -126,7 +126,7 @@ TEST(Fog, IsTheSameTenThousandKilometersFromTheOrigin) {
 
 struct BlendCase {
     std::string properties;
-    /// What of a source with fog in front of it and the picture behind comes out.
+    /// Result of blending a source with fog in front over the scene colour.
     float3 (*blend)(float3 source, float alpha, float3 fog, double opacity, float3 behind);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture shaded with froxel lists has the bits of one in which every fragment tries every light. The second picture
+// An image shaded with froxel lists has the bits of one in which every fragment tries every light. The second image
 // comes from the same engine: an edit of its command stream takes the grid out of the uniforms.
 #include "backend/layers/Captured.h"
 #include "shaders/interface/LtcTable.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixels around the picture that are drawn and cut off: at its border it is what the middle of a larger picture is.
+// Pixels drawn around the image and cropped: its border equals the centre of a larger image.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <filament/Renderer.h>
@@ -17,8 +17,8 @@ using test::halfPixel;
 using test::MaterialStage;
 
 constexpr uint2 kBandedSize(64, 48);
-constexpr uint32_t kAround = 24; // pixels on each side of the larger picture
-constexpr uint32_t kBorder = 6;  // of the picture, where what lies beside it matters
+constexpr uint32_t kAround = 24; // pixels on each side of the larger image
+constexpr uint32_t kBorder = 6;  // of the image, where off-screen surfaces matter
 
 std::string surface(std::string_view color, std::string_view more = "", std::string_view properties = "") {
     return test::text(fmt::format("shadingModel : lit, culling : none{}", properties),
@@ -34,7 +34,7 @@ void addSquare(MaterialStage& stage, MaterialInstance instance, float3 at, float
     stage.add(instance, { { .halfSide = 1 } }, world);
 }
 
-/// A floor, two walls and a lamp, of which the picture shows only parts: what it shows beside its border lies outside.
+/// A floor, two walls and a lamp, which are only partly on screen: their off-screen parts affect the border.
 void build(MaterialStage& stage) {
     stage.keep(std::make_shared<test::SkyObjects>(stage, test::Sky{ float3(0.6f), float3(0.2f) }));
     stage.view.camera = Camera::lookAt({ 0, 1, 3 }, { 0, 0.6, 0 }, { .verticalFovDegrees = 40 });
@@ -69,7 +69,7 @@ constexpr std::pair<const char*, Set> kEffects[] = {
       [](View& view) { view.effects.depthOfField = { .enabled = true, .focusMeters = 1.5f, .blurScale = 60 }; } },
 };
 
-/// The picture after so many frames.
+/// The image after so many frames.
 Image drawn(Backend backend, std::function<void(View&)> const& set, int frames = 3) {
     auto engine = test::makeEngine(backend);
     if (!engine) return {};
@@ -83,7 +83,7 @@ Image drawn(Backend backend, std::function<void(View&)> const& set, int frames =
     return image;
 }
 
-/// A view with so many more pixels on each side, and the same picture in its middle.
+/// A view with so many more pixels on each side, and the same image in its middle.
 void enlarge(View& view) {
     const float height = static_cast<float>(view.size.y), larger = height + 2 * kAround;
     float& fov = view.camera.lens.verticalFovDegrees;
@@ -94,7 +94,7 @@ void enlarge(View& view) {
     view.effects.depthOfField.blurScale *= larger / height; // the focal length is that of a wider lens
 }
 
-/// Of the pixels near the border, beside those of the larger picture.
+/// Of the pixels near the border, beside those of the larger image.
 double rmsAtBorder(Image const& image, Image const& larger) {
     double sum = 0;
     uint32_t count = 0;
@@ -178,7 +178,7 @@ TEST(GuardBand, HasTheSameBitsOnBothApisBesideEveryEffect) {
     }
 }
 
-/// What comes after the cut knows the picture alone.
+/// Passes after the crop read only the image.
 TEST(GuardBand, LeavesTheLensWhereItIs) {
     const auto vignetted = [](bool isOn) {
         return drawn(Backend::Vulkan, [isOn](View& view) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One texel of light that is no number, infinite, or the brightest there is, under every effect of the picture alone
+// One texel of light that is NaN, infinite, or the largest number, under every post-processing effect alone
 // and under all of them: the others stay finite, and a frame later it is forgotten. The list of effects is generated
 // from the options, so new ones are in it.
 #include "tests/filament_core/engine/SkyStage.h"
@@ -98,7 +98,7 @@ constexpr HostileLight kHostileLights[] = { { "uintBitsToFloat(0x7fc00000u)" },
                                             { "1e6", true },
                                             { "-1e6" } };
 
-/// The largest difference of a component from the picture without the texel, which is left out; expects that all are
+/// The largest difference of a component from the image without the texel, which is skipped; expects that all are
 /// finite.
 float farthestFrom(Image const& calm, Image const& image, bool hasTexel) {
     float farthest = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LampStage: a square of one light in front of black, seen by a camera whose picture is 2 m high: what bloom and lens
+/// LampStage: a square of one light in front of black, seen by a camera whose image is 2 m high: what bloom and lens
 /// flare scatter lies where closed forms say.
 #pragma once
 
@@ -42,7 +42,7 @@ public:
     View view;
 };
 
-/// What a lamp looks like in light: the pictures of both APIs, which have the same bits.
+/// Linear images of a lamp from both APIs, which have the same bits.
 inline Image pictureOfLamp(float light, double side, std::function<void(View&)> const& set, double2 at = double2(0)) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers in pictures: what a view does not show is, to the bit, not there: neither it nor its shadow.
+// Layers in images: what a view does not show is, to the bit, not there: neither it nor its shadow.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <gmock/gmock.h>

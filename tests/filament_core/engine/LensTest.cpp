@@ -111,8 +111,8 @@ TEST_P(LensTest, ASmoothPlaneHasOneColourAndThatOfAFarCamera) {
 
 // ---------------------------------------------------------------------------------------------- beside a far camera
 
-constexpr double kFar = 400; ///< metres: the picture of a perspective lens is nearly parallel
-constexpr float kHigh = 5;   ///< metres, of the picture
+constexpr double kFar = 400; ///< metres: where a perspective lens is nearly orthographic
+constexpr float kHigh = 5;   ///< metres, of the image
 
 struct LensCase {
     const char* name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that the app destroys while something uses them: pictures stay, and the memory is free once the last use
+// Objects that the app destroys while something uses them: images stay, and the memory is free once the last use
 // ends.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light channels in pictures: what a square shows under many lights is, to the bit, what it shows under those that
+// Light channels in images: what a square shows under many lights is, to the bit, what it shows under those that
 // share a channel with it.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
@@ -97,7 +97,7 @@ struct ChannelStage : test::SquareStage {
     }
 };
 
-/// Of the square in row and column of the picture, including what is around it.
+/// Of the square in row and column of the image, including what is around it.
 std::vector<std::byte> cellOf(Image const& image, uint32_t cell) {
     constexpr uint32_t kCell = kPicturePixels / kSquaresASide;
     std::vector<std::byte> bytes;

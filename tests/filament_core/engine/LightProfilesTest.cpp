@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light profiles in pictures: each pixel of a wall shows the share that the file gives its direction, constant profiles
-// are plain lights to the bit, and what nobody needs is not there.
+// Light profiles in images: each pixel of a wall shows the share that the file gives its direction, constant profiles
+// are plain lights to the bit, and unneeded tables do not exist.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/tables/LightProfileTable.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
@@ -123,7 +123,7 @@ struct Wall {
         patch.view.size = { kPixels, kPixels };
         patch.setSurface(float4(1), 0, 1);
     }
-    /// In which direction the lamp sees the pixel; unit.
+    /// Direction from the lamp to the pixel; unit.
     static double3 awayTo(uint32_t x, uint32_t y) {
         const double half = 40 * std::tan(glm::radians(0.25));
         const auto at = [&](uint32_t i) { return ((i + 0.5) / kPixels * 2 - 1) * half; };

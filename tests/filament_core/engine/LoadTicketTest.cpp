@@ -35,7 +35,7 @@ FileBytes bytesAt(std::filesystem::path const& path) {
     return bytesOfText(text);
 }
 
-/// Three textured triangles side by side, in files that their .gltf names: three pictures, three meshes, six steps and
+/// Three textured triangles side by side, in files that their .gltf names: three images, three meshes, six steps and
 /// one.
 constexpr const char* kTriangles = R"({ "asset": { "version": "2.0" }, "scenes": [ { "nodes": [ 0, 1, 2 ] } ],
     "extensionsUsed": [ "KHR_materials_unlit" ],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mip levels of materials' textures while frames are gathered: those of the picture that is shown, beside
-// supersampling; and that nothing changes where there is nothing to gather.
+// The mip levels of materials' textures with temporal accumulation: those of the output resolution, against
+// supersampling; and that nothing changes without accumulation.
 #include "tests/filament_core/engine/Fan.h"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ TEST(MipBias, MakesAGatheredPictureAsSharpAsOneOfAllPixels) {
     }
 }
 
-/// The picture of a frame that is drawn at the gathered picture's levels: a bias is that of the sampled levels.
+/// The image of a frame that is drawn at the output's mip levels: the bias equals that of the sampled levels.
 TEST(MipBias, IsInEveryLookUpThatTakesItsLevelFromDerivatives) {
     for (const std::string_view code : { kPhotoLookUp, kOffset, kGradients, kBiased, kProjected, kLevel }) {
         std::vector<Image> images;
@@ -146,7 +146,7 @@ TEST(MipBias, IsInEveryLookUpThatTakesItsLevelFromDerivatives) {
     }
 }
 
-/// Gradients and derivatives ask for the same levels, with a bias as without.
+/// Gradients and derivatives select the same levels, with and without a bias.
 TEST(MipBias, TurnsGradientsIntoThoseOfTheShownPixels) {
     Photo byDerivatives(Backend::Vulkan, kPhotoLookUp), byGradients(Backend::Vulkan, kGradients);
     const auto between = [&](MipBias bias) {
@@ -159,7 +159,7 @@ TEST(MipBias, TurnsGradientsIntoThoseOfTheShownPixels) {
     EXPECT_LT(between(MipBias::Output), 0.2 * sharper);
 }
 
-/// The depths that ambient occlusion reads have the holes that are seen.
+/// The depth that ambient occlusion reads has the visible holes.
 TEST(MipBias, CutsTheSameHolesIntoDepths) {
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {

@@ -14,7 +14,7 @@ namespace {
 constexpr float kMixtureBackground = 0.25f; // exact in half floats
 constexpr uint32_t kPixels = 24;
 
-/// A sphere that fills the middle of the picture, in a white environment before a grey background.
+/// A sphere that fills the middle of the image, in a white environment before a grey background.
 class MixtureFurnace {
 public:
     explicit MixtureFurnace(Engine& engine)

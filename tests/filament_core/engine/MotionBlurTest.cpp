@@ -45,7 +45,7 @@ public:
     }
     ~Passing() { test::expectNoErrors(engine); }
 
-    /// With the middle of the square so many pixels to the right of that of the picture.
+    /// With the middle of the square so many pixels to the right of that of the image.
     Image draw(double pixels) {
         double4x4 world(kHalfSquare);
         world[3] = double4(pixels / pixelsPerMeter(), 0, -kSquareMeters, 1);
@@ -97,7 +97,7 @@ double coverage(double place, double way) {
     return std::max(last - first, 0.0) / way;
 }
 
-/// Root of the mean square of the differences in the middle row, from what an open shutter sees.
+/// Root of the mean square of the differences in the middle row, from the exact image of an open shutter.
 double errorOfRow(Image const& image, double way) {
     double squares = 0;
     for (uint32_t x = 0; x < image.width; ++x) {

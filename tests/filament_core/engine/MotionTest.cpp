@@ -25,7 +25,7 @@ constexpr float kFovDegrees = 50;
 
 float4x4 moved(float steps) { return glm::translate(float4x4(1.0f), kStep * steps); }
 
-/// What moves in a test: a panel that fills the middle of the picture.
+/// What moves in a test: a panel that fills the middle of the image.
 class Panel {
 public:
     Panel(Backend backend, std::string_view material)
@@ -125,7 +125,7 @@ struct Mover {
     std::string material;
     std::function<void(Panel&)> add;
     std::function<void(Panel&, float steps)> move;
-    float steps = 1;   ///< in the picture
+    float steps = 1;   ///< on screen
     bool isOwn = true; ///< not that of the camera alone
 };
 

@@ -72,7 +72,7 @@ public:
     Scene scene; ///< destroyed before what it shows
 };
 
-/// The light that a display emits where a picture has this code.
+/// The light that a display emits where an image has this code.
 double shown(uint8_t code) {
     const double v = code / 255.0;
     return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
@@ -213,7 +213,7 @@ TEST(MsaaResolve, KeepsNanAndInfinityInTheirPixels) {
     }
 }
 
-/// What blends over the background at its edges has the colour of what covers it.
+/// A transparent surface over the background has the right colour at its edges.
 TEST(MsaaResolve, OfTranslucentViewsWeighsTheColoursThatAreDisplayed) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {
@@ -269,7 +269,7 @@ TEST(MsaaResolve, CostsNothingWithoutSamplesOrSurfaces) {
     }
 }
 
-/// Whatever reads the picture reads the resolved one, except for copies that are refracted.
+/// All effects read the resolved scene colour, except for refraction.
 TEST(MsaaResolve, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
     const std::pair<const char*, void (*)(View&)> effects[] = {
         { "taa", [](View& view) { view.quality.antiAliasing = AntiAliasing::Taa; } },
@@ -305,7 +305,7 @@ fragment { void material(inout MaterialInputs material) {
     material.roughness = 0.0; material.transmission = 1.0; material.ior = 1.2; material.thickness = 0.1;
 } })";
 
-/// What refracts sees the average of light; its own edges are weighted with all others.
+/// Refraction reads the average of light; edges of refractive objects are weighted with all others.
 TEST(MsaaResolve, ResolvesWhatRefractsThePictureWithIt) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {

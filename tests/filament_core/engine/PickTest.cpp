@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picking against rays that the test casts itself, on both APIs: every pixel of small pictures of boxes and spheres;
+// Picking against rays that the test casts itself, on both APIs: every pixel of small images of boxes and spheres;
 // holes of masked materials, bones, glass, layers.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
@@ -131,7 +131,7 @@ TEST_P(PickTest, EveryPixelOfACrowdIsWhatARayMeets) {
 }
 
 TEST_P(PickTest, PicksWhatThePictureShows) {
-    // A colour for each square: the picture itself says who is where, edges included.
+    // A colour for each square: the image identifies the square of each pixel, edges included.
     constexpr const char* kColored = R"(material { name : colored, shadingModel : unlit, culling : none,
         parameters : [ { type : float4, name : color } ] }
     fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = materialParams.color; } })";
@@ -222,7 +222,7 @@ TEST_P(PickTest, IsPolledAndAnswersEachTicketOnceInAnyOrder) {
     const Renderable left = square.add(scene, paint, { -1.2, 0, 0 }), right = square.add(scene, paint, { 1.2, 0, 0 });
     const PickTicket first = renderer.pick(scene, view, { 6, 9 }), second = renderer.pick(scene, view, { 18, 9 }),
                      none = renderer.pick(scene, view, { 0, 0 });
-    scene.remove(left); // as it was when it was asked
+    scene.remove(left); // the state at the call
     ASSERT_TRUE(renderer.takePick(none));
     std::optional<PickHit> hit;
     while (!hit) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the image tests: an engine on a named backend, pictures as floats, and clear skip messages.
+/// Shared by the image tests: an engine on a named backend, images as floats, and clear skip messages.
 #pragma once
 
 #include "base/math/Half.h"
@@ -34,7 +34,7 @@ inline std::optional<Engine> makeEngine(Backend backend, int workers = 1) {
     return std::optional<Engine>(std::move(*engine));
 }
 
-/// Calls `draw` with a stage of each API, and returns its pictures, which have the same bits.
+/// Calls `draw` with a stage of each API, and returns its images, which have the same bits.
 template <class Stage>
 std::vector<Image> sameOnBothApis(std::function<std::vector<Image>(Stage&)> const& draw) {
     std::vector<std::vector<Image>> all;
@@ -84,7 +84,7 @@ inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
 
-/// Of pictures of half floats, in bits; as many as there are numbers if the sizes differ.
+/// Of images of half floats, in bits; as many as there are numbers if the sizes differ.
 inline size_t differingPixels(Image const& a, Image const& b) {
     size_t pixels = 0;
     for (size_t i = 0; i + 8 <= std::min(a.pixels.size(), b.pixels.size()); i += 8)
@@ -96,7 +96,7 @@ struct Extremes {
     float least = 1e9f, most = -1e9f;
 };
 
-/// The range of the colours of a picture of half floats; expects that all are finite.
+/// The range of the colours of an image of half floats; expects that all are finite.
 inline Extremes extremesOf(Image const& image) {
     Extremes found;
     for (uint32_t y = 0; y < image.height; ++y) {
@@ -117,7 +117,7 @@ struct Difference {
     int largest = 0; ///< of a component
 };
 
-/// Differences between two RGBA8 pictures.
+/// Differences between two RGBA8 images.
 inline Difference differenceOf(Image const& a, Image const& b) {
     Difference difference;
     EXPECT_EQ(a.pixels.size(), b.pixels.size());

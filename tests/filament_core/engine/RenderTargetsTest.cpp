@@ -36,7 +36,7 @@ struct TargetStage {
     Renderer camera{ engine }, renderer{ engine };
     View filmed{ .camera = Camera::lookAt({ 0.3, -0.2, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }),
                  .size = uint2(kFilmSide) };
-    /// The square of the room is all of its picture, a texel a pixel.
+    /// The square of the room is all of its image, a texel a pixel.
     View shown{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 90 }),
                 .size = uint2(kFilmSide) };
 
@@ -240,7 +240,7 @@ TEST_P(RenderTargetsTest, DepthsOfAParallelLensAreMetresToo) {
 
 TEST_P(RenderTargetsTest, DepthsAreMetresAlongTheView) {
     Scene walls(engine);
-    square.add(walls, flats[0], { -1.5, 0, -2 }, 1.5); // the left half of the picture
+    square.add(walls, flats[0], { -1.5, 0, -2 }, 1.5); // the left half of the image
     filmed.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
     const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8), .depth = texture(Format::R32F) });
     EXPECT_TRUE(engine.depthOf(film));

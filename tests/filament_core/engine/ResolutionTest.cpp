@@ -26,7 +26,7 @@ Image drawnPicture(Engine& engine, Scene const& scene, View const& view, Format 
     return image ? std::move(*image) : Image{};
 }
 
-/// A square over the whole picture whose display value is a formula of `at`, in [0, 1]^2, on both APIs, which have the
+/// A square over the whole image whose display value is a formula of `at`, in [0, 1]^2, on both APIs, which have the
 /// same bits.
 Image patterned(std::string const& formula, uint2 size, SetView const& set, Format format = Format::RGBA8) {
     std::vector<Image> images;
@@ -113,7 +113,7 @@ TEST(Upscaling, OfAnEdgeIsSharperTheBetterItsFilter) {
     }
 }
 
-/// A diagonal edge of a small picture becomes a straight one: brightness along it hardly changes.
+/// A diagonal edge of a small image becomes a straight one: brightness along it hardly changes.
 TEST(Upscaling, AlongEdgesHasFewerSteps) {
     constexpr uint2 kSize(96, 96);
     const auto roughness = [&](Upscaling filter) {

@@ -211,7 +211,7 @@ TEST_F(SceneNodesDeathTest, NamesTheRuleThatWasBroken) {
     EXPECT_DEATH(scene.add(part), "its worldFromObject stays the identity");
 }
 
-/// With a device: pictures.
+/// With a device: images.
 class SceneNodesImagesTest : public testing::TestWithParam<Backend> {
 protected:
     void SetUp() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several views of one engine that take turns: none slows the others down, and each keeps its picture.
+// Several views of one engine that take turns: none slows the others down, and each keeps its image.
 #include "backend/layers/Traced.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 

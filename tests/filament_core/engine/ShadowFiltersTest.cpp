@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every filter of shadow maps has to pass on both APIs: planes that do not shadow themselves, shadows that begin
-// at what casts them, penumbrae and blurs of known width, edges that stand still, and extremes.
+// at the caster, penumbrae and blurs of known width, edges that stand still, and extremes.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <numbers>
@@ -77,7 +77,7 @@ TEST(ShadowFilters, BeginAtTheCasterAndEndWhereTheLightPassesIt) {
                         .directionWorld = { static_cast<float>(std::cos(up)), 0, static_cast<float>(-std::sin(up)) },
                         .illuminance = Lux{ 50'000 },
                         .angularRadiusDegrees = 0 });
-                // The wall is edge on, and the picture as wide as the plane.
+                // The wall is edge on, and the image as wide as the plane.
                 for (const ShadowFilter filter : kShadowFilters) {
                     View view = shadowedView({ 0, 0, scale * 200 }, {}, filter, kSize);
                     view.camera.lens.verticalFovDegrees =
@@ -182,7 +182,7 @@ TEST(ShadowFilters, BlurredEdgesHaveTheProfileOfTheBlur) {
         stage.square.add(scene, stage.white, { -4, 0, 2 }, 4);
         scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 50'000 } });
         View view = shadowedView({ 0, 0, 1 }, {}, ShadowFilter::Off, kSize);
-        constexpr double width = 2; // metres of the picture
+        constexpr double width = 2; // metres of the image
         view.camera.lens.verticalFovDegrees =
                 static_cast<float>(glm::degrees(2 * std::atan(width / 2 * kSize.y / kSize.x)));
         const float lit = test::halfPixel(test::renderLinear(stage.engine, scene, view), 100, 4).x;
@@ -208,7 +208,7 @@ TEST(ShadowFilters, BlurredEdgesHaveTheProfileOfTheBlur) {
     }
 }
 
-// The camera moves over a plane by whole pixels, which are half a texel and less: the pictures are those of the first
+// The camera moves over a plane by whole pixels, which are half a texel and less: the images are those of the first
 // step, shifted.
 TEST(ShadowFilters, EdgesDoNotCrawlUnderAMovingCamera) {
     constexpr uint32_t kSide = 64, kSteps = 40;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A plane, boxes and a chalk that shadows fall on, for tests of shadow maps in pictures.
+/// A plane, boxes and a chalk that shadows fall on, for tests of shadow maps in images.
 #pragma once
 
 #include "tests/filament_core/engine/materials/MaterialFixture.h"

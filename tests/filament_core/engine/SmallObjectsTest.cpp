@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that cover no centre of a pixel are left out, and the picture stays as it is, bit by bit: beside the same
+// Objects that cover no centre of a pixel are culled, and the image does not change by a bit: compared with the same
 // objects that may not be left out.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"

@@ -52,7 +52,7 @@ View skyView(double fovDegrees, uint2 size = { 64, 48 }) {
              .size = size };
 }
 
-/// Where such a view looks through a point of the picture; unit.
+/// View direction of a point on screen; unit.
 double3 directionAt(View const& view, double2 pixel) {
     const double4x4 clip(view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y)));
     const double2 ndc = pixel / double2(view.size) * 2.0 - 1.0;
@@ -72,7 +72,7 @@ double solidAngleOf(View const& view, uint32_t x, uint32_t y) {
     return solidAngle(a, b, c) + solidAngle(a, c, d);
 }
 
-/// A sun seen at a point of the picture, whose disc has a pre-exposed luminance.
+/// A sun at a point on screen, whose disc has a pre-exposed luminance.
 SunLight sunAt(View const& view, double2 pixel, double radiusDegrees, double luminance) {
     const double sine = std::sin(radiansOf(radiusDegrees));
     const double lux = luminance * kDiscPi * sine * sine / static_cast<double>(view.camera.exposure.factor());
@@ -83,7 +83,7 @@ SunLight sunAt(View const& view, double2 pixel, double radiusDegrees, double lum
              .haloSize = 1 };
 }
 
-/// What a surface facing the sun receives from the picture, pre-exposed.
+/// What a surface facing the sun receives from the image, pre-exposed.
 double illuminanceOf(Image const& image, View const& view, double3 towardsSun) {
     double sum = 0;
     for (uint32_t y = 0; y < view.size.y; ++y) {
@@ -103,7 +103,7 @@ struct DiscCase {
     double radius, fov, luminance;
 };
 
-// From a hundredth of a pixel to most of the picture; anywhere in it, and anywhere in a pixel.
+// From a hundredth of a pixel to most of the image; anywhere in it, and anywhere in a pixel.
 TEST_P(SunDiscs, GiveTheIlluminanceOfTheSun) {
     DiscStage stage(GetParam());
     Random random(3);
@@ -112,7 +112,7 @@ TEST_P(SunDiscs, GiveTheIlluminanceOfTheSun) {
            DiscCase{ 0.2665, 40, 9'000 }, DiscCase{ 0.2665, 3, 500 }, DiscCase{ 1, 60, 900 }, DiscCase{ 3, 60, 100 },
            DiscCase{ 20, 100, 10 }, DiscCase{ 0.2665, 120, 9'000 }, DiscCase{ 0.05, 0.2, 7 } }) {
         const View view = skyView(disc.fov);
-        // The picture must hold all of it; its edges are the furthest from the axis.
+        // The image must hold all of it; its edges are the furthest from the axis.
         const double margin = disc.radius >= 20 ? 22 : 0.55 * disc.radius / disc.fov * view.size.y * 2 + 2;
         for (int i = 0; i < 8; ++i) {
             double2 pixel(random.within(margin, view.size.x - margin), random.within(margin, view.size.y - margin));
@@ -188,7 +188,7 @@ TEST_P(SunDiscs, FadeIntoTheirHalo) {
                 EXPECT_NEAR(shown.z, 250 * share, 250 * share * 2e-3 + 1e-4);
             }
         }
-        // The integral of the formula, where all of the halo is in the picture and pixels resolve it.
+        // The integral of the formula, where all of the halo is in the image and pixels resolve it.
         if (radius * size > 20 || falloff > 10) continue;
         EXPECT_NEAR(sum, 1000 * 2 * kDiscPi * (inner - outer) / (falloff + 1), 0.03 * sum) << radius;
     }
@@ -236,7 +236,7 @@ TEST_P(SunDiscs, OutOfViewOrSwitchedOffAreNotDrawn) {
         expectNothing(sunAt(view, beside, 2, 100), "none of 1 is in view");
 }
 
-// Also where only a part of the disc or of the halo is in the picture.
+// Also where only a part of the disc or of the halo is in the image.
 TEST_P(SunDiscs, AreDrawnWhereAnyPartOfThemIsInView) {
     DiscStage stage(GetParam());
     const View view = skyView(60);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathering frames of fewer pixels into a picture of all of them: how near a still one comes to supersampling, what
+// Temporal upscaling: how close a static image comes to supersampling, what
 // motion leaves of that, and that the size of the frames may change meanwhile.
 #include "tests/filament_core/engine/Fan.h"
 
@@ -76,7 +76,7 @@ TEST(TemporalUpscaling, LeavesNoGhosts) {
     EXPECT_LT(worst, 1.1 * rmsBetween(fan.draw(), fan.supersampled()));
 }
 
-/// The gathered picture has all pixels: what another scale draws adds to it.
+/// The history has the output resolution: frames of another scale are added to it.
 TEST(TemporalUpscaling, KeepsWhatItGatheredWhenTheScaleChanges) {
     Fan fan(Backend::Vulkan);
     const Image exact = fan.supersampled();
@@ -91,7 +91,7 @@ TEST(TemporalUpscaling, KeepsWhatItGatheredWhenTheScaleChanges) {
     EXPECT_GT(rmsBetween(fan.draw(fresh), exact), 5 * before) << "one frame alone";
 }
 
-/// With a filter, frames are gathered as they are drawn, and enlarged after the tone mapper.
+/// With a filter, frames are accumulated at the drawn size, and upscaled after the tone mapper.
 TEST(TemporalUpscaling, IsLeftToTheFilterIfThereIsOne) {
     Fan fan(Backend::Vulkan);
     gather(fan.view, float2(0.5f));
@@ -102,7 +102,7 @@ TEST(TemporalUpscaling, IsLeftToTheFilterIfThereIsOne) {
     EXPECT_NE(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
 }
 
-/// Depth of field and reflections work on pixels that have depths; bloom, exposure and what finishes the picture on
+/// Depth of field and reflections work on pixels with depth; bloom, exposure and other post-processing on
 /// all.
 TEST(TemporalUpscaling, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
     std::vector<Image> images;

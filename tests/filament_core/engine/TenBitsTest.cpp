@@ -27,7 +27,7 @@ std::vector<Image> ramps(Format format, std::function<void(View&)> const& set) {
                                            "material.baseColor = vec4(vec3(exp2(getUV0().x * 14.0 - 9.0)), 1.0);"));
         Scene scene(stage.engine);
         double4x4 wide(1);
-        wide[0][0] = kRampSize.x / kRampSize.y; // as wide as the picture
+        wide[0][0] = kRampSize.x / kRampSize.y; // as wide as the image
         stage.square.add(scene, stage.instance, wide);
         View view{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 90 }),
                    .size = kRampSize };
@@ -87,7 +87,7 @@ TEST(TenBits, NeedNoDither) {
     EXPECT_EQ(plain.pixels, dithered.pixels);
 }
 
-/// No picture between the passes has fewer bits.
+/// No image between the passes has fewer bits.
 TEST(TenBits, StayTenThroughTheLastPasses) {
     const size_t plain = greens(ramps(Format::RGB10A2, [](View&) {})[0]);
     const auto kept = [&](std::function<void(View&)> const& set) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What blends, on both APIs, against every pixel's surfaces sorted and blended on the CPU: sorted objects, weighted
+// Transparent objects, on both APIs, against every pixel's surfaces sorted and blended on the CPU: sorted, weighted
 // means and peeled layers; ties, places, samples, and what must not change anything.
 #include "filament_core/prepare/SceneDemand.h"
 #include "tests/filament_core/engine/SkyStage.h"
@@ -24,7 +24,7 @@ using test::onBothApis;
 constexpr uint32_t kPanesSide = 32;
 constexpr float3 kBehindPanes{ 0.25f, 0.5f, 0.125f };
 
-/// A plane of one colour across the whole picture; `color` is multiplied by its alpha.
+/// A plane of one colour across the whole image; `color` is multiplied by its alpha.
 struct Pane {
     float4 color{ 0 };
     double z = 0;                ///< of its middle, where it is sorted
@@ -198,7 +198,7 @@ TEST(Transparency, AWeightedMeanOfOneSurfaceOrOfOneColourIsExact) {
                   roundingOf(3))
                 << alpha;
     }
-    // Only the left half of the picture has the second pane.
+    // Only the left half of the image has the second pane.
     for (const double z : { 3.0, 0.0, -60.0 }) {
         const Pane seen = paneOf({ 0.8f, 0.4f, 0.2f }, 0.3f, z);
         const Image image = onBothApis([&](MaterialStage& stage) {

@@ -14,7 +14,7 @@ constexpr uint2 kTargetSize(80, 64), kViewSize(33, 25), kOffset(21, 30);
 
 size_t bytesAPixel(Format format) { return format == Format::RGBA16F ? 8 : 4; }
 
-/// The part of a picture.
+/// The part of an image.
 std::vector<std::byte> cut(Image const& image, uint2 offset, uint2 size) {
     std::vector<std::byte> bytes;
     const size_t pixel = bytesAPixel(image.format);
@@ -176,7 +176,7 @@ fragment { void material(inout MaterialInputs material) {
     material.baseColor = materialParams.color;
 } })";
 
-/// A view of a pane, pre-multiplied light and alpha, over a picture.
+/// A view of a pane, pre-multiplied light and alpha, over an image.
 struct TranslucentTest : ViewportTest {
     Owned<Material> material = test::loadMaterial(stage.engine, kGlassPane);
     Owned<MaterialInstance> pane = stage.engine.own(stage.engine.createInstance(material));

@@ -18,7 +18,7 @@ public:
     explicit CaseStage(Backend backend, int workers = 1);
     ~CaseStage();
 
-    /// The picture after so many frames with a renderer of their own, and what the last one counted.
+    /// The image after so many frames with a renderer of their own, and what the last one counted.
     Image draw(ViewCase const& viewCase, int frames = 3);
     FrameStatistics const& statistics() const { return mStatistics; }
     uint64_t commands() const { return mCommands; } ///< of the frames of the last draw()

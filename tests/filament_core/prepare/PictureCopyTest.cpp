@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of the picture is copied for what refracts it, and what is drawn before and after that.
+// The part of the scene colour that is copied for refraction, and the draws before and after.
 #include "filament_core/prepare/PictureCopy.h"
 
 #include "tests/filament_core/prepare/BoxScene.h"
@@ -63,7 +63,7 @@ TEST_F(PictureCopyTest, ABoxCoversThePixelsOfItsCorners) {
     float4x4 clip(0.0f);
     clip[0].x = 1, clip[1].y = -1, clip[2].w = -1, clip[3].z = 0.1f;
     const PixelBox box = projectedBox(clip, { 0, 0, -4 }, { 1, 2, 1 }, { 300, 300 });
-    // The near face at distance 3: +-1 / 3 and +-2 / 3 of half the picture.
+    // The near face at distance 3: +-1 / 3 and +-2 / 3 of half the screen.
     EXPECT_NEAR(box.least.x, 100, 1e-3);
     EXPECT_NEAR(box.most.x, 200, 1e-3);
     EXPECT_NEAR(box.least.y, 50, 1e-3);

@@ -61,7 +61,7 @@ Tally compare(ViewInput const& view, uint32_t seed, double farMeters) {
     return tally;
 }
 
-/// Nearly all: a box close to two pixels along a diagonal is not asked about.
+/// Nearly all: a box close to two pixels along a diagonal is not tested.
 void expectFound(Tally const& tally) { EXPECT_GE(tally.missed, 0.99 * tally.small) << "of " << tally.small; }
 
 TEST(PixelGrid, BoxesThatMissAllCentresContainNone) {
@@ -82,7 +82,7 @@ TEST(PixelGrid, KnowsParallelLensesJitterAndGuardBands) {
     expectFound(banded);
 }
 
-// Boxes of eight at a time are asked about exactly where one of them alone would be.
+// Boxes are tested in groups of eight exactly where each alone would be.
 TEST(PixelGrid, EightAreAskedAboutWhereOneIs) {
     const ViewSpace space = makeViewSpace({ .size = { 640, 480 } });
     Random random(9);

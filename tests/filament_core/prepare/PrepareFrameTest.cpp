@@ -342,7 +342,7 @@ TEST_F(PrepareFrameTest, TheHashSeesEveryOptionOfEveryEffect) {
     }
 }
 
-/// Only the picture moves in its pixels: shadow maps and the places of the last frame do not.
+/// Only the view is jittered: shadow maps and previous transforms are not.
 TEST_F(PrepareFrameTest, GatheringMovesThePictureInsideOfItsPixels) {
     add({ 0, 0, 0 }, material(shader::Blending::Opaque));
     view.quality.antiAliasing = AntiAliasing::Taa;
@@ -366,8 +366,8 @@ TEST_F(PrepareFrameTest, GatheringMovesThePictureInsideOfItsPixels) {
     for (const int count : places) EXPECT_NEAR(count, 4, 2) << "evenly";
 }
 
-/// A gathered picture of more pixels than are drawn: another number of them changes neither what is seen nor what was
-/// gathered.
+/// With temporal upscaling, a change of the drawn size changes neither the image nor the
+/// history.
 TEST_F(PrepareFrameTest, GatheringOfALargerPictureSurvivesAnotherScale) {
     add({ 0, 0, 0 }, material(shader::Blending::Opaque));
     view.quality.antiAliasing = AntiAliasing::Taa;

@@ -114,7 +114,7 @@ TEST(Camera, AFocalLengthShowsWhatTheSensorCovers) {
     }
 }
 
-// Four quarters of a picture, each with a lens of its own, are the picture.
+// Four quarters of an image, each with its own lens, add up to the image.
 TEST(Camera, PartsOfAPictureMeet) {
     Camera whole;
     whole.lens = Lens::offCenter(-2, 2, -1, 1);

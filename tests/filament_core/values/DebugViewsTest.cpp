@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and colours of debug views. That pictures have these colours is tested where they are drawn
+// Names and colours of debug views. That images have these colours is tested where they are drawn
 // (tests/filament_core/engine).
 #include <filament/DebugViews.h>
 #include <filament/View.h>

@@ -16,7 +16,7 @@ double3 sunOnWall(View const& view, Look const& look, SunLight const& sun, doubl
 
 /// Every covered pixel of a wall in the plane z = 0 is what sunOnWall() says, cut at what the engine stores at most:
 /// within `relative` of it or 2^-24, the smallest half float. Pixels farther than `radius` from the wall's origin are
-/// not asked.
+/// not tested.
 void expectSunOnWall(Picture const& picture, View const& view, Look const& look, SunLight const& sun, double relative,
                      double radius = 1e9);
 

@@ -16,7 +16,7 @@ namespace {
 using assets::test::kFloat;
 using assets::test::TestFile;
 
-/// A square at z = 0 that fills much of the picture, before it is modified.
+/// A square at z = 0 that fills much of the image, before it is modified.
 struct Square {
     std::vector<float> positions{ -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0 };
     std::vector<float> normals{ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 };

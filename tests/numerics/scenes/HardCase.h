@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HardCase: one row of the table of scenes that break renderers. A feature joins by adding a row.
 ///   Every row is drawn on both APIs, which must agree to the bit, without a word from a validation layer and without
-///   an inf or NaN; on top of that it states what the picture is, in one of three ways:
+///   an inf or NaN; on top of that it states the expected image, in one of three ways:
 ///     twin     another scene of the same appearance (the same one at the origin, at scale 1, with the geometry baked);
 ///              displayed, the two differ by at most `tolerance` of 255
-///     mirrored the twin's picture is this one with left and right swapped
-///     holds    claims about the scene-linear picture, from a closed form in double precision (Exact.h)
+///     mirrored the twin's image is this one with left and right swapped
+///     holds    claims about the scene-linear image, from a closed form in double precision (Exact.h)
 #pragma once
 
 #include "tests/numerics/scenes/Stage.h"

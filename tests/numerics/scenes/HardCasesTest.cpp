@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws every row of the table on both APIs. The pictures are in <build>/hard/.
+// Draws every row of the table on both APIs. The images are in <build>/hard/.
 #include "tests/numerics/scenes/HardCase.h"
 #include "tools/paths/Paths.h"
 

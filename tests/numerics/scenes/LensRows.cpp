@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenses that touch the scene, scenes that extend to the horizon, pictures of one pixel and of one line.
+// Lenses that touch the scene, scenes that extend to the horizon, images of one pixel and of one line.
 #include "tests/numerics/scenes/HardCase.h"
 
 #include <fmt/format.h>

@@ -24,7 +24,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(BothApis, Limits, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& test) { return std::string(toString(test.param)); });
 
-/// The engine's errors for a picture of this size, or nothing if it is drawn.
+/// The engine's errors for an image of this size, or nothing if it is drawn.
 std::vector<std::string> drawEmpty(Engine& engine, uint2 size, bool& hasPixels) {
     Scene scene(engine);
     Renderer renderer(engine);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Picture: one frame twice, as scene-linear half floats and as display bytes, and what can be asked of it.
+/// Picture: one frame twice, as scene-linear half floats and as display bytes, and queries of it.
 ///   Thread  pure functions of values. Fails: never; a missing image has no pixels.
 #pragma once
 

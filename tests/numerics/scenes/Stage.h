@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Stage: what a row of the hard cases builds its scene on. One Device for each API and program, one Stage for each
-/// picture.
+/// image.
 ///   In      looks and shapes by name.  Out: a Picture, scene-linear and as displayed.
 ///   Thread  the app thread. Memory: the stage owns what its scene draws, until the end of its life.
 ///   Fails   a device that is missing is a test failure with its reason.

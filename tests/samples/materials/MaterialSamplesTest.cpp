@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws every material of samples/materials on both APIs: the bits must agree, no validation layer may complain, and
-// without the property that the material shows, the picture must differ.
+// without the property that the material shows, the image must differ.
 // Writes <build>/material-samples/NAME.png, and all of them as sheet.png.
 #include "tests/samples/materials/SampleStage.h"
 #include "tests/samples/materials/SampleTable.h"

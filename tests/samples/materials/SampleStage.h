@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SampleStage: one small picture of a material under a studio's lamps, a sun and a lamp, on either API with
+/// SampleStage: one small image of a material under a studio's lamps, a sun and a lamp, on either API with
 /// validation.
-///   Fails   by failing the running test; the picture is then empty.
+///   Fails   by failing the running test; the image is then empty.
 #pragma once
 
 #include "tests/samples/materials/SampleTable.h"
@@ -26,7 +26,7 @@ size_t differingPixels(Picture const& a, Picture const& b);
 double mean(Picture const& picture);
 float spread(Picture const& picture); ///< standard deviation
 void save(std::string const& name, Picture const& picture);
-/// All pictures saved by this process, in alphabetical order, row by row: sheet.png.
+/// All images saved by this process, in alphabetical order, row by row: sheet.png.
 void saveSheet();
 
 } // namespace filament::samples

@@ -11,7 +11,7 @@
 
 namespace filament::samples {
 
-/// Effect of the property on the mean of the picture.
+/// Effect of the property on the mean of the image.
 enum class Effect : uint8_t { Differs, Brighter, Darker };
 
 struct Sample {

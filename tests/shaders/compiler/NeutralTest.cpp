@@ -71,7 +71,7 @@ std::string materialOf(std::string_view properties, std::string_view code) {
 }
 
 /// The hash of the whole package; 0, and a failure, if the text does not compile. Variants with more lights and with
-/// shadows are left out: they take most of the time and ask for the same terms.
+/// shadows are left out: they take most of the time and use the same terms.
 uint64_t hashOf(std::string const& text) {
     const Result<MaterialPackage> package =
             compileMaterial(text, "a.mat", { .filteredVariants = kVariantPunctual | kVariantShadowReceiver });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BothDevices: a test that runs a rig on Vulkan and on OpenGL ES, and is skipped if one is missing.
 ///   Rig     static std::unique_ptr<Rig> make(backend::BackendType), null if no such device is installed.
-///   Memory  the rigs are created once per process: a context takes longer than a hundred pictures.
+///   Memory  the rigs are created once per process: a context takes longer than a hundred images.
 #pragma once
 
 #include "backend/create/CreateDriver.h"

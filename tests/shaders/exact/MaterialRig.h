@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialRig: draws a grid of bumpy normals with one of the engine's materials on one device, without the engine.
 ///   In      a material, a variant, constants and parameters by name, frame uniforms and lights.
-///   Out     the RGBA32F picture as floats. Fails: the error of the driver.
+///   Out     the RGBA32F image as floats. Fails: the error of the driver.
 #pragma once
 
 #include "backend/create/CreateDriver.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureFixture: pictures of materials on both devices, which must agree to the bit.
+/// PictureFixture: images of materials on both devices, which must agree to the bit.
 #pragma once
 
 #include "tests/shaders/exact/BothDevices.h"
@@ -14,7 +14,7 @@ namespace filament::shader::test {
 class PictureFixture : public BothDevices<MaterialRig> {
 protected:
     /// Renders on both, expects finite values and, except for variants in 16 bits, equal bits. Returns the RGBA
-    /// picture, or nothing after an error.
+    /// image, or nothing after an error.
     static std::vector<float> draw(MaterialScene const& scene) {
         const Result<std::vector<float>> onVulkan = vulkan().render(scene), onGles = gles().render(scene);
         EXPECT_TRUE(onVulkan) << (onVulkan ? "" : onVulkan.error().message) << scene.source;
@@ -31,7 +31,7 @@ protected:
     }
 
 private:
-    /// Compares bits; a missing picture differs.
+    /// Compares bits; a missing image differs.
     static size_t differentValues(std::vector<float> const& a, std::vector<float> const& b) {
         size_t different = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
         for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)

@@ -73,7 +73,7 @@ TEST(EngineMaterials, AreSearchedForDerivativesInTheOrderOfCalls) {
     EXPECT_FALSE(derivativesOf("void main() { o = dFdy(v); }").hasDiscard);
 }
 
-/// Drivers may stop at a discard; neighbours then have undefined derivatives. On Mesa no picture shows it.
+/// Drivers may stop at a discard; neighbours then have undefined derivatives. On Mesa no image shows it.
 TEST(EngineMaterials, TakeDerivativesBeforeTheyDiscard) {
     size_t discarding = 0, differentiating = 0;
     for (const std::string_view name : engineMaterialNames()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures of real rows, on both APIs.
+// Small images of real rows, on both APIs.
 #include "tools/accuracy/Measure.h"
 #include "tools/paths/Paths.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statistics and distances of pictures, compared with closed forms.
+// Statistics and distances of images, compared with closed forms.
 #include "base/math/Half.h"
 #include "tools/accuracy/Picture.h"
 #include "tools/accuracy/Statistics.h"

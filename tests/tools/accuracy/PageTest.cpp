@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report's pictures are files in a folder with the page's name: every picture that a page shows exists, and those
+// The report's images are files in a folder with the page's name: every image that a page shows exists, and those
 // of an earlier report are deleted.
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/PagePictures.h"

@@ -25,7 +25,7 @@ protected:
     Path here() const { return mFolder / "here"; }
     Path there() const { return mFolder / "debian-13"; }
 
-    /// A case whose picture has one grey, but for a pixel.
+    /// A case whose image has one grey, except for a pixel.
     CaseResult drawn(Path const& folder, const char* name, uint8_t pixel,
                      std::vector<AttachmentHash> attachments = {}) {
         Image image = grey(100, 4);

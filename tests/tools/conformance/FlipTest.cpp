@@ -25,7 +25,7 @@ TEST(Flip, IsSymmetricAndGrowsWithTheDifference) {
 // The paper's largest distance is that between these two, and its error is 1.
 TEST(Flip, OfGreenAndBlueIsOne) { EXPECT_NEAR(flip(flat({ 0, 255, 0 }), flat({ 0, 0, 255 })).mean, 1, 1e-5); }
 
-/// The eye's filters do not change a picture of one colour, and it has no features. For two greys only the distance of
+/// The eye's filters do not change an image of one colour, and it has no features. For two greys only the distance of
 /// their lightness (CIE L*), its power and its redistribution remain, computed here in double precision.
 double flipOfGreys(double codeA, double codeB) {
     const auto lightness = [](double code) {

@@ -107,7 +107,7 @@ protected:
             GTEST_SKIP() << "no bits are promised here: the processor lacks AVX or FMA";
     }
 
-    /// Draws a finished run with these cases, whose pictures exist, again on `machine`.
+    /// Draws a finished run with these cases, whose images exist, again on `machine`.
     Results drawn(std::string const& machine, std::vector<std::string> const& names) {
         Results results;
         for (std::string const& name : names) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Generated pictures for the tests of comparisons.
+/// Generated images for the tests of comparisons.
 #pragma once
 
 #include <filament/Image.h>

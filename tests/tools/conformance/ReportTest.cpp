@@ -32,7 +32,7 @@ size_t countOf(std::string const& text, std::string_view part) {
     return count;
 }
 
-/// One case of each status; the failed one differs in a picture and missed a mutant.
+/// One case of each status; the failed one differs in an image and missed a mutant.
 Results mixedResults() {
     const Comparison equal{ .configuration = "gles", .passed = true };
     const Comparison differs{ .configuration = "gles",
@@ -72,7 +72,7 @@ TEST(Html, HoldsItsPicturesAndNeedsNothingElse) {
     for (const char* name : { "reference.png", "test.png", "difference.png" })
         ASSERT_TRUE(savePng(folder / name, grey(100, 4)).ok());
     const std::string html = htmlOf(mixedResults(), folder);
-    // Reference, test and difference, and both pictures in turn.
+    // Reference, test and difference, and both images in turn.
     EXPECT_EQ(countOf(html, "<img "), 5u);
     EXPECT_EQ(countOf(html, "src=\"data:image/png;base64,iVBORw0KGgo"), 5u) << "every picture is a PNG in the page";
     EXPECT_EQ(html.find("http"), std::string::npos);
@@ -203,7 +203,7 @@ TEST(Baselines, GoByTheThumbnailOnAnotherMachineAndSaySo) {
     EXPECT_FALSE(baselines.check("case", grey(110), kThere).passed);
 }
 
-/// With another version of Mesa that draws the same bits, but for one case.
+/// With another version of Mesa that draws the same bits, except for one case.
 TEST(Baselines, HoldBitForBitForTheVersionsThatTheyList) {
     const Path file = freshFolder("versions") / "baselines.json";
     Baselines baselines = stored(grey(100));

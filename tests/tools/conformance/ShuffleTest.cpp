@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of --shuffle, and that pictures do not depend on it.
+// The order of --shuffle, and that images do not depend on it.
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/Dice.h"
 #include "tools/paths/Paths.h"

@@ -121,7 +121,7 @@ TEST_F(RenderProgram, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
     EXPECT_EQ(textOf(sFolder / "saved" / "frame" / "picture.png"), textOf(sFolder / "saved" / "gles.png"));
     const auto frame = nlohmann::json::parse(textOf(sFolder / "saved" / "frame" / "frame.json"));
     EXPECT_EQ(frame["settings"]["arguments"][0], "triangle.gltf");
-    ASSERT_EQ(frame["traces"].size(), 2u); // also of the API that the command line did not ask for
+    ASSERT_EQ(frame["traces"].size(), 2u); // also of the API that the command line did not request
     for (auto const& trace : frame["traces"]) {
         EXPECT_EQ(trace["problem"], "");
         EXPECT_EQ(trace["pictures"][0]["hash"], frame["pictures"][0]["hash"]);

@@ -109,7 +109,7 @@ class Plot(unittest.TestCase):
         return (self.folder / output).read_bytes()
 
     def texts(self, command, content, *more):
-        """All text of the picture."""
+        """All text of the image."""
         root = xml.etree.ElementTree.fromstring(self.drawn(command, content, *more, output="out.svg"))
         return " ".join("".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text"))
 

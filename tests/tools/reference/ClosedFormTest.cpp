@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes whose picture is a formula: the reference agrees within its stated error.
+// Scenes whose image is a formula: the reference agrees within its stated error.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "tools/reference/DirectionalAlbedo.h"

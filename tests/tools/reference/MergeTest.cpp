@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture in parts: whichever way it is divided, the parts merge to the bits of one run, and what is no complete
-// picture is refused with its file.
+// An image in parts: whichever way it is divided, the parts merge to the bits of one run, and what is no complete
+// image is refused with its file.
 #include "tools/reference/Merge.h"
 #include "tests/fuzz/FilmFileFuzzBody.h"
 #include "tests/tools/reference/TestScenes.h"

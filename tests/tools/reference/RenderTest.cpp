@@ -57,7 +57,7 @@ TEST(Render, AnotherSeedGivesAnotherPictureOfTheSameScene) {
     }
 }
 
-// The error estimate of one picture compared with the spread of 24 pictures: for the mean over pixels, and pixel by
+// The error estimate of one image compared with the spread of 24 images: for the mean over pixels, and pixel by
 // pixel.
 TEST(Render, StatesTheErrorThatItMakes) {
     ReferenceSettings settings{ .samplesPerPixel = 64 };

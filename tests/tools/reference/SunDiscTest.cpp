@@ -50,7 +50,7 @@ TEST(SunDiscs, FadeTowardsTheEdgeOfTheirHalo) {
     EXPECT_GT(seenAt(179, 20, 1000, 0), 0) << "the halo is all of the sky";
 }
 
-// The sum over the picture's pixels, each times its solid angle and cosine.
+// The sum over the image's pixels, each times its solid angle and cosine.
 TEST(SunDiscs, BringTheirIlluminanceToTheCamera) {
     ReferenceScene scene{ .models = { { makeModel(floorPrimitive(), metal(0.0f, float3(1))) } } };
     scene.suns = { { .directionWorld = { 0, 0.2f, 1 },

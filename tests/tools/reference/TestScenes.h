@@ -20,7 +20,7 @@ namespace filament::reference {
 
 inline constexpr double kPiExact = std::numbers::pi;
 
-/// The exposure with factor 1: pictures show lux and radiance unchanged.
+/// The exposure with factor 1: images show lux and radiance unchanged.
 inline Exposure plainExposure() { return { .aperture = 1, .shutterSeconds = 1.2f, .iso = 100 }; }
 
 struct TestVertex {
@@ -141,7 +141,7 @@ inline assets::MaterialData metal(float roughness, float3 color = float3(1.0f)) 
     return material;
 }
 
-/// A picture whose pixel in direction d is sky(d).
+/// An image whose pixel in direction d is sky(d).
 inline std::shared_ptr<assets::HdrImage> makeSky(uint32_t height, std::function<float3(double3)> const& sky) {
     auto image = std::make_shared<assets::HdrImage>();
     image->width = 2 * height;
@@ -160,12 +160,12 @@ inline ReferenceEnvironment uniformSky(float radiance = 1) {
     return { .image = makeSky(8, [=](double3) { return float3(radiance); }), .illuminance = Lux{ 1 } };
 }
 
-/// Looks from `eye` at `at` through a narrow lens, so that a small picture covers almost a single direction.
+/// Looks from `eye` at `at` through a narrow lens, so that a small image covers almost a single direction.
 inline ReferenceView viewFrom(double3 eye, double3 at, uint2 size = { 8, 8 }, float fovDegrees = 1) {
     return { .camera = Camera::lookAt(eye, at, { .verticalFovDegrees = fovDegrees }, plainExposure()), .size = size };
 }
 
-/// Mean of a picture and the standard error of that mean: pixels are independent.
+/// Mean of an image and the standard error of that mean: pixels are independent.
 struct Estimate {
     double3 mean{ 0.0 }, error{ 0.0 };
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light through sheets and solids: scenes whose picture is a formula.
+// Light through sheets and solids: scenes whose image is a formula.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "shaders/lib/LibCppDouble.h"

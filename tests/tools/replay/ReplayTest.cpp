@@ -109,7 +109,7 @@ TEST_F(ReplayFolder, SteppingThroughAllDrawsEndsWithTheRecordedPicture) {
     EXPECT_TRUE(stepped.isEqual) << stepped.text;
     for (size_t i = 1; i <= mFrame.draws.size(); ++i)
         EXPECT_THAT(stepped.text, HasSubstr("after draw " + std::to_string(i) + " '"));
-    // The last pass draws the picture; its files are in reading order.
+    // The last pass draws the image; its files are in reading order.
     std::string last;
     for (auto const& file : std::filesystem::directory_iterator(mOptions.step)) {
         const std::string name = file.path().filename().string();

@@ -94,7 +94,7 @@ TEST(Textures, ADimpleIsAHollow) {
     EXPECT_GT(texel(set.normal, 8, row).x, 0.55f);
     EXPECT_LT(texel(set.normal, 24, row).x, 0.45f);
     EXPECT_GT(texel(set.normal, 16, row).z, 0.99f);
-    EXPECT_LT(texel(set.normal, 16, 8).y, 0.45f); // above the centre it leans down the picture
+    EXPECT_LT(texel(set.normal, 16, 8).y, 0.45f); // above the centre it leans down the image
     EXPECT_GT(texel(set.normal, 16, 24).y, 0.55f);
 }
 

@@ -30,7 +30,7 @@ protected:
     Result<EnvironmentData> loadBytes(PackageBytes const& bytes) {
         return loadEnvironmentFromMemory(bytes, "sky.ktx2", mJobs, mOptions);
     }
-    /// What the package of the picture says.
+    /// The metadata of the package.
     PackageBytes package() {
         const auto data = load("sky.hdr");
         return data ? encodeEnvironmentPackage(*data) : PackageBytes();
@@ -174,7 +174,7 @@ TEST_F(EnvironmentPackageTest, ChangedBytesAreRefusedOrWhole) {
     EXPECT_LT(read, 1100u);
 }
 
-// The cube of a picture, texel by texel.
+// The cube of an image, texel by texel.
 IblCubeLevel radianceCube(uint32_t size) {
     IblCubeLevel level(size);
     for (uint32_t face = 0; face < 6; ++face) {

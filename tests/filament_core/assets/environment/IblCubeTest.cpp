@@ -61,7 +61,7 @@ TEST_F(IblCubeTest, DirectionsAndPixelsOfThePictureAreInverses) {
     }
 }
 
-// Six pixels of the picture have colours; their places follow by hand from u = 0.5 - atan2(x, z) / 2pi, v = acos(y) /
+// Six pixels of the image have colours; their places follow by hand from u = 0.5 - atan2(x, z) / 2pi, v = acos(y) /
 // pi.
 TEST_F(IblCubeTest, SixColouredDirectionsLandOnTheirFacesAndTexels) {
     HdrImage image{ .width = 512, .height = 256, .pixels = std::vector<float3>(512 * 256), .repairs = {} };
@@ -117,7 +117,7 @@ TEST_F(IblCubeTest, AConstantSkyStaysConstantOnEveryLevelAndBorder) {
     }
 }
 
-// A sun of a few pixels, at places where the picture is distorted in different ways.
+// A sun of a few pixels, at places where the image is distorted in different ways.
 TEST_F(IblCubeTest, TheEnergyOfASmallBrightDiscIsTheSameInThePictureAndOnAllLevels) {
     for (const float3 sun :
          { float3(0.3f, 0.2f, 0.9f), float3(1, 1, 1), float3(0.02f, 1, 0.01f), float3(0, 0.1f, -1) }) {

@@ -263,7 +263,7 @@ TEST(GltfBrokenFile, TransformsThatOverflowAreRefused) {
     EXPECT_THAT(refusal(file), HasSubstr("nodes[1]: its transform is not finite"));
 }
 
-// A scene has 2^20 handles of a type; a file of some kilobytes can ask for more.
+// A scene has 2^20 handles of a type; a file of some kilobytes can request more.
 TEST(GltfBrokenFile, ScenesOfMoreNodesThanTheEngineHoldsAreRefused) {
     TestFile file = TestFile::triangle();
     const size_t translations =

@@ -20,7 +20,7 @@ Bytes png(uint8_t grey) {
     return glbImageFromPixels("image", 2, 1, std::as_bytes(std::span(pixels)))->file;
 }
 
-/// Only the header: a picture of size x size pixels that has none.
+/// Only the header: an image of size x size pixels that has none.
 Bytes pngHeader(uint32_t size) {
     Bytes file = png(0);
     for (const size_t at : { 16, 20 }) {
@@ -88,7 +88,7 @@ TEST_F(GltfImages, OneRangeOfABufferThatManyViewsNameIsDecodedOnce) {
     EXPECT_EQ(model->materials[0].baseColor.image, model->materials[1].baseColor.image);
 }
 
-// Nine pictures of 16384 x 16384 would take 9 GiB; the file has a kilobyte.
+// Nine images of 16384 x 16384 would take 9 GiB; the file has a kilobyte.
 TEST_F(GltfImages, PicturesBeyondTheBudgetAreRefusedBeforeTheyAreDecoded) {
     TestFile file = manyMaterials(9);
     for (uint32_t i = 0; i < 9; ++i) {

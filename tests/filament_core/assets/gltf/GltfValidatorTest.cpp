@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 enum class Answer : uint8_t {
     Error,   ///< the file is refused
-    Warning, ///< it is mended, and says so
+    Warning, ///< repaired with a warning
     Ignored, ///< loaded without a word; the reason stands in the row
 };
 
@@ -235,7 +235,7 @@ struct Container {
         int claims = 0; ///< bytes that its header claims beyond those that are there
     };
     uint32_t magic = 0x46546C67, version = 2;
-    int claims = 0; ///< the same of the whole
+    int claims = 0; ///< of all files
     std::vector<Chunk> chunks;
     std::string rest;  ///< behind the last chunk, counted by the length
     std::string extra; ///< behind that, and not counted

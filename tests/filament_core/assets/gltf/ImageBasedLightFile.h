@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ImageBasedLightFile: glTF files with an image-based light whose pictures are functions of face and pixel.
+/// ImageBasedLightFile: glTF files with an image-based light whose images are functions of face and pixel.
 #pragma once
 
 #include "filament_core/assets/gltf/GltfWriter.h"

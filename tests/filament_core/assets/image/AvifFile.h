@@ -24,7 +24,7 @@ struct AvifFile {
     avifTransferCharacteristics transfer = AVIF_TRANSFER_CHARACTERISTICS_SRGB;
     bool hasAlpha = false, isPremultiplied = false;
     uint32_t pictures = 1;
-    std::function<void(avifImage&)> change{}; ///< of the picture before it is written
+    std::function<void(avifImage&)> change{}; ///< of the image before it is written
     /// Planes are luma, chroma, chroma, alpha; of the identity green, blue, red, alpha.
     std::function<uint32_t(uint32_t plane, uint2 at)> code = [](uint32_t plane, uint2 at) {
         return 40 * plane + 7 * at.x + 11 * at.y + 10;

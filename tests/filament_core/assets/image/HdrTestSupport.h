@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the tests of pictures and environments: a temporary folder, pictures generated from a function.
+/// Shared by the tests of images and environments: a temporary folder, images generated from a function.
 #pragma once
 
 #include "filament_core/assets/environment/IblDirections.h"
@@ -36,7 +36,7 @@ private:
     std::filesystem::path mPath;
 };
 
-/// An equirectangular picture of radiance(direction), `samples` x `samples` points a pixel.
+/// An equirectangular image of radiance(direction), `samples` x `samples` points a pixel.
 template <class F>
 HdrImage pictureOf(uint32_t height, F&& radiance, uint32_t samples = 1) {
     HdrImage image{ .width = 2 * height, .height = height, .pixels = {}, .repairs = {} };

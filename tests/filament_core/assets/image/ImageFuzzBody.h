@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay tests: for any bytes, decoding a picture gives an error with the picture's name,
+/// Shared by the fuzzer and the replay tests: for any bytes, decoding an image gives an error with the image's name,
 /// or as many pixels as the header says; and the same twice.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace filament::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 
-/// PNG, JPEG, WebP and AVIF. Returns whether it was a picture.
+/// PNG, JPEG, WebP and AVIF. Returns whether it was an image.
 inline bool fuzzImage(std::span<const std::byte> bytes) {
     isCutShortPng(bytes);
     const uint2 size = imageSize(bytes);
@@ -46,7 +46,7 @@ inline bool fuzzImage(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Radiance .hdr and OpenEXR. Returns whether it was a picture.
+/// Radiance .hdr and OpenEXR. Returns whether it was an image.
 inline bool fuzzHdrImage(std::span<const std::byte> bytes) {
     const Result<HdrImage> image = decodeHdrImage(bytes, "fuzzed");
     if (!image) {
@@ -66,7 +66,7 @@ inline bool fuzzHdrImage(std::span<const std::byte> bytes) {
     return true;
 }
 
-/// Any kind of picture, as loadImage() decodes it.
+/// Any kind of image, as loadImage() decodes it.
 inline void fuzzPicture(std::span<const std::byte> bytes) {
     if (isKtx2(bytes)) return; // tests/fuzz/TextureFuzzBody.h
     const uint2 size = imageSize(bytes);

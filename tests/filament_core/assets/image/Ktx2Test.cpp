@@ -315,7 +315,7 @@ TEST(Ktx2, FilesOfBasisUniversalHaveTheTexelsOfItsOwnDecoder) {
     const Result<Image> colors = decodeImage(fileOf("etc1s.png"), "etc1s.png");
     ASSERT_TRUE(colors) << colors.error().message;
     for (size_t i = 0; i < colors->data.size(); ++i) {
-        const bool isAlpha = i % 4 == 3; // which the picture does not have
+        const bool isAlpha = i % 4 == 3; // which the image does not have
         ASSERT_TRUE(isAlpha || etc1s->image.data[i] == colors->data[i]) << i;
     }
     const Result<Ktx2Texture> uastc = decodeKtx2(fileOf("uastc.ktx2"), "uastc.ktx2");

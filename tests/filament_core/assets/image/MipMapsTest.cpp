@@ -196,7 +196,7 @@ TEST(MipMaps, DeepPicturesKeepTheirBitsInEveryLevel) {
             };
             for (size_t i = 0; i < base.codes.size(); ++i)
                 EXPECT_NEAR(halfAt(image, 0, i), exact(i), exact(i) / 2048) << "half a step of a half";
-            for (size_t c = 0; c < 4; ++c) { // the smallest level of a picture of even sizes is the mean of all
+            for (size_t c = 0; c < 4; ++c) { // the smallest level of an image of even sizes is the mean of all
                 if (width != 8) break;
                 double sum = 0;
                 for (size_t i = c; i < base.codes.size(); i += 4) sum += exact(i);

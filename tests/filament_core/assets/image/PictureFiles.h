@@ -21,7 +21,7 @@ std::string pngKindName(PngKind const& kind);
 
 struct PngFile {
     std::vector<std::byte> bytes, rgba;
-    std::vector<uint16_t> deep; ///< the same pixels with 16 bits a channel
+    std::vector<uint16_t> deep; ///< of the pixels with 16 bits a channel
 };
 PngFile makePng(PngKind const& kind, uint32_t width, uint32_t height);
 

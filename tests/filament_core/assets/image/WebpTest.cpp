@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A smooth picture with all kinds of alpha.
+/// A smooth image with all kinds of alpha.
 std::vector<uint8_t> webpPixels(uint32_t width, uint32_t height) {
     std::vector<uint8_t> pixels;
     for (uint32_t y = 0; y < height; ++y) {
@@ -49,7 +49,7 @@ TEST(Webp, ALosslessPictureHasThePixelsThatWereWritten) {
     EXPECT_EQ(imageSize(file), uint2(19, 13));
     const std::vector<uint8_t> pixels = webpPixels(19, 13);
     for (size_t i = 0; i < pixels.size(); i += 4) {
-        if (pixels[i + 3] == 0) continue; // the encoder drops colours that nobody sees
+        if (pixels[i + 3] == 0) continue; // the encoder drops invisible colours
         EXPECT_EQ(std::memcmp(&image->data[i], &pixels[i], 4), 0) << i / 4;
     }
 }

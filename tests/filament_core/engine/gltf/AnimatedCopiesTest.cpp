@@ -148,7 +148,7 @@ protected:
         if (engine) test::expectNoErrors(*engine);
     }
 
-    /// What is seen at a point of the plane z = 0.
+    /// The colour at a point of the plane z = 0.
     float4 colorAt(double x, double y = 0) {
         const View view{ .camera = Camera::lookAt({ x, y, 0.2 }, { x, y, 0 }, { .verticalFovDegrees = 10 }),
                          .size = { 1, 1 } };

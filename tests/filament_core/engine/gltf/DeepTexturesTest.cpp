@@ -30,7 +30,7 @@ std::vector<std::byte> finePng() {
     return *assets::readFileBytes(file);
 }
 
-/// A square in the middle of which the picture has one texel a pixel; `size`: of the view.
+/// A square with one texel per pixel at its centre; `size`: of the view.
 Image fineSquare(uint32_t size) {
     assets::GlbScene scene{ .images = { { "fine", finePng() } } };
     assets::MaterialData material{ .name = "fine", .unlit = true };
@@ -67,7 +67,7 @@ TEST(DeepTextures, MoreThan8BitsReachTheShader) {
     EXPECT_GT(test::halfPixel(seen, 7, 7).y, test::halfPixel(seen, 0, 0).y);
 }
 
-// The mean light of the picture, between those of its first and last code.
+// The mean light of the image, between those of its first and last code.
 TEST(DeepTextures, TheirMipsAreSeen) {
     const Image all = fineSquare(kFineSide), one = fineSquare(1);
     float sum = 0;

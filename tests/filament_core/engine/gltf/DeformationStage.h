@@ -95,7 +95,7 @@ public:
     View view;
 };
 
-/// The picture, which both devices must draw identically and without messages.
+/// The image, which both devices must draw identically and without messages.
 inline Image drawOnBoth(std::function<void(DeformationStage&)> const& build) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {

@@ -49,7 +49,7 @@ uint32_t pixelTowards(float3 world) {
     return pixelOfWorld(point.face, texelIndex(point.s), texelIndex(point.t));
 }
 
-/// The direction of glTF that a pixel of the extension's pictures shows: see GltfEnvironment.h.
+/// The direction of glTF that a pixel of the extension's images shows: see GltfEnvironment.h.
 float3 directionOfPixel(uint32_t face, uint32_t x, uint32_t y, uint32_t side) {
     const float s = faceCoordinate(static_cast<int>(x), side), t = faceCoordinate(static_cast<int>(y), side);
     const std::array<float3, 6> directions{ float3(1, t, s),   float3(-1, t, -s), float3(s, 1, t),
@@ -161,7 +161,7 @@ struct WorldObjects {
 
 void fromTextures(MaterialStage& stage) { stage.keep(std::make_shared<WorldObjects>(stage)); }
 
-/// The world's cube, filtered as textures are, as an equirectangular picture.
+/// The world's cube, filtered as textures are, as an equirectangular image.
 void fromPicture(MaterialStage& stage) {
     assets::IblCubeLevel level(kFaceTexels);
     for (uint32_t i = 0; i < 6 * kFaceTexels * kFaceTexels; ++i) {
@@ -239,7 +239,7 @@ TEST(ImageBasedLight, AFileDrawsWhatAPictureOfTheSameSkyDraws) {
     }
 }
 
-// Rotations of files by quarter turns, whose pictures show the world turned back.
+// Rotations of files by quarter turns, whose images show the world turned back.
 TEST(ImageBasedLight, AFileThatIsTurnedAboutAnyAxisDrawsTheSame) {
     const Image straight = ballUnder(fromModel(fileOfWorld("world.glb")));
     const double half = std::sqrt(0.5);
@@ -286,7 +286,7 @@ TEST(ImageBasedLight, AWhiteSurfaceUnderAWhiteSkyIsAsBrightAsTheIntensity) {
 
 // ---- roughness
 
-// Each of five levels has another radiance; linear in perceptual roughness, whatever a picture's mapping would be.
+// Each of five levels has another radiance; linear in perceptual roughness, whatever an image's mapping would be.
 TEST(ImageBasedLight, LevelsAreThoseOfPerceptualRoughness) {
     GlbScene scene;
     scene.imageBasedLight =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MSFT_lod in scenes: the finest level alone, at any distance, or the one that a view asks for. A scene with it has the
+// MSFT_lod in scenes: the finest level alone, at any distance, or the one that a view selects. A scene with it has the
 // bits of one that has nothing else.
 #include "tests/filament_core/engine/RenderFixture.h"
 
@@ -44,7 +44,7 @@ std::string squares(std::string const& extension, std::string const& roots) {
 constexpr const char* kLevels =
         R"(, "extensions": { "MSFT_lod": { "ids": [ 1, 2 ] } }, "extras": { "MSFT_screencoverage": [ 0.5, 0.1, 0.01 ] })";
 
-/// From near, and from where the squares cover a thousandth of the picture.
+/// From near, and from where the squares cover a thousandth of the screen.
 std::vector<Image> draw(Backend backend, std::string const& file) {
     auto engine = test::makeEngine(backend);
     if (!engine) return {};
@@ -119,7 +119,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Apis, ChosenLevels, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& api) { return std::string(toString(api.param)); });
 
-/// The sphere around the finest square has R^2 = 1/2 m^2, and the picture 2 x 8/3 m^2 at 1 m.
+/// The sphere around the finest square has R^2 = 1/2 m^2, and the screen 2 x 8/3 m^2 at 1 m.
 double coverageFrom(double meters) { return 3.14159265358979 * 0.5 / (2 * 8.0 / 3 * meters * meters); }
 
 TEST_P(ChosenLevels, AreThoseThatTheirCoverageAsksFor) {

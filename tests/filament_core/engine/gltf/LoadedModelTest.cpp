@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Files, AnimatedModel, testing::ValuesIn(playedModels())
     return name;
 });
 
-/// Models whose pictures are not needed.
+/// Models whose images are not needed.
 class OnNullDevice : public test::AssetTest {
 protected:
     Result<Model> load(const char* file) { return loadGltf(*engine, tools::assetDir() / "models" / file); }

@@ -96,7 +96,7 @@ protected:
 
     ModelCopy copy(Node root) { return ModelCopy::of(*scene, root).value(); }
 
-    /// What is seen at a point of the plane z = 0.
+    /// The colour at a point of the plane z = 0.
     float4 colorAt(double x, double y) {
         const View view{ .camera = Camera::lookAt({ x, y, 0.2 }, { x, y, 0 }, { .verticalFovDegrees = 10 }),
                          .size = { 1, 1 } };

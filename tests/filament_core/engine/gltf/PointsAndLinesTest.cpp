@@ -30,7 +30,7 @@ std::vector<float> repeated(std::initializer_list<float> value, size_t count) {
     return values;
 }
 
-/// A horizontal line through the centres of a row of pixels, which lies in the plane z = 0 and fills the picture.
+/// A horizontal line through the centres of a row of pixels, which lies in the plane z = 0 and fills the image.
 TestFile lineFile(const char* material) {
     TestFile file;
     file.positions({ -1, 1.0f / kPixelsASide, 0, 1, 1.0f / kPixelsASide, 0 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins on both devices, compared with rigid transforms, whose pictures are known.
+// Skins on both devices, compared with rigid transforms, whose images are known.
 #include "tests/filament_core/engine/gltf/DeformationStage.h"
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -16,9 +16,9 @@ using test::halfPixel;
 using test::MaterialStage;
 using test::onBothApis;
 
-constexpr uint32_t kSide = 32; // the square covers the whole picture
+constexpr uint32_t kSide = 32; // the square covers the whole image
 
-/// White, with an alpha that rises slowly across the picture; the edge leans a little.
+/// White, with an alpha that rises slowly across the image; the edge leans a little.
 std::string ramp(std::string_view properties) {
     return fmt::format(R"(material {{ shadingModel : unlit, blending : masked, requires : [ uv0 ], {} }}
 fragment {{ void material(inout MaterialInputs material) {{
@@ -120,7 +120,7 @@ fragment {{ void material(inout MaterialInputs material) {{
     }
 }
 
-/// A leaf: an alpha from a texture with mip levels, at a slant. What is covered in the mean is what 8 x 8 single
+/// A leaf: an alpha from a texture with mip levels, at grazing angles. The mean coverage is that of 8 x 8 single
 /// samples cut out.
 TEST(AlphaToCoverage, OfALeafCoversWhatManySamplesCutOut) {
     constexpr uint32_t kTexels = 64;

@@ -60,7 +60,7 @@ void addWires(MaterialStage& stage, Mesh const& mesh, MaterialInstance material,
                       .culled = false });
 }
 
-/// A plane of 8 m that looks at the camera, 4 m away, and fills the picture.
+/// A plane of 8 m that faces the camera, 4 m away, and fills the screen.
 Mesh wallMesh() {
     Mesh mesh = std::move(*makePlane({ 8, 8, 2, 2 }));
     for (MeshVertex& vertex : mesh.vertices) {
@@ -209,7 +209,7 @@ size_t wirePixels(Image const& image) {
 }
 
 /// In view: a vertical and a horizontal through the middle, and one diagonal; the others pass the corners of the
-/// picture.
+/// image.
 size_t expectedWirePixels(double width) {
     size_t count = 0;
     for (int y = 0; y < 64; ++y) {
@@ -234,7 +234,7 @@ TEST(Wireframe, LinesHaveTheirWidthInPixels) {
     EXPECT_EQ(drawn(0), 0);
 }
 
-// 45 degrees, and 22.5 more at the rim of the picture: less than the 76 of the bias.
+// 45 degrees, and 22.5 more at the rim of the image: less than the 76 of the bias.
 TEST(Wireframe, LinesHideTheSurfaceWhoseEdgesTheyAre) {
     const auto biased = [](float slope, float width) {
         return [=](Engine& engine, MaterialInstance wires) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opaque materials without depth test or depth writes (materials guide, 4.2.24 and 4.2.25): their place in the drawing
-// order, as pictures on both APIs.
+// order, as images on both APIs.
 #include "tests/filament_core/engine/SkyStage.h"
 
 namespace filament {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Materials from their text, and a picture that one of them fills.
+/// Materials from their text, and an image that one of them fills.
 #pragma once
 
 #include "tests/filament_core/engine/CompiledMaterials.h"
@@ -66,7 +66,7 @@ public:
     VertexBuffer vertices() const { return mVertices; }
     IndexBuffer indices() const { return mIndices; }
 
-    /// The square fills the picture.
+    /// The square fills the image.
     static View view(uint2 size = { 16, 16 }) {
         return { .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 80 }), .size = size };
     }
@@ -97,7 +97,7 @@ private:
     }
 };
 
-/// The pixel in the middle of a picture of the square, scene-linear.
+/// The pixel in the middle of an image of the square, scene-linear.
 inline float4 shownBy(Engine& engine, MaterialInstance material) {
     const SquareMesh square(engine);
     Scene scene(engine);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialStage: an engine with materials from .mat text and a few meshes, for pictures whose colours are known.
+/// MaterialStage: an engine with materials from .mat text and a few meshes, for images whose colours are known.
 ///   onBothApis() builds the same stage on Vulkan and OpenGL ES with validation, expects no errors and equal bits, and
-///   returns the picture: scene-linear half floats.
+///   returns the image: scene-linear half floats.
 #pragma once
 
 #include "tests/filament_core/engine/CompiledMaterials.h"
@@ -19,7 +19,7 @@ struct StageVertex {
     float2 uv{ 0 };
 };
 
-/// A square around the z axis that covers the whole picture, of one colour.
+/// A square around the z axis that covers the whole image, of one colour.
 struct Square {
     float z = 0;
     float4 color{ 1 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material's blending, passes, faces and interpolation as pictures whose colours follow from simple arithmetic; the
+// A material's blending, passes, faces and interpolation as images whose colours follow from simple arithmetic; the
 // same bits on both APIs.
 #include "base/Log.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
@@ -327,7 +327,7 @@ fragment { void material(inout MaterialInputs material) {
 } })");
         stage.add(instance, { { .z = -1 }, { .z = 0 } }); // the second square has the vertices 4 to 7
     });
-    const float4 center = halfPixel(picture, 4, 4); // on the diagonal between vertices 4 and 6, but for half a pixel
+    const float4 center = halfPixel(picture, 4, 4); // on the diagonal between vertices 4 and 6, except for half a pixel
     EXPECT_NEAR(center.x, 5, 0.1);
     EXPECT_EQ(center.x, center.y);
     EXPECT_EQ(float2(center.z, center.w), float2(0, 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of the picture on both APIs: a mirror on the floor shows the wall behind it where its image is, from the
+// Screen-space reflections on both APIs: a mirror on the floor shows the mirror image of the wall behind it, from the
 // second frame on.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
@@ -80,7 +80,7 @@ private:
     std::vector<Owned<MaterialInstance>> mInstances;
 };
 
-/// The pictures of both APIs after `frames`, which have the same bits.
+/// The images of both APIs after `frames`, which have the same bits.
 Image mirrored(
         int frames, std::function<void(MirrorRoom&, int)> const& change = [](MirrorRoom&, int) {},
         std::string const& floor = floorText("reflections : screenspace")) {
@@ -120,7 +120,7 @@ std::optional<double3> mirroredPoint(Camera const& camera, uint2 size, uint32_t 
     return floor + up * ((kWallZ - floor.z) / up.z);
 }
 
-/// Whether a camera shows a point well inside of its picture.
+/// Whether a camera shows a point well inside of its image.
 bool isShown(Camera const& camera, uint2 size, double3 point, double border) {
     const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
     const double4 clip =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refraction of the picture on both APIs: what is seen through panes, slabs and rough glass has a closed form.
+// Screen-space refraction on both APIs: the image through panes, slabs and rough glass has a closed form.
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
@@ -101,7 +101,7 @@ TEST(PictureRefraction, ASolidTintsByItsThickness) {
     expectNear(float4(tinted / clear, 1), glm::exp(-float3(0.3f, 1, 3) * 0.7f), 3e-3f);
 }
 
-/// Row `y` of a picture of kEdge: the column, in pixels, at which it has this share of the white to the right.
+/// Row `y` of an image of kEdge: the column, in pixels, at which it has this share of the white to the right.
 double crossing(Image const& image, uint32_t y, double share) {
     const double white = halfPixel(image, image.width - 1, y).x;
     for (uint32_t x = 1; x < image.width; ++x) {
@@ -171,7 +171,7 @@ TEST(PictureRefraction, RoughGlassDoesNotBlurWhatItTouches) {
     }
 }
 
-/// How far left of the picture a ray ends that a block turned by 60 degrees about y bends, in pixels.
+/// How far left of the screen a ray ends that a block turned by 60 degrees about y bends, in pixels.
 double beyondTheLeftEdge(uint32_t x, double2 size, double thickness) {
     const double3 n(std::sin(glm::radians(60.0)), 0, 0.5);
     const double half = std::tan(glm::radians(22.5)) * size.x / size.y;
@@ -182,7 +182,7 @@ double beyondTheLeftEdge(uint32_t x, double2 size, double thickness) {
 }
 
 TEST(PictureRefraction, WhereTheRayLeavesThePictureTheEnvironmentIsSeen) {
-    // A white environment, a black picture: what is seen is the environment's share.
+    // A white environment, a black image: what is seen is the environment's share.
     const auto row = [&](std::string const& code) {
         return underSky(kWhiteSky, [&](MaterialStage& stage) {
             stage.view.size = { 128, 65 };

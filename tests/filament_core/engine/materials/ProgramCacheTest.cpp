@@ -47,7 +47,7 @@ protected:
         double milliseconds = 0;
     };
 
-    /// From creating an engine to a picture, and back.
+    /// From creating an engine to an image, and back.
     Outcome run(bool isCached = true, float red = 0.5f) {
         const auto begin = std::chrono::steady_clock::now();
         Outcome outcome;

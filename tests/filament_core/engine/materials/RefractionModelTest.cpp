@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refraction as pictures: the same bits on both APIs, and colours that follow from the physics by simple arithmetic.
+// Refraction as images: the same bits on both APIs, and colours that follow from the physics by simple arithmetic.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cloth, subsurface and custom shading as pictures: the same bits on both APIs, and colours that follow from the
+// Cloth, subsurface and custom shading as images: the same bits on both APIs, and colours that follow from the
 // model's physics by simple arithmetic.
 #include "filament_core/assets/tables/DfgTable.h"
 #include "tests/filament_core/engine/SkyStage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stencil states of material instances, as pictures on both APIs: every test and operation beside what the contract
+// Stencil states of material instances, as images on both APIs: every test and operation beside what the contract
 // says, the order of what changes values and what tests them, and that nothing happens without them.
 #include "tests/filament_core/engine/SkyStage.h"
 
@@ -22,7 +22,7 @@ fragment {{ void material(inout MaterialInputs material) {{
                        properties);
 }
 
-/// A surface of a colour with a stencil state, in the middle of the picture.
+/// A surface of a colour with a stencil state, in the middle of the image.
 void add(MaterialStage& stage, float4 color, StencilFace const& face, std::string_view properties = "",
          test::Square const& square = {}) {
     const MaterialInstance instance = stage.material(stencilMaterial(properties), test::kNoLights);
@@ -110,7 +110,7 @@ private:
     double mDepth = -1;
 };
 
-/// The middles of as many pictures: an engine for all of them on each API.
+/// The middles of as many images: an engine for all of them on each API.
 std::vector<float4> seenInEach(size_t pictures, std::function<void(Chain&, size_t)> const& build) {
     std::vector<float4> colors[2];
     for (size_t i = 0; i < 2; ++i) {
@@ -247,7 +247,7 @@ TEST(Stencil, HoldsASampleWithMsaaAndItsDepthsAreResolved) {
         add(stage, kMaskColor, { .onPass = StencilOperation::Replace, .reference = 1 }, "colorWrite : false",
             { .z = -1, .halfSide = 0.51f });
         add(stage, kSeenThrough, { .test = StencilTest::Equal, .reference = 1 });
-        // sees the picture: the depths are resolved before it is drawn, and the values kept
+        // refracts: depth is resolved before it is drawn, and stencil values are kept
         const MaterialInstance glass = stage.material(
                 R"(material { name : glass, shadingModel : lit, refractionMode : screenspace, refractionType : thin }
 fragment { void material(inout MaterialInputs material) {

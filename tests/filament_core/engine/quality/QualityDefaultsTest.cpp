@@ -12,7 +12,7 @@ namespace filament {
 namespace {
 
 constexpr double kNoSlower = 1.02;  // of the time of the default: what a table of busy machines can tell apart
-constexpr double kLessError = 1e-3; // of the picture's luminance, a quarter of a step of 8 bits
+constexpr double kLessError = 1e-3; // of the image's luminance, a quarter of a step of 8 bits
 
 double ratioOn(Backend backend, QualityCost const& other, QualityCost const& standard) {
     return other.on(backend).milliseconds / standard.on(backend).milliseconds;

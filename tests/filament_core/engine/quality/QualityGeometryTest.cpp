@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files with vertices in fewer bits: the same model, almost the same picture.
+// glTF files with vertices in fewer bits: the same model, almost the same image.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/scenes/Sphere.h"
 

@@ -27,7 +27,7 @@ double errorOf(Image const& image, Image const& exact) {
     return std::sqrt(sum / count);
 }
 
-/// The fewest rounds of small pictures: only errors are looked at, and times only have to be some.
+/// The fewest rounds of small images: only errors are looked at, and times only have to be some.
 constexpr uint32_t kRounds = 15;
 constexpr uint2 kSize{ 96, 96 };
 constexpr QualityPreset kPresets[] = { QualityPreset::Low, QualityPreset::High, QualityPreset::Reference };

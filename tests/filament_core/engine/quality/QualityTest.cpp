@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality choices of the shading as pictures: each value draws the same bits on both APIs, and matches its formula.
+// Quality choices of the shading as images: each value draws the same bits on both APIs, and matches its formula.
 // The formulas are the shader library compiled as C++ (shaders/lib/LibCpp.h), which has its own tests.
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
@@ -196,7 +196,7 @@ TEST_P(QualityTest, EachBandAddsItsTermsToTheDiffuseLight) {
         patch.view.quality.shBands = bands;
         radiance[bands - 1u] = patch.renderCenter().x;
     }
-    const float perUnit = (radiance[1] - radiance[0]) / 0.5f; // what irradiance 1 adds to the picture
+    const float perUnit = (radiance[1] - radiance[0]) / 0.5f; // contribution of irradiance 1
     EXPECT_NEAR(radiance[2] - radiance[1], 0.25f * perUnit, 0.003f);
     EXPECT_GT(perUnit, 0.9f);
     patch.view.quality.diffuseIrradiance = DiffuseIrradiance::LastSpecularLevel;
@@ -270,7 +270,7 @@ TEST_P(QualityTest, ASkyInRgbmIsDecoded) {
     test::expectNoErrors(*engine);
 }
 
-// Radiance 1 is radiance 1 in the picture, in every format of an environment.
+// Radiance 1 is radiance 1 in the image, in every format of an environment.
 TEST_P(QualityTest, EnvironmentsOfEveryFormatAreSampledAsWhatTheyHold) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
@@ -324,7 +324,7 @@ std::vector<Image> renderEveryValue(Backend backend) {
 
 /// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp,
 /// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen,
-/// ambient-occlusion, contact-shadows, refraction, transparency and reflections have pictures for them.
+/// ambient-occlusion, contact-shadows, refraction, transparency and reflections have images for them.
 bool isOfTheView(std::string_view name) {
     if (name.starts_with("refraction") || name.starts_with("transparency") || name == "depthPrepass" ||
         name == "antiAliasing" || name == "msaaResolve" || name == "mipBias")

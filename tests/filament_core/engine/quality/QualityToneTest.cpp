@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tone mapping by formula and by table, as pictures of a single colour: View::clearColor is scene-linear.
+// Tone mapping by formula and by table, as images of a single colour: View::clearColor is scene-linear.
 #include "filament_core/assets/tables/ToneTable.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality choices of the view as pictures: texture filters, depth ranges, positions relative to the camera.
+// Quality choices of the view as images: texture filters, depth ranges, positions relative to the camera.
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
 #include <cmath>

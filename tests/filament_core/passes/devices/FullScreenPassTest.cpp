@@ -180,7 +180,7 @@ protected:
         }
     }
 
-    /// Runs draw(stage) on both devices; the pictures must be equal to the bit.
+    /// Runs draw(stage) on both devices; the images must be equal to the bit.
     template <class Draw>
     static Floats onBoth(Draw&& draw) {
         Stage vulkan(BackendType::Vulkan), gles(BackendType::Gles);
@@ -251,7 +251,7 @@ TEST_F(FullScreenPasses, AtHalfSizeReadTheFourPixelsThatTheyCover) {
     }
 }
 
-/// pattern -> effect, which reads its own pixel and a second picture; `between` prevents merging.
+/// pattern -> effect, which reads its own pixel and a second image; `between` prevents merging.
 Floats drawEffect(Stage& stage, bool between) {
     scene::Material& pattern = stage.material("", kPattern);
     scene::Material& other = stage.material("", "inputs.color = vec4(getNormalizedUV().yx, 0.5, 1.0);");

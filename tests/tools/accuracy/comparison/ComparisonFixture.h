@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the tests of comparisons: the committed rows and scenes, a folder for output, small pictures.
+/// Shared by the tests of comparisons: the committed rows and scenes, a folder for output, small images.
 #pragma once
 
 #include "tools/accuracy/comparison/Comparison.h"

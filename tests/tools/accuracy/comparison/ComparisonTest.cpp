@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine compared with the path tracer, in small pictures: the unexplained difference stays below a limit, and the
+// The engine compared with the path tracer, in small images: the unexplained difference stays below a limit, and the
 // limit detects an engine that shades differently.
 #include "tests/tools/accuracy/comparison/ComparisonFixture.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"

@@ -29,7 +29,7 @@ protected:
         mStudio = std::move(*studio);
     }
 
-    /// The mean of the engine's picture over the path tracer's; nothing but the object shines in either.
+    /// The mean of the engine's image over the path tracer's; nothing but the object shines in either.
     double meanRatio(std::string const& name, std::vector<std::string> const& changes = {}) {
         const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
         EXPECT_TRUE(scenes) << scenes.error().message;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings are timed and compared beside the viewer: all of them, in turns, against the right reference, until somebody
-// cancels.
+// Settings are timed and compared beside the viewer: all of them, in turns, against the right reference, until
+// cancelled.
 #include "tools/view/app/CostMeasurement.h"
 #include "tests/tools/view/app/TestScene.h"
 

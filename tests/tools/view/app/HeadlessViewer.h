@@ -15,7 +15,7 @@ namespace filament::view {
 
 inline constexpr int kEscape = 256; ///< of GLFW
 inline constexpr uint2 kPictureSize{ 640, 360 };
-inline constexpr uint2 kSmallPicture{ 192, 108 }; ///< less to shade, where no place in the picture matters
+inline constexpr uint2 kSmallPicture{ 192, 108 }; ///< less to shade, for tests that need no positions
 
 struct Headless {
     std::unique_ptr<Viewer> viewer;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the viewer measures beside its picture: injected defects are seen and where, jobs of threads, costs of settings.
+// What the viewer measures beside its image: injected defects are seen and where, jobs of threads, costs of settings.
 #include "tests/tools/view/app/HeadlessViewer.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/view/app/ApiPicture.h"
@@ -52,7 +52,7 @@ std::vector<bool> differing(Image const& a, Image const& b) {
 enum class Place : uint8_t {
     Nowhere,  ///< the scene has nothing that it concerns
     Surfaces, ///< somewhere where the model is, and nowhere else
-    Border,   ///< not in the middle of the picture
+    Border,   ///< not in the middle of the image
     Anywhere,
 };
 
@@ -88,7 +88,7 @@ void expectPlace(std::string const& defect, Place place, std::vector<bool> const
     EXPECT_EQ(beside, 0u) << defect << ": pixels where it cannot be";
 }
 
-/// Black where the pictures are equal, and nowhere else.
+/// Black where the images are equal, and nowhere else.
 void expectMapOf(Image const& a, Image const& b, std::vector<bool> const& pixels) {
     const Result<Image> map = differenceMap(a, b);
     ASSERT_TRUE(map);
@@ -99,7 +99,7 @@ void expectMapOf(Image const& a, Image const& b, std::vector<bool> const& pixels
     }
 }
 
-/// All that the scene shows, on an engine of the backend, against a clean picture of the other one.
+/// All that the scene shows, on an engine of the backend, against a clean image of the other one.
 void expectDefectsOn(Backend backend, std::function<bool(std::string_view)> const& isAskedFor) {
     Document document = showcaseDocument(kSmallPicture);
     document.view.effects.vignette.enabled = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands that know nothing: keys, clicks, drags, text, files, sizes and pauses at random, for 5 s, and for minutes with
+// Random input: keys, clicks, drags, text, files, sizes and pauses at random, for 5 s, and for minutes with
 // FILAMENT_STRESS. Nothing ends the process, Vulkan's validation has nothing to say, and afterwards it still draws.
 #include "tests/base/ScopedVariable.h"
 #include "tests/tools/view/app/HeadlessViewer.h"
@@ -173,7 +173,7 @@ TEST_P(MonkeyTest, FindsNothingThatEndsTheViewer) {
         if (headless.viewer->isClosed()) continue;
         headless.viewer->handle(ResizeEvent{ kPictureSize, 1 });
         EXPECT_TRUE(headless.stepUntil([&] { return !headless.viewer->isLoading(); }));
-        headless.viewer->step(0.1); // it may play an animation, trace a picture or measure: then it never settles
+        headless.viewer->step(0.1); // it may play an animation, trace an image or measure: then it never settles
         const Result<Image> picture = headless.viewer->screenshot();
         EXPECT_TRUE(picture && picture->width == kPictureSize.x && !picture->pixels.empty());
         for (std::string const& message : headless.viewer->takeMessages())

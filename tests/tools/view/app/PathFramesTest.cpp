@@ -28,7 +28,7 @@ CameraPath shortPath() {
 /// Of 5 frames.
 PathRequest requestFor(fs::path const& folder, Backend backend) {
     PathRequest request{ .document = showcaseDocument(kFrameSize), .path = shortPath() };
-    request.document.view.quality.antiAliasing = AntiAliasing::Taa; // gathers frames
+    request.document.view.quality.antiAliasing = AntiAliasing::Taa; // accumulates frames
     request.document.view.effects.autoExposure.enabled = true;      // adapts with the time
     request.series = { .folder = folder, .framesPerSecond = 4 };
     request.engine = { .backend = backend, .workers = 1, .validation = true };

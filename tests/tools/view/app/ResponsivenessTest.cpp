@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Of the processor time of the process while something loads. What must not happen in a step, as compiling a material
-/// or decoding a picture, is at least a tenth of it on every machine.
+/// or decoding an image, is at least a tenth of it on every machine.
 constexpr double kLongestStep = 1.0 / 20;
 
 /// 4096 x 2048, baked by the first run on a machine: a smaller sky with every pixel four times.

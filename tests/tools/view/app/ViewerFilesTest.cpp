@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer reads and writes: pictures, recordings, the clipboard, recent files; and where its picture is.
+// What a viewer reads and writes: images, recordings, the clipboard, recent files; and where its image is.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/tools/view/app/HeadlessViewer.h"
 #include "tools/view/camera/PathSampling.h"
@@ -126,7 +126,7 @@ TEST_P(ViewerFiles, ThePictureLiesBetweenThePanels) {
 TEST_P(ViewerFiles, ClicksBetweenThePanelsSelectWhatTheyShow) {
     headless->settle();
     const PanelRect place = viewer().panels().layout().picture;
-    // A pixel of the picture, at the same place of the scene as without panels.
+    // A pixel of the image, at the same place of the scene as without panels.
     headless->click(place.position + place.size * float2(0.5f, 0.55f));
     headless->settle();
     const std::optional<uint32_t> found = state().selectedNode;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kLeftControl = 341;
 
-/// With FILAMENT_VIEW_PICTURES the pictures are kept there, to be looked at.
+/// With FILAMENT_VIEW_PICTURES the images are kept there, to be looked at.
 void keep(Image const& image, std::string const& name) {
     if (const char* folder = std::getenv("FILAMENT_VIEW_PICTURES")) {
         EXPECT_TRUE(savePng(std::filesystem::path(folder) / (name + ".png"), image));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of the picture in the viewer: the pixel panel has what both APIs have, and the numerics view counts its
+// Numbers of the image in the viewer: the pixel panel has the values of both APIs, and the numerics view counts its
 // marks.
 #include "tests/tools/view/app/HeadlessViewer.h"
 
@@ -25,7 +25,7 @@ struct PixelViewer : Headless {
         viewer->panels().state.opensPanel = "Pixel";
         viewer->redraw();
     }
-    /// Of the picture, which has 1000 x 400 of them.
+    /// Of the image, which has 1000 x 400 of them.
     PixelReport const& at(float2 pixel) {
         viewer->handle(MouseMoveEvent{ pixel + viewer->panels().layout().picture.position });
         settle();
@@ -132,7 +132,7 @@ TEST_P(ViewerPixelTest, TheNumericsViewCountsItsMarks) {
     EXPECT_FALSE(headless.viewer->numerics().counts().has_value());
 }
 
-/// The renderer that was asked for pixels and for a pick ends then.
+/// The renderer with a pending read and pick ends then.
 TEST(ViewerPixels, AFrameMayBeSavedWhilePixelsAreOnTheirWay) {
     Headless headless(Backend::Vulkan);
     if (!headless.viewer) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer without a window: events in, documents and pictures out, on both APIs.
+// The viewer without a window: events in, documents and images out, on both APIs.
 #include "tools/view/app/Viewer.h"
 #include "tests/base/ScopedVariable.h"
 #include "tests/filament_core/engine/RenderFixture.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What people do to a window, in rounds that end where they began: with the same picture, and without more memory.
+// What people do to a window, in rounds that end where they began: with the same image, and without more memory.
 #include "tests/tools/view/app/WindowStage.h"
 #include "tools/paths/Paths.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer in a real window on Xvfb: hands by xdotool, pictures read back from the X server.
+// The viewer in a real window on Xvfb: hands by xdotool, images read back from the X server.
 #include "tools/view/app/Window.h"
 #include "tests/tools/view/app/WindowStage.h"
 

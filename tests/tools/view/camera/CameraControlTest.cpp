@@ -183,7 +183,7 @@ Box boxOf(Draw& draw) {
     return { middle - half, middle + half };
 }
 
-/// The part of the picture that the box covers: the least and the most of each axis.
+/// The part of the image that the box covers: the least and the most of each axis.
 struct Covered {
     double2 low{ 1e300 }, high{ -1e300 };
     double nearest = 1e300, farthest = -1e300;

@@ -45,7 +45,7 @@ private:
     std::mt19937 mRandom;
 };
 
-/// Where the picture shows a point: clip coordinates; in front of the camera.
+/// The clip coordinates of a point; in front of the camera.
 inline double2 pictureOf(Camera const& camera, double3 pointWorld, double aspect) {
     const double3 view(glm::inverse(camera.worldFromView) * double4(pointWorld, 1));
     const double3 low = camera.viewFromPicture({ -1, 1 }, -view.z, aspect);

@@ -30,7 +30,7 @@ TEST(GizmoHandles, HaveTheSameSizeOnTheScreenWhereverTheObjectIs) {
         ASSERT_TRUE(origin.has_value());
         for (const GizmoPart part : { GizmoPart::AxisX, GizmoPart::AxisY }) {
             Handle const* arrow = find(handles, part);
-            if (!arrow) continue; // towards the eye, beside the middle of a wide picture
+            if (!arrow) continue; // towards the eye, beside the middle of a wide image
             ASSERT_EQ(arrow->area.size(), 3u);
             EXPECT_NEAR(glm::length(arrow->area[1] - *origin), kHandlePixels, 1e-6) << "its tip";
         }

@@ -94,7 +94,7 @@ TEST(PictureRays, BeyondTheVanishingPointALineIsFarAndNotOnTheOtherSide) {
     const PictureView view{ .camera = Camera::lookAt({ 0, 1, 0 }, { 0, 1, -1 }), .size = { 600, 600 } };
     const double3 onFloor(0, 0, -4), away(0, 0, -1);
     double last = -1e9;
-    for (double y = 590; y >= 0; y -= 10) { // up the picture, over the horizon at 300
+    for (double y = 590; y >= 0; y -= 10) { // up the image, over the horizon at 300
         const double t = alongLine(rayThrough(view, { 300, y }), onFloor, away);
         EXPECT_GE(t, last) << y;
         last = t;

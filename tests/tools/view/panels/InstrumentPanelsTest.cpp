@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels of instruments: clicks on points, defects and threads, and what they ask of the program.
+// The panels of instruments: clicks on points, defects and threads, and their requests to the program.
 #include "tests/tools/view/panels/PanelStage.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panels themselves, without a window: their pictures on both APIs, and what clicks and keys do to the document.
+// The panels themselves, without a window: their images on both APIs, and what clicks and keys do to the document.
 #include "tests/tools/view/panels/PanelStage.h"
 #include "tools/view/panels/CameraModel.h"
 #include "tools/view/ui/ImGuiVersions.h"
@@ -18,7 +18,7 @@ using test::PanelStage;
 using test::pixelsOf;
 using view::Document;
 
-/// With FILAMENT_PANEL_PICTURES the pictures are kept there, to be looked at.
+/// With FILAMENT_PANEL_PICTURES the images are kept there, to be looked at.
 void keep(Image const& image, std::string const& name) {
     if (const char* folder = std::getenv("FILAMENT_PANEL_PICTURES")) {
         EXPECT_TRUE(savePng(std::filesystem::path(folder) / (name + ".png"), image));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures in the material panel: which of them take pictures, and what the document says of them.
+// Textures in the material panel: which of them take images, and what the document says of them.
 #include "tests/tools/view/panels/PanelStage.h"
 #include "tools/view/panels/MaterialRows.h"
 

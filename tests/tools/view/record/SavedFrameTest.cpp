@@ -77,7 +77,7 @@ TEST(SavedFrame, TheAttachmentsOfAllPassesHaveTheSameHashesOnBothApis) {
     }
 }
 
-// As a viewer draws: several calls of render(), several pictures, the second one twice.
+// As a viewer draws: several calls of render(), several images, the second one twice.
 TEST(SavedFrame, HoldsEveryPictureAndEveryFrameThatLedToThem) {
     const FrameFolder folder;
     SaveRequest request = spheresRequest(folder);

@@ -420,7 +420,7 @@ TEST_P(StageTest, DoesNotGrowOverSixtyChanges) {
 INSTANTIATE_TEST_SUITE_P(Backends, StageTest, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& each) { return std::string(toString(each.param)); });
 
-/// Polls until the picture is another one, or the time is over.
+/// Polls until the image is another one, or the time is over.
 Image nextPicture(Stage& stage, Image const& last) {
     for (int i = 0; i < 300; ++i) {
         stage.poll();

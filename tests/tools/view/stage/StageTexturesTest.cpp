@@ -81,7 +81,7 @@ struct TexturedStage {
         stage->forgetFrames();
         return stage->renderToImage().value();
     }
-    /// Of the middle of the picture.
+    /// Of the middle of the image.
     std::array<int, 3> color() {
         const Image image = shoot();
         auto const* pixel = image.pixels.data() + 4 * (18 * 32 + 13); // of the sphere and of the triangle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draw lists as arrays: what becomes of each command, and lists that no program should make.
+// Draw lists as arrays: the result of each command, and invalid lists.
 #include "tools/view/ui/UiGeometry.h"
 #include "tools/view/ui/ImGuiVersions.h"
 #include "tools/view/ui/UiContext.h"
@@ -82,7 +82,7 @@ TEST(UiGeometry, LeavesOutWhatNoPixelShows) {
     HandMade made;
     made.quad({ 0, 0 }, { 10, 10 }, { 5, 5, 5, 9 });         // no width
     made.quad({ 0, 0 }, { 10, 10 }, { 9, 9, 5, 5 });         // turned around
-    made.quad({ 0, 0 }, { 10, 10 }, { 200, 200, 300, 300 }); // beside the picture
+    made.quad({ 0, 0 }, { 10, 10 }, { 200, 200, 300, 300 }); // off-screen
     made.quad({ 0, 0 }, { 10, 10 }, { kNan, 0, 100, 50 });   // nowhere
     made.quad({ 20, 20 }, { 30, 30 }, { 0, 0, 10, 10 });     // outside of its rectangle
     EXPECT_TRUE(made.built().indices().empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interfaces over a picture: their bytes, the edges of their rectangles, their text and their textures, on both APIs.
+// Interfaces over an image: their bytes, the edges of their rectangles, their text and their textures, on both APIs.
 #include "tests/tools/view/ui/UiStage.h"
 #include "tools/filament-render/HeapCounter.h"
 #include "tools/view/ui/ImGuiVersions.h"
