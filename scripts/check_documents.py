@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used and small, and
-every source file names its licence.
+"""Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used and small, every
+source file names its licence, and documents and comments avoid the phrases of scripts/banned_phrases.txt (scripts/wording.py).
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
@@ -16,6 +16,8 @@ import re
 import subprocess
 import sys
 import urllib.parse
+
+import wording
 
 # [text](target) and ![text](target "title"); src="target" and href="target"
 LINKS = {
@@ -100,11 +102,12 @@ def check(root):
         if has_alpha(file):
             wrong.append(f"{file.relative_to(root)}:1: is larger than it must be: run scripts/shrink_pictures")
     wrong += without_licence(root, files)
+    wrong += wording.check(root, files)
     return wrong, len(documents)
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Checks the links and pictures of the documents.")
+    parser = argparse.ArgumentParser(description="Checks the links, pictures and wording of the documents.")
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1])
     root = parser.parse_args().root.resolve()
     wrong, count = check(root)

@@ -33,7 +33,7 @@ inline bool hasDepth(Format format) { return formatInfo(format).kind >= FormatKi
 inline bool hasStencil(Format format) { return formatInfo(format).kind == FormatKind::DepthStencil; }
 
 /// What passes store in a colour attachment: of sRGB the bytes themselves, as of the format without it. Shaders encode,
-/// because a driver's encoding has other bits on other processors (docs/conformance.md, "How far the promise reaches").
+/// because a driver's encoding has other bits on other processors (docs/conformance.md, "Scope of the guarantee").
 inline Format attachmentFormat(Format format) { return format == Format::RGBA8Srgb ? Format::RGBA8 : format; }
 
 /// Whether blits and mip generation may write it: they filter what is decoded, so a driver would have to encode.

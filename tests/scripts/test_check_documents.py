@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The document checker finds broken links, missing pictures, pictures that no document shows, and sources without a licence."""
+"""The document checker finds broken links, missing images, images that no document shows, sources without a licence, and
+banned phrases."""
 import pathlib
 import subprocess
 import sys
@@ -72,6 +73,30 @@ class Documents(unittest.TestCase):
                 self.assert_broken({"a.md": "a", name: text}, f"{name}:1: names no licence")
         status, output = check({"a.md": "a", "a.h": "// " + licence, "tool": "#!/bin/sh\n# " + licence, "data.json": "{}",
                                 "server.in": "1", "LICENSE": "x", "tests/fuzz/corpus/a/b.mat": "material {}"})
+        self.assertEqual(status, 0, output)
+
+    def test_banned_phrases_are_found_in_documents_and_comments_across_lines(self):
+        licence = "SPDX-License-Identifier: Apache-2.0\n"
+        for name, text, line in [
+                ("b.md", "Text.\nIt is there,\nif nobody\nasks.", 3),
+                ("b.h", f"// {licence}/// Of what\n///   blends.\nint a;", 2),
+                ("b.cpp", f"// {licence}int a; ///< the same\n", 2),
+                ("b.mat", f"// {licence}material {{}} /* a\n wish */", 3),
+                ("b.py", f"# {licence}def f():\n    \"\"\"Returns\n    it, as\n    ever.\"\"\"\n", 4),
+                ("b.py", f"# {licence}a = 1  # a Wish\n", 2),
+                ("CMakeLists.txt", f"# {licence}# goes on\n", 2),
+                ("tool", f"#!/bin/sh\n# {licence}exit 0 # what is\n# opaque\n", 3),
+        ]:
+            with self.subTest(name):
+                self.assert_broken({"a.md": "a", name: text}, f"{name}:{line}: '")
+                self.assertIn("write ", check({"a.md": "a", name: text})[1])
+
+    def test_identifiers_strings_and_code_are_not_prose(self):
+        licence = "SPDX-License-Identifier: Apache-2.0\n"
+        status, output = check({
+            "a.md": "`nobody asks` wishing\n```\nwhat blends\n```\n", "a.py": f"# {licence}wish = 'nobody asks'\n",
+            "a.cpp": f"// {licence}Wish wish; // of what\nint blends; // an if\nauto s = \"// as ever\", t = R\"(// wish)\";\n",
+        })
         self.assertEqual(status, 0, output)
 
     def test_a_tree_without_documents_is_an_error(self):
