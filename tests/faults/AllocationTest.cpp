@@ -356,7 +356,7 @@ TEST(FailingAllocator, FailsTheAllocationThatItWasAskedFor) {
     ::operator delete(third);
 }
 
-TEST(FailingAllocator, CountsBlocksThatNobodyGaveBack) {
+TEST(FailingAllocator, CountsBlocksThatWereNotFreed) {
     const int64_t before = liveBlocks();
     void* forgotten = ::operator new(8);
     EXPECT_EQ(liveBlocks(), before + 1);

@@ -193,7 +193,7 @@ TEST_F(BufferGraph, ASteadyFrameDoesNotAllocate) {
 
 using BufferGraphDeathTest = BufferGraph;
 
-TEST_F(BufferGraphDeathTest, ReadingWhatNobodyWrites) {
+TEST_F(BufferGraphDeathTest, ReadingWithoutAWriter) {
     const BufferId bins = graph.createBuffer("bins", 64);
     draw("tone map", bins, BufferUse::Uniform, backbuffer());
     EXPECT_DEATH(checkDeclarations(graph), "pass 'tone map' reads buffer 'bins', which no pass writes");

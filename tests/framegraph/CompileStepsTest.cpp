@@ -9,7 +9,7 @@ namespace {
 
 class Cull : public GraphTest {};
 
-TEST_F(Cull, APassThatNobodyReadsDoesNotRunNorDoesWhatItAloneReads) {
+TEST_F(Cull, AnUnreadPassDoesNotRunNorDoTheInputsOfItAlone) {
     const TextureId a = color("a"), b = color("b"), out = backbuffer();
     const uint32_t first = pass("first", [&](PassBuilder& p) { p.writeColor(0, a); });
     const uint32_t second = pass("second", [&](PassBuilder& p) {
@@ -248,7 +248,7 @@ TEST_F(LoadStore, LevelsOfATextureAreFollowedOneByOne) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(s.groups[i].colors[0].store, StoreOp::Store);
 }
 
-TEST_F(LoadStore, ALevelThatNobodySamplesIsNotStoredForTheSakeOfAnother) {
+TEST_F(LoadStore, AnUnsampledLevelIsNotStoredForTheSakeOfAnother) {
     const TextureId a = chain("bloom", 2), ldr = color("ldr"), out = backbuffer();
     pass("both", [&](PassBuilder& p) {
         p.writeColor(0, a);

@@ -226,7 +226,7 @@ TEST_F(HistoryTest, ItsTexturesAreNeverSharedWithTransients) {
     }
 }
 
-TEST_F(HistoryTest, WhatNoGraphAsksForAWhileIsDestroyed) {
+TEST_F(HistoryTest, UnusedHistoriesAreDestroyedAfterAWhile) {
     frame();
     EXPECT_EQ(pool->historyCount(), 1u);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(run().destroyed, 0u) << "after " << i << " graphs";

@@ -7,7 +7,7 @@ namespace {
 
 class GraphRulesDeathTest : public GraphTest {};
 
-TEST_F(GraphRulesDeathTest, ReadingWhatNobodyWrites) {
+TEST_F(GraphRulesDeathTest, ReadingWithoutAWriter) {
     const TextureId a = color("a"), out = backbuffer();
     pass("reader", [&](PassBuilder& p) {
         p.readSampled(a);
@@ -157,7 +157,7 @@ TEST_F(GraphRulesDeathTest, ReadingInputsWithoutAttachments) {
 
 // ---------------------------------------------------------------------------------------------- levels and layers
 
-TEST_F(GraphRulesDeathTest, ReadingALevelThatNobodyWrites) {
+TEST_F(GraphRulesDeathTest, ReadingALevelWithoutAWriter) {
     const TextureId a = chain("bloom", 3), out = backbuffer();
     pass("write", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
     pass("read", [&](PassBuilder& p) {

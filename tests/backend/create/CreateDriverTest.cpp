@@ -184,7 +184,7 @@ TEST(MesaEnvironmentTest, TexturesAreFilteredInFloatingPointWhateverElseWasChose
     EXPECT_EQ(optionsAfter("nopt,no_aos_sampling"), "nopt,no_aos_sampling") << "a child process inherits it";
 }
 
-TEST(MesaEnvironmentTest, OtherWidthsFallBackTo256AndSaySo) {
+TEST(MesaEnvironmentTest, OtherWidthsFallBackTo256WithAMessage) {
     for (const char* width : { "512", "64", "0", "-256", "wide", "256 " }) {
         const Variables after = afterChanges({ { "LP_NATIVE_VECTOR_WIDTH", width }, { "HOME", "/h" } });
         EXPECT_EQ(after.at("LP_NATIVE_VECTOR_WIDTH"), "256");

@@ -91,7 +91,7 @@ protected:
     std::unique_ptr<Driver> driver;
 };
 
-TEST_F(CapturedLayer, LeavesAFrameThatNobodyAskedForAlone) {
+TEST_F(CapturedLayer, LeavesUnrequestedFramesAlone) {
     open();
     frame(3);
     EXPECT_EQ(witness->draws, 3u);

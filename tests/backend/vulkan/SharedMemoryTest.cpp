@@ -27,7 +27,7 @@ protected:
     }
 };
 
-TEST_F(SharedMemoryTest, ThoseThatFitTakeNoMoreAndTheLastOneWrittenHasContents) {
+TEST_F(SharedMemoryTest, AliasedTexturesUseNoMoreMemoryAndTheLastWriteIsReadBack) {
     const TextureHandle bytes = makeTarget(kSide, kSide);
     const uint64_t before = usedBytes();
     const TextureHandle floats = makeOn(bytes, Format::R32F), halves = makeOn(floats, Format::RG16F);

@@ -104,7 +104,7 @@ TEST(Targets, AreJudgedByTheFigureThatTheyName) {
     EXPECT_THAT(measured.verdicts[2].value, DoubleNear(294.2, 1e-9)); // 10 + 0.98 * (300 - 10)
 }
 
-TEST(Targets, ThatNobodyMeasuredAreMissed) {
+TEST(Targets, WithoutMeasurementsAreMissed) {
     const Measured measured = measure({ .contenders = { { "ours", playing({ { 1 } }) } },
                                         .targets = { { .contender = "absent", .limit = 5 },
                                                      { .figure = Figure::Ratio, .other = "tbb", .limit = 5 } } },

@@ -265,7 +265,7 @@ TEST(DebugDraw, ShapesHaveTheLinesOfTheirEdges) {
     EXPECT_TRUE(draw.empty());
 }
 
-TEST(DebugDrawDeathTest, RefusesWidthsThatNobodySees) {
+TEST(DebugDrawDeathTest, RefusesInvisibleWidths) {
     DebugDraw draw;
     EXPECT_DEATH(draw.line({}, {}, { .widthPixels = 0 }), "up to 64 pixels wide");
     EXPECT_DEATH(draw.screenLine({}, {}, { .widthPixels = std::nanf("") }), "up to 64 pixels wide");

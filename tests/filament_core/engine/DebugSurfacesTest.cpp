@@ -210,7 +210,7 @@ TEST(DebugMaterials, ShowAtWhichLevelALargeTextureIsRead) {
     }
 }
 
-TEST(DebugMaterials, ShowWhatIsBehindHolesAndTheNearestOfWhatBlends) {
+TEST(DebugMaterials, ShowWhatIsBehindHolesAndTheNearestTransparentSurface) {
     const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const char* const wall = "material.baseColor = vec4(0.0, 0.0, 1.0, 1.0);";
         const char* const mask = "material.baseColor = vec4(1.0, 0.0, 0.0, gl_FragCoord.x < 8.0 ? 0.0 : 1.0);";
@@ -333,7 +333,7 @@ TEST(DebugOverdraw, ShowsWhatTheOrderAndADepthPrepassSave) {
     EXPECT_EQ(debugColorAt(images[2], 16, 16), countColor(1)) << "the prepass leaves the nearest alone";
 }
 
-TEST(DebugTransparentLayers, CountsWhatBlendsAndIsNotHidden) {
+TEST(DebugTransparentLayers, CountsVisibleTransparentSurfaces) {
     const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
         stage.add(wall, { 0, 0, -3 }, 3);
@@ -403,7 +403,7 @@ TEST(DebugWireframe, HasLinesBetweenTrianglesAndAroundThem) {
     EXPECT_GT(grey[0], 0) << "the picture";
 }
 
-TEST(DebugWireframe, HidesWhatIsBehindAlsoWhatBlends) {
+TEST(DebugWireframe, TransparentSurfacesAlsoHideEdgesBehind) {
     const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
         const MaterialInstance wall = stage.material(test::text("shadingModel : unlit", ""));
         const MaterialInstance pane =

@@ -63,7 +63,7 @@ TEST_F(FrameTimingLogTest, FramesWithMoreAndWithFewerPassesFollowEachOther) {
 }
 
 // 64 frames of 40 passes have more answers than the stream keeps.
-TEST_F(FrameTimingLogTest, FramesThatNobodyAsksForKeepTheTimesOfTheirPasses) {
+TEST_F(FrameTimingLogTest, UnrequestedFramesKeepTheTimesOfTheirPasses) {
     FrameTimingLog log(mEngine->impl());
     for (uint64_t number = 1; number <= 100; ++number) frame(log, number, 40);
     mEngine->impl().stream->waitIdle();

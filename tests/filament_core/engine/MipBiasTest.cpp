@@ -111,7 +111,7 @@ public:
     Scene scene; ///< destroyed before what it shows
 };
 
-TEST(MipBias, MakesAGatheredPictureAsSharpAsOneOfAllPixels) {
+TEST(MipBias, MakesATemporallyUpscaledImageAsSharpAsAFullOne) {
     Photo photo(Backend::Vulkan);
     const Image exact = photo.supersampled();
     const double whole = rmsBetween(photo.draw(), exact);

@@ -245,7 +245,7 @@ TEST(Motion, IsNotThatOfAnotherObject) {
     EXPECT_TRUE(panel.renderer.explain().find("nothing in view moves by itself") != std::string::npos);
 }
 
-TEST(Motion, CostsNothingWhereNoEffectAsks) {
+TEST(Motion, CostsNothingWithoutATemporalEffect) {
     for (const Backend backend : test::kBothApis) {
         Panel panel(backend, kPanelText);
         panel.addPlain();

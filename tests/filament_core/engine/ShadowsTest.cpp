@@ -156,7 +156,7 @@ TEST(Shadows, SixtyFourSpotsOverLittlestTokyoFitIntoTheAtlas) {
     EXPECT_EQ(images[0].pixels, images[1].pixels);
 }
 
-TEST(Shadows, WhatBlendsStopsAsMuchLightAsItIsOpaque) {
+TEST(Shadows, TransparentObjectsOccludeTheirAlphaOfTheLight) {
     std::map<float, Image> first;
     for (const Backend backend : test::kBothApis) {
         ShadowStage stage(backend);

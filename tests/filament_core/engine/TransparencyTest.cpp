@@ -349,7 +349,7 @@ TEST(Transparency, FourSamplesAPixelShowWhatOneDoesWhereNothingHasAnEdge) {
     }
 }
 
-TEST(Transparency, WhatIsOpaqueHidesAndIsSeenThroughWithAnyDepth) {
+TEST(Transparency, OpaqueObjectsHideAndAreSeenThroughPanesAtAnyDepth) {
     const std::vector<Pane> panes{ paneOf({ 1, 0, 0 }, 0.6f, 1.5), paneOf({ 0, 0, 1 }, 0.6f, 0, 0.4, 0.3),
                                    paneOf({ 0, 1, 0 }, 0.5f, -6, 0.2, 0) };
     const float3 wall(0.1f, 0.2f, 0.9f);
@@ -410,7 +410,7 @@ TEST(Transparency, FramesThatAreGatheredAndBloomHaveTheSameBitsOnBothApis) {
     }
 }
 
-TEST(Transparency, WhatBlendsOtherwiseStaysInOrder) {
+TEST(Transparency, OtherBlendModesStaySorted) {
     for (const TransparencyOrder by :
          { TransparencyOrder::Sorted, TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
         const auto glowAt = [&](double z) {

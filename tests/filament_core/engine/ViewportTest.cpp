@@ -129,7 +129,7 @@ TEST_P(ViewportTest, AClearedTargetHasTheColourAroundTheView) {
         EXPECT_EQ(test::bytePixel(image, at.x, at.y), float4(255, 51, 0, 153) / 255.0f) << at.x << " " << at.y;
 }
 
-TEST_P(ViewportTest, ATargetThatNobodyDrewToIsCleared) {
+TEST_P(ViewportTest, AnUndrawnTargetIsCleared) {
     const Owned<SwapChain> target = chain(Format::RGBA8);
     View view = part;
     view.viewport = filament::Viewport{ .offset = kOffset, .clearColor = { 0, 0, 1, 1 } };

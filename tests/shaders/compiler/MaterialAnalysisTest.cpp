@@ -77,7 +77,7 @@ TEST(MaterialAnalysis, KeepsWhatOneBranchWrites) {
             sets("HAS_EMISSIVE", "prepareMaterial(m); if (materialParams.weight > 0.5) discard; m.emissive.r = 1.0;"));
 }
 
-TEST(MaterialAnalysis, AsksForTheNormalThatPrepareMaterialTakes) {
+TEST(MaterialAnalysis, RequiresTheNormalThatPrepareMaterialReads) {
     EXPECT_TRUE(sets("HAS_NORMAL", "m.normal.xy = vec2(0.1); prepareMaterial(m);"));
     EXPECT_TRUE(
             sets("HAS_NORMAL", "m.normal = vec3(1.0, 0.0, 0.0); prepareMaterial(m); m.normal = vec3(0.0, 0.0, 1.0);"));

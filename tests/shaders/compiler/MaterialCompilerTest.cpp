@@ -344,7 +344,7 @@ TEST(MaterialCompiler, GivesUpJointsFiveToEightForCustomAttributesInTheirPlaces)
     EXPECT_THAT(vertexOf("shadingModel : unlit, requires : [ custom6 ]"), Not(HasSubstr("mesh_weights1")));
 }
 
-TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsTheOtherVariantsAsTheyWere) {
+TEST(MaterialCompiler, LightsInHalfPrecisionIfEnabledAndKeepsTheOtherVariants) {
     const Result<MaterialPackage> plain = compile(withProperties("shadingModel : lit, variantFilter : [ skinning ]"));
     const Result<MaterialPackage> both =
             compile(withProperties("shadingModel : lit, halfPrecision : true, variantFilter : [ skinning ]"));
@@ -373,7 +373,7 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
             HasSubstr("halfPrecision is only for lit materials"));
 }
 
-TEST(MaterialCompiler, KeepsAllBitsOfWhatAsksForMediumPrecisionUnlessItIsInexact) {
+TEST(MaterialCompiler, KeepsAllBitsOfMediumPrecisionUnlessInexact) {
     const char* const text = R"(material { shadingModel : unlit, requires : [ uv0 ],
         parameters : [ { name : map, type : sampler2d, precision : medium }, { name : tint, type : float4, precision : low } ] }
         fragment { void material(inout MaterialInputs m) {
@@ -487,7 +487,7 @@ TEST(MaterialCompiler, GivesTheSameBytesForAnyNumberOfWorkers) {
     }
 }
 
-TEST(MaterialCompiler, LeavesOutTheLanguageThatNobodyAskedFor) {
+TEST(MaterialCompiler, LeavesOutUnrequestedLanguages) {
     const Result<MaterialPackage> vulkan = compile(withProperties("shadingModel : unlit"), { .essl = false });
     ASSERT_TRUE(vulkan);
     EXPECT_TRUE(vulkan->variants[0].vertex->essl.empty() && vulkan->variants[0].fragment->essl.empty());

@@ -72,7 +72,7 @@ TEST(FeatureLevel, FunctionsOfEssl310CompileFromLevelTwoOn) {
             << "functions of the author are no features";
 }
 
-TEST(PrimitiveId, AsksForTheExtensionOfEssl310WhereItIsRead) {
+TEST(PrimitiveId, RequiresTheExtensionOfEssl310WhereItIsRead) {
     const auto essl = [](std::string const& line) {
         return compiled(lit("shadingModel : lit", line)).variants[0].fragment->essl;
     };

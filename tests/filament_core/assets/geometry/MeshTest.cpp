@@ -145,7 +145,7 @@ TEST(ComputeNormals, LeaveVerticesWithoutAnAreaAlone) {
     for (MeshVertex const& vertex : mesh.vertices) EXPECT_EQ(vertex.normal, float3(1, 0, 0));
 }
 
-TEST(ComputeTangents, OfPrimitivesAreTheirOwn) {
+TEST(ComputeTangents, OfPrimitivesMatchTheTangentsOfTheirGenerators) {
     for (Mesh const& mesh :
          { madeMesh(makePlane({ 2, 3, 4, 5 })), madeMesh(makeBox({ .segments = uint3(3) })),
            madeMesh(makeUvSphere({ 1, 64, 32 })), madeMesh(makeTorus({ .slices = 64, .stacks = 48 })),

@@ -95,7 +95,7 @@ TEST(GltfMorphNames, AreThoseOfTheExtrasAndNothingElse) {
         EXPECT_THAT(namesFor(other), IsEmpty()) << other << ": extras may hold anything";
 }
 
-TEST(GltfCancel, ALoadThatNobodyWantsEndsAtItsNextStep) {
+TEST(GltfCancel, ACancelledLoadEndsAtItsNextStep) {
     jobs::JobSystem jobs({ .workers = 1 });
     const Bytes file = TestFile::triangle().glb();
     for (size_t steps = 0; steps < 5; ++steps) {

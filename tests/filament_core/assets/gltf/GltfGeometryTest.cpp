@@ -320,7 +320,7 @@ TEST(GltfGeometry, InstancingPlacesOneNodePerInstance) {
     EXPECT_EQ(model.meshes.size(), 1u);
 }
 
-TEST(GltfGeometry, VerticesThatNobodyUsesAreDropped) {
+TEST(GltfGeometry, UnusedVerticesAreDropped) {
     TestFile file;
     std::vector<float> positions(300, 5.0f);
     std::copy_n(std::array{ 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f }.begin(), 9, positions.begin() + 150);

@@ -67,7 +67,7 @@ void forEachList(F&& visit) {
     }
 }
 
-TEST(KeyTimes, EveryListOfHostileTimesPlaysLikeOneThatNobodySorted) {
+TEST(KeyTimes, EveryListOfHostileTimesPlaysLikeTheUnsortedList) {
     size_t played = 0;
     forEachList([&](std::vector<float> const& times) {
         for (const Interpolation interpolation : { Interpolation::Step, Interpolation::Linear }) {

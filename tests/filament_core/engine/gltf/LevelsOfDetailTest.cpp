@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Apis, ChosenLevels, testing::Values(Backend::Vulkan, Ba
 /// The sphere around the finest square has R^2 = 1/2 m^2, and the screen 2 x 8/3 m^2 at 1 m.
 double coverageFrom(double meters) { return 3.14159265358979 * 0.5 / (2 * 8.0 / 3 * meters * meters); }
 
-TEST_P(ChosenLevels, AreThoseThatTheirCoverageAsksFor) {
+TEST_P(ChosenLevels, AreSelectedByCoverage) {
     const Model model = load(squares(kLevels, "[ 0 ]")); // the others are in no scene
     Scene scene(*engine);
     ModelCopy copy = *ModelCopy::of(scene, scene.add(model));

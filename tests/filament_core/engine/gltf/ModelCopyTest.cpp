@@ -112,7 +112,7 @@ protected:
     Node first, second;
 };
 
-TEST_P(ModelCopyTest, OnlyTheRootOfACopyIsOne) {
+TEST_P(ModelCopyTest, OfNodesOtherThanTheRootOfACopyFails) {
     EXPECT_EQ(copy(first).root(), first);
     const Node other = scene->add(NodeDesc{ .name = "other" });
     for (const Node node : { scene->findNode("body", first), other }) {
@@ -395,7 +395,7 @@ void expectKnown(Scene& scene, Model const& model, ModelCopy car) {
     for (CopyMaterial const& material : car.materials()) EXPECT_TRUE(material.isOwn);
 }
 
-TEST_F(ModelCopyAssets, EveryForeignModelIsListedAndBecomesItsOwn) {
+TEST_F(ModelCopyAssets, EveryAssetIsListedAndACopyOwnsItsMaterialsOnlyAfterAChange) {
     std::optional<Engine> engine = test::makeEngine(Backend::Null);
     ASSERT_TRUE(engine);
     size_t models = 0, withCameras = 0, withTargets = 0, withLights = 0;

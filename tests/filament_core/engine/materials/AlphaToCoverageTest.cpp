@@ -101,7 +101,7 @@ TEST(AlphaToCoverage, CoversAsManyOfFourSamplesAsTheSharpenedAlphaSays) {
 }
 
 /// Without a mask alpha is the coverage itself: materials of the blending opaque.
-TEST(AlphaToCoverage, IsTheAlphaOfOpaqueMaterialsThatAskForIt) {
+TEST(AlphaToCoverage, WorksForOpaqueMaterialsThatEnableIt) {
     for (const bool isOn : { false, true }) {
         for (int level = 0; level <= 4; ++level) {
             const float alpha = 0.25f * static_cast<float>(level);

@@ -96,7 +96,7 @@ TEST_P(Compile, WhatIsPreparedForAnExpectedFrameIsNotMadeByTheFirstDraw) {
 }
 
 // Works whatever passes a frame has: expecting a frame walks the graph that draws it.
-TEST_P(Compile, AnExpectedFrameAsksForThePipelinesOfEveryPassOfItsOwn) {
+TEST_P(Compile, AnExpectedFrameRequestsThePipelinesOfItsPasses) {
     constexpr std::array<uint16_t, 6 * 4> kTexels{};
     const Owned<Texture> cube =
             mEngine->own(mEngine->create(TextureDesc{ .kind = TextureKind::Cube,
@@ -125,7 +125,7 @@ TEST_P(Compile, AnExpectedFrameAsksForThePipelinesOfEveryPassOfItsOwn) {
     EXPECT_THAT(mEngine->takeErrors(), IsEmpty());
 }
 
-TEST_P(Compile, WhatBlendsInAnyOrderIsPreparedForEveryPassOfThatAndOthersForTheColourPassAlone) {
+TEST_P(Compile, OrderIndependentMaterialsArePreparedForAllTheirPassesAndOthersForTheColourPassAlone) {
     const Owned<Material> glass = test::loadMaterial(*mEngine, kGlassPane);
     const Owned<Material> plaster = test::loadMaterial(*mEngine, kPlaster);
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(glass));

@@ -71,7 +71,7 @@ TEST(DepthState, SurfacesWithoutDepthTestCoverThoseWithoutDepthWrites) {
     EXPECT_EQ(color, kGreenSurface);
 }
 
-TEST(DepthState, WhatBlendsIsDrawnAboveThem) {
+TEST(DepthState, TransparentObjectsAreDrawnAboveThem) {
     const float4 color = centerPixel(onBothApis([](MaterialStage& stage) {
         stage.add(stage.material(coloured("blending : transparent")), { { 1, { 0.5f, 0, 0, 0.5f } } });
         stage.add(stage.material(coloured("depthWrite : false")), { { 0, kGreenSurface } });

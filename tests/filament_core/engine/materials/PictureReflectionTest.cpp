@@ -163,7 +163,7 @@ TEST(PictureReflection, TheFirstFrameKnowsNoPicture) {
     }
 }
 
-TEST(PictureReflection, AMovingCameraFindsTheWallInTheLastPicture) {
+TEST(PictureReflection, AMovingCameraFindsTheWallInTheHistory) {
     const auto cameraOf = [](int frame) {
         return Camera::lookAt({ 0.1 * frame, 0.2 + 0.03 * frame, 1.5 - 0.05 * frame }, { 0.05 * frame, -0.2, 0 },
                               { .verticalFovDegrees = 50 });
@@ -173,7 +173,7 @@ TEST(PictureReflection, AMovingCameraFindsTheWallInTheLastPicture) {
 }
 
 /// The wall's colours go with it: without motion its image would be that of the place where it was.
-TEST(PictureReflection, AMovingObjectIsFoundInTheLastPicture) {
+TEST(PictureReflection, AMovingObjectIsFoundInTheHistory) {
     constexpr double3 kMovedBy(0.3, -0.1, 0);
     const Image picture =
             mirrored(3, [&](MirrorRoom& room, int frame) { room.placeWall(kMovedBy * static_cast<double>(frame)); });
@@ -193,7 +193,7 @@ TEST(PictureReflection, ARoughMirrorBlursTheImageAndKeepsItsMean) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(rough[c], smooth[c], 0.12f) << "channel " << c;
 }
 
-TEST(PictureReflection, NothingChangesWhereNoMaterialAsks) {
+TEST(PictureReflection, NothingChangesWithoutReflectiveMaterials) {
     for (const Backend backend : test::kBothApis) {
         MirrorRoom room(backend, floorText("shadingModel : lit"));
         room.view.effects.screenSpaceReflections.enabled = false;

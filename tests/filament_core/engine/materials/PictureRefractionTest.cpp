@@ -413,7 +413,7 @@ TEST(PictureRefraction, OffItIsTheRefractionOfTheEnvironment) {
     }
 }
 
-TEST(PictureRefraction, CostsNothingWhereNothingAsks) {
+TEST(PictureRefraction, CostsNothingWithoutRefractiveMaterials) {
     for (const Backend backend : test::kBothApis) {
         const TwoFrames frames = withAndWithout(backend, "refractionMode : cubemap");
         EXPECT_EQ(frames.first.pixels, frames.second.pixels);

@@ -250,7 +250,7 @@ TEST(QualityBudget, ASizeThatTheTableDoesNotNeedCostsNothingAndKeepsItsDefault) 
     EXPECT_EQ(decision->predicted.milliseconds, 7);
 }
 
-TEST(QualityBudget, BudgetsThatAreNoneAreRefusedInOneLine) {
+TEST(QualityBudget, InvalidBudgetsAreRejectedInOneLine) {
     for (const double bad : { 0.0, -1.0, double(NAN), double(INFINITY) }) EXPECT_FALSE(chooseQuality(budgetOf(bad)));
     EXPECT_FALSE(chooseQuality({ .gpuMilliseconds = 1, .size = { 0, 4 } }));
     EXPECT_FALSE(chooseQuality({ .gpuMilliseconds = 1, .frameMilliseconds = NAN }));
