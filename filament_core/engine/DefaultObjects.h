@@ -7,7 +7,7 @@
 namespace filament {
 
 void createDefaultObjects(Engine::Impl& engine);
-/// Also the engine's own materials. Afterwards only objects that the user did not destroy are left.
+/// Also the engine's own materials. Afterwards only objects remain that the user did not destroy.
 void destroyDefaultObjects(Engine::Impl& engine);
 
 } // namespace filament

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the engine needs of a device beyond what both APIs guarantee.
-///   Thread  any; pure.   Fails: Unsupported, with the device, what it lacks, and what to do.
+/// Device requirements of the engine beyond the guarantees of both APIs.
+///   Thread  any; pure.   Fails: Unsupported, with the device, the missing feature, and the remedy.
 #pragma once
 
 #include "backend/api/Driver.h"

@@ -106,9 +106,9 @@ struct SwapChainState {
     std::string name;
 };
 
-/// What is baked into a table of colours: a tone mapper and what comes with it, and a grading before it.
+/// Input of a table of colours: a tone mapper with its options, and the grading before it.
 struct ToneTableKey {
-    ColorGrading colorGrading{}; ///< without what changes no entry
+    ColorGrading colorGrading{}; ///< without fields that change no entry
     uint32_t size = 0;
     std::optional<Grading> grading{};
     friend bool operator==(ToneTableKey const&, ToneTableKey const&) = default;
@@ -164,7 +164,7 @@ struct Engine::Impl {
     void report(std::string_view line) noexcept;
     void reportOutOfMemory(std::string_view doing, std::string_view object = {},
                            std::bad_alloc const& cause = {}) noexcept;
-    /// Ends what the app destroyed and nothing uses any more, if a use ended since the last time.
+    /// Frees unused objects that the app destroyed, if a use ended since the last call.
     void releaseRetired(backend::CommandBuffer& commands);
     /// Returns what `make` returns; none, and a line for takeErrors(), if memory runs out.
     template <class F>
@@ -193,10 +193,10 @@ struct Engine::Impl {
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                      uint32_t first);
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
-    /// The handle ends. Null: nothing happens.
+    /// Invalidates the handle. Null: no effect.
     template <class Tag, class State>
     void retire(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
-    /// The same for what scenes copy.
+    /// Likewise for objects that scenes copy.
     template <class Tag, class State>
     void removeNow(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
     void destroy(Texture texture) { retire(textures, texture); }
@@ -209,7 +209,7 @@ struct Engine::Impl {
     Texture toneTable(engine::ToneTableKey const& key);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
-    /// The second half of it: what loadMaterial() made gets a handle, if this device can draw it.
+    /// Its second half: gives the result of loadMaterial() a handle, if this device can draw it.
     Result<Material> addMaterial(scene::Material loaded);
     void removeMaterial(Material material) noexcept;
     /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
@@ -218,9 +218,9 @@ struct Engine::Impl {
     std::function<std::span<const std::byte>(std::string_view)> enginePackages() const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
-    /// Of the material `motion`, made once: draws what the scene's own materials need not.
+    /// Of the material `motion`, created once: for objects whose materials have no motion variant.
     scene::MaterialInstance const* motionInstance();
-    /// Of the material `debug_draw`, made once: what surfaces hide, or do not.
+    /// Of the material `debug_draw`, created once: with and without depth test.
     scene::MaterialInstance const* debugDrawInstance(bool isTested);
     /// engineMaterial() for a full-screen pass; asserts that they fit.
     scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Environment::Impl: the engine's objects of an environment, and how they are made of its data.
+/// Environment::Impl: the engine's objects of an environment, and their creation from its data.
 ///   Thread  app.
 ///   Fails   std::bad_alloc, which callers turn into an error.
 #pragma once

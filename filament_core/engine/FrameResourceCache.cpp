@@ -20,7 +20,7 @@ uint32_t toneTableSize(ToneMapping mapping) {
     return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
 }
 
-/// Without what changes no colour, so that equal tables are one.
+/// Without fields that change no colour, so that equal tables are shared.
 ColorGrading keyOf(ColorGrading const& grading) {
     constexpr ToneCurve kCurve{};
     ColorGrading key = clamped(grading);

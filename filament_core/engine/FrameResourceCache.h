@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameResourceCache: the engine's own materials, tables and samplers that a renderer's frames are drawn with.
 ///   In      requirements of a view and its scene.   Out: passes::FrameResources.
-///   Memory  an entry for each material. What is missing is made and recorded into `pending` of the engine; finding
+///   Memory  an entry for each material. Missing ones are created and recorded into `pending` of the engine; finding
 ///           existing resources allocate nothing.
-///   Thread  the app thread.   Fails: std::bad_alloc; what was made by then serves the next frame.
+///   Thread  the app thread.   Fails: std::bad_alloc; objects created so far serve the next frame.
 #pragma once
 
 #include "filament_core/engine/EffectMaterialCache.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameSummary: what a frame drew, what it did not, and why; as numbers and as text.
+/// FrameSummary: what a frame drew and skipped, and why; as numbers and as text.
 ///   In      the packet and the plan of the frame, before its arena is reused.
 ///   Thread  pure functions.   Memory: the text.   Fails: std::bad_alloc, explain() only.
 #pragma once

@@ -55,7 +55,7 @@ public:
     void retire(ObjectHandle<Tag> handle) { mRetired.push_back(end(handle)); }
     bool hasRetired() const { return !mRetired.empty(); }
 
-    /// Ends what was retired and is not used: release(handle, state) is the last to see it.
+    /// Destroys retired objects that are unused, after release(handle, state).
     template <class IsUsed, class Release>
     void releaseRetired(IsUsed&& isUsed, Release&& release) {
         std::erase_if(mRetired, [&](Slot& slot) {
@@ -87,7 +87,7 @@ private:
     struct Slot {
         ObjectHandle<Tag> handle{}; ///< the last one of this index
         std::unique_ptr<State> state;
-        std::string lastName; ///< of what was here, once it is gone
+        std::string lastName; ///< of the former object, for messages
     };
 
     Slot end(ObjectHandle<Tag> handle) {

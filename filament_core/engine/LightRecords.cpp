@@ -54,7 +54,7 @@ void setProfile(Engine::Impl const& engine, LightProfile profile, float3 up, Lig
     record.profile = engine.lightProfiles.get(profile).words;
 }
 
-/// What the areas have in common; the record lacks its shape.
+/// The common part of area lights; the record lacks its shape.
 template <class AreaLight>
 LightRecord areaRecord(LightRecord::Type type, AreaLight const& light) {
     checkLight(light.color, light.rangeMeters, light.positionWorld);
@@ -74,7 +74,7 @@ float2 halfExtentOf(float x, float y) {
     return { x, y };
 }
 
-/// Its shadows are as soft as those of a disc that shows as many square metres.
+/// Its shadows are as soft as those of a disc of the same area.
 void setExtent(LightRecord& record, float2 halfExtent) {
     const double square = double{ halfExtent.x } * double{ halfExtent.y };
     const double area = record.type == LightRecord::Type::Disc ? std::numbers::pi * square : 4 * square;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LoadTask: what a LoadTicket refers to: work on a background thread, then steps on the thread of the engine.
+/// LoadTask: the state of a LoadTicket: work on a background thread, then steps on the engine's thread.
 ///   Thread  work() runs on a background thread, and touches neither the engine nor what step() made. Everything else
 ///           belongs to the thread of the engine. Between the two are the stage and the counts, which are atomic,
 ///           and the decoded data, which the stage Creating hands over.
@@ -64,7 +64,7 @@ protected:
     virtual size_t step(size_t index) = 0;
     /// After the last step.
     virtual void finish() = 0;
-    /// Ends everything that step() and finish() made.
+    /// Destroys everything that step() and finish() created.
     virtual void drop() noexcept = 0;
     /// Between slices: sends what was created to the driver thread if that has nothing else to do.
     virtual void sendSlice() = 0;
@@ -93,7 +93,7 @@ private:
 /// The tasks of an engine that may hold objects of it.
 class LoadTasks {
 public:
-    /// Forgets those that have ended.
+    /// Drops finished tasks.
     void add(std::shared_ptr<LoadTask> const& task);
     /// Cancels them and frees what they made: the engine ends.
     void abandon();

@@ -34,7 +34,7 @@ private:
     std::weak_ptr<Engine::Impl> mEngine;
 };
 
-/// Ends the process if something of one engine is given to another one. `what`: "scene".
+/// Ends the process if an object of another engine is passed. `what`: "scene".
 void requireSame(Engine::Impl const& engine, Engine::Impl const& other, std::string_view what);
 
 class PublicCall {

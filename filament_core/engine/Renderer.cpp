@@ -63,7 +63,7 @@ prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
     return inputOf(view, effects, contents);
 }
 
-/// What a frame is drawn to. `depth`: null: unused.
+/// The target of a frame. `depth`: null: unused.
 struct Target {
     engine::TextureState& color;
     engine::TextureState* depth = nullptr;
@@ -85,7 +85,7 @@ FrameOutput outputOf(Target const& target) {
     return output;
 }
 
-/// The material that samples what the frame draws to; null: none does.
+/// The material that samples the frame's own target; null: none does.
 scene::MaterialInstance const* samplerOf(prepare::FramePacket const& packet, Target const& target) {
     const auto samples = [&](prepare::DrawCall const& draw) {
         return std::ranges::any_of(draw.material->textures, [&](scene::TextureBinding const& bound) {
@@ -172,7 +172,7 @@ struct Renderer::Impl final : engine::Dependent {
     }
 
     /// The state of earlier frames, from the TAA history to the shadow atlas, belongs to their scene and
-    /// view. To another one it is as if there had been none.
+    /// view: another scene or view resets it.
     void beginAnewWithAnother(Scene const& scene, View const& view, Target const& target) {
         if (last.isFollowedBy(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr))) return;
         shadows.beginAnew();
@@ -180,7 +180,7 @@ struct Renderer::Impl final : engine::Dependent {
         timings.skip();
     }
 
-    /// What finished frames took decides how large the next one is.
+    /// The times of finished frames determine the size of the next one.
     void chooseShare(View const& view) {
         if (!view.effects.resolution.dynamic) return shares.forget();
         const Resolution resolution = clamped(view.effects).resolution;
@@ -210,7 +210,7 @@ struct Renderer::Impl final : engine::Dependent {
         return context;
     }
 
-    /// An expected frame leaves the maps as they are: any texture stands for them.
+    /// An expected frame does not change the maps: any texture replaces them.
     void useShadows(FrameContext& context, PipelineSource const& pipelines) {
         passes::FrameResources& used = context.resources;
         if (!pipelines.isWishing()) shadows.use(context.packet.shadows);
@@ -224,7 +224,7 @@ struct Renderer::Impl final : engine::Dependent {
         context.settings.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
     }
 
-    /// Without memory for it, the next frame is as a first one.
+    /// Out of memory: the next frame starts without history.
     void keepLast(Scene const& scene, View const& view, Target const& target, prepare::FramePacket const& packet) {
         try {
             last.keep(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr), packet);

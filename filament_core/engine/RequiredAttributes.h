@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RequiredAttributes: whether vertices have what a material reads.
+/// RequiredAttributes: whether vertices have the attributes that a material reads.
 ///   Fails   ends the process, with the material and the names of what is missing: shaders would read zeros.
 ///   Thread  any; pure.
 #pragma once

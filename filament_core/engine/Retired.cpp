@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the app destroyed while it was in use, and when that ends.
+// Objects that the app destroyed while in use, and their end.
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/engine/SceneImpl.h"
 
@@ -40,7 +40,7 @@ void Uses::sort() {
 
 namespace {
 
-/// Of everything but scenes that shows textures.
+/// Of all users of textures except scenes.
 void addUsesOfTextures(Engine::Impl& engine, Uses& uses) {
     engine.instances.forEachHeld([&](MaterialInstance, scene::MaterialInstance& instance) { uses.add(instance); });
     engine.indirectLights.forEach([&](IndirectLightState const& state) {

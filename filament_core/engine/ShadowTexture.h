@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ShadowTexture: the textures of a renderer's shadow maps, depths and moments, and what they hold.
+/// ShadowTexture: the textures of a renderer's shadow maps, depth and moments, and their contents.
 ///   Use     use() while a frame is planned, with the needs of its packet; forget() before that is recorded, keep()
 ///           once it is.
 ///   Memory  one D32F texture of the last requested size, and one of moments if requested. They go when
@@ -20,15 +20,15 @@ public:
 
     /// For prepareFrame().
     prepare::ShadowAtlas const& held() const { return mHeld; }
-    /// As if there had been no frame: where maps lie depends on the frames before.
+    /// Resets the state: positions of maps depend on earlier frames.
     void beginAnew();
-    /// Makes what a packet with maps needs, if it is not there.
+    /// Creates missing textures for a packet with maps.
     void use(prepare::ShadowPacket const& shadows);
     backend::TextureHandle depths() const { return mDepths; }
     backend::TextureHandle moments() const { return mMoments; }
     /// From now on the textures' contents are unknown, if the frame draws a map.
     void forget(prepare::ShadowPacket const& shadows);
-    /// The frame draws what its packet says.
+    /// The frame draws the maps of its packet.
     void keep(prepare::ShadowPacket const& shadows);
 
 private:

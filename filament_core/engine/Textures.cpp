@@ -122,7 +122,7 @@ BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<con
     return handle.keep();
 }
 
-// The driver would refuse it, too, but only after everything that uses it has been recorded.
+// The driver would also reject it, but only after all of its uses have been recorded.
 bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
     const uint32_t most = engine.device.maxTextureSize;
     if (std::max(desc.width, desc.height) <= most) return true;

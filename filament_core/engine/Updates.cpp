@@ -112,7 +112,7 @@ void Engine::Impl::update(engine::TextureState& state, TextureUpdate const& upda
     const bool isSrgb = formatInfo(desc.format).isSrgb;
     if (update.generateMips && isSrgb && !region.isWholeLevel0(desc))
         misused("the mip levels of an sRGB texture are computed from all of level 0; give all of it, or each level");
-    if (!state.handle) return; // larger than the device allows: create() said so
+    if (!state.handle) return; // larger than the device allows: create() reported it
     AllOrNothing all(pending);
     if (update.generateMips && isSrgb) {
         uploadLevelsMadeHere(pending, state.handle, desc, update.pixels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Attachments: which things of one kind are attached to which node. One doubly linked list per node, threaded through
+/// Attachments: which objects of one type are attached to which node. One doubly linked list per node, threaded through
 /// the things.
 ///   Thread  the app thread; forEach() on any number of threads while nothing changes.
 ///   Memory  16 bytes per thing, 4 bytes per node; both grow to the highest index in use. Attaching and detaching are
@@ -32,7 +32,7 @@ public:
         mFirst[node] = thing.index();
     }
 
-    /// Does nothing to a thing that is not attached.
+    /// No effect on an object that is not attached.
     void detach(ObjectHandle<Tag> thing) {
         if (!isAttached(thing)) return;
         const Link link = mLinks[thing.index()];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ContentVersions: how often the contents of buffers and textures changed since they were created: what was drawn from
-/// an older version, such as a shadow map that is kept, is out of date.
+/// ContentVersions: how often the contents of buffers and textures changed since they were created: data drawn from
+/// an older version, such as a cached shadow map, is out of date.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
 ///   Memory  4 bytes for each object up to the highest index that changed. changed() throws std::bad_alloc.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Deformations: what moves the vertices of renderables: skins, whose bones follow nodes or are set by the user, and
+/// Deformations: vertex deformation of renderables: skins, whose bones follow nodes or are set by the user, and
 /// weights of morph targets. A deformed renderable has its own slot here, and its drawable refers to the slot.
 ///   Bounds  the box at rest, grown by the morph targets according to their weights, then moved by every bone. A vertex
 ///           is a weighted mean of the positions its bones give it, so it never leaves that box. One box per bone makes
@@ -82,7 +82,7 @@ public:
     bool hasSkins() const { return mSkinCount > 0; }
     bool empty() const { return mCount == 0; }
 
-    // Which skins must be recomputed: an update of the nodes records what it moved.
+    // Which skins must be recomputed: an update of the nodes records the moved ones.
 
     void beginMoving(size_t nodeSlots);
     /// Many threads at once, each with its own nodes.

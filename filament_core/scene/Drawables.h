@@ -61,8 +61,8 @@ struct Drawable {
 /// Smaller: drawn first. 19 bits.
 constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
 
-/// Whether Quality::transparency may compose what this material draws without sorting it: it stands in the scene,
-/// covers what is behind it, tests depth and leaves none, has no stencil state, draws no depth of its own first, and
+/// Whether Quality::transparency may compose this material order-independently: it is placed in the scene,
+/// covers its background, tests depth without writing it, has no stencil state, no depth pass of its own, and
 /// does not refract the scene colour.
 bool blendsInAnyOrder(MaterialInstance const& instance);
 
@@ -76,9 +76,9 @@ public:
     /// Opaque without depth test or depth write: drawn after the sky, before transparent objects.
     static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
     static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
-    static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but shows what is drawn behind it
+    static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but refracts the scene colour
     static constexpr uint32_t kAnyOrder = 1u << 26; ///< blended, but may be composed in any order (blendsInAnyOrder())
-    static constexpr uint32_t kStencilWriteOrder = 1u << 25; ///< opaque, and changes what others test: before those
+    static constexpr uint32_t kStencilWriteOrder = 1u << 25; ///< opaque, and writes stencil values: drawn first
 
     /// The number of this pair; adds a user.
     uint32_t acquire(Drawable const& drawable);

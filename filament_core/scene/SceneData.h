@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneData: everything that exists, by column. Dense arrays for the frame, handles for the user.
+/// SceneData: all objects of a scene, by column. Dense arrays for the frame, handles for the user.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
 ///   Memory  one array per property; add and remove are O(1), and removal moves the last element into the gap.
 #pragma once

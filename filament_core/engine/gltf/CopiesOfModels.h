@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CopiesOfModels: what Scene::add(model) made of each model, by the root of the copy.
+/// CopiesOfModels: the objects that Scene::add(model) created, by the root of the copy.
 ///   Out     handles in the order of the parts of the model; those of parts that the program has removed are dead.
 ///   Memory  handles of every node, renderable and light of a copy. Looking up and removing are O(1).
 ///   Life    materials of a copy's own end with its record, after its renderables.
@@ -36,7 +36,7 @@ private:
     EngineLink mLink;
 };
 
-/// What is shown of a copy. All is empty until an animation or a level of detail changes it.
+/// The visible parts of a copy. All is empty until an animation or a level of detail changes it.
 struct ShownParts {
     std::vector<assets::LightData> lights; ///< as an animation left those of the file
     std::vector<uint8_t> isVisible;        ///< by node of the model: of its own, as an animation left it

@@ -34,11 +34,11 @@ struct GltfMaterialSettings {
     std::vector<std::string> leftOut; ///< stems of maps that did not fit; only their factors count
 };
 
-/// What of a primitive decides how its material is drawn.
+/// The properties of a primitive that select its material.
 struct GltfVertices {
     bool hasColor = false;
-    bool hasNormals = true;  ///< without, base colour and emission are shown without light (glTF 2.0, 3.9.7)
-    bool hasTangents = true; ///< without, normal maps are left out (the same)
+    bool hasNormals = true;  ///< without, base colour and emission are unlit (glTF 2.0, 3.9.7)
+    bool hasTangents = true; ///< without, normal maps are ignored (glTF 2.0, 3.9.7)
     auto operator<=>(GltfVertices const&) const = default;
 };
 GltfVertices verticesOf(assets::PrimitiveData const& primitive);

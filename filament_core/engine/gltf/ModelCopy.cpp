@@ -78,7 +78,7 @@ public:
     CopyOfModel& copy;
 };
 
-/// NotFound, with what is near. Names that are empty or repeated are no suggestions.
+/// NotFound, with similar names. Names that are empty or repeated are no suggestions.
 Error unknown(CopyOfModel const& copy, std::string_view what, std::string_view name,
               std::vector<std::string_view> const& known) {
     std::vector<std::string_view> names;
@@ -99,7 +99,7 @@ bool isThere(Scene::Impl const& scene, Renderable renderable) {
 }
 bool isThere(Scene::Impl const& scene, Light light) { return scene.data.lights.index.contains(light); }
 
-/// What a renderable is drawn with now.
+/// The current materials of a renderable.
 scene::MaterialInstance const* drawnWith(Scene::Impl const& scene, Renderable renderable) {
     scene::Renderables const& renderables = scene.data.renderables;
     return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].material;
@@ -129,7 +129,7 @@ Camera cameraOf(assets::CameraData const& data, double4x4 const& worldFromNode) 
                      .parallelMeters = data.isParallel ? 2 * data.halfHeightMeters : 0,
                      .farMeters = data.farMeters,
                      .aspect = data.aspect };
-    // glTF 2.0, section 3.10.2: the camera is not scaled. Gram-Schmidt keeps where it looks.
+    // glTF 2.0, section 3.10.2: the camera is not scaled. Gram-Schmidt keeps its direction.
     const double3 back = directionOr({ 0, 0, 1 }, worldFromNode[2]), up = directionOr({ 0, 1, 0 }, worldFromNode[1]);
     const double3 position(worldFromNode[3]);
     const double3 eye = std::isfinite(glm::dot(position, position)) ? position : double3(0.0);

@@ -25,7 +25,7 @@ struct ParameterRow {
 };
 
 using enum PropertyName;
-/// What settingsOf() makes of each property; several can make one parameter.
+/// The parameters of each property by settingsOf(); several can share one parameter.
 constexpr std::array kParameters{
     ParameterRow{ BaseColorFactor, "baseColorFactor" },
     ParameterRow{ MetallicFactor, "metallicFactor" },
@@ -125,7 +125,7 @@ std::vector<assets::LightData> const& lightsOf(Model::Impl const& model, ShownPa
     return parts.lights.empty() ? model.lightsOfFile : parts.lights;
 }
 
-/// Changes one property of a light: what the program set of the others stays.
+/// Changes one property of a light; the others keep the program's values.
 void changeLight(Scene::Impl& scene, Light light, assets::LightData const& data, PropertyName property, bool isShown) {
     if (!scene.data.lights.index.contains(light)) return;
     scene::LightRecord record = scene.data.lights.records[scene.data.lights.index.at(light)];

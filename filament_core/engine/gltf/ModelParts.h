@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelParts: what animations change of a copy of a model beside its nodes (KHR_animation_pointer), and which of its
+/// ModelParts: animated properties of a copy of a model other than its nodes (KHR_animation_pointer), and its visible
 /// parts are shown, which levels of detail decide as well (MSFT_lod).
 ///   In      values of the model's animated properties.
 ///   Out     materials that the copy shares with no other one, lights, cameras, and which parts are shown.
@@ -50,7 +50,7 @@ void findChangingNodes(Model::Impl& model);
 /// animation and no level of detail changes.
 void showParts(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy);
 
-/// Hides what a new copy does not show at rest.
+/// Hides parts of a new copy that are invisible at rest.
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root);
 
 /// ModelCopy::chooseLevels().

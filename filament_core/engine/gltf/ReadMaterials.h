@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// readMaterials: the engine's materials for a glTF model, unpacked and specialised beside frames.
-///   In      a model as the loader made it, and what of the engine decides (GltfMaterialChoice).
+///   In      a model from the loader, and properties of the engine (GltfMaterialChoice).
 ///   Out     by materialKey(): each material that the primitives of the model are drawn with, in any of its variants.
 ///           GltfMaterials takes them from there.
 ///   Thread  any; with jobs. Each package is unpacked once.
@@ -23,7 +23,7 @@
 
 namespace filament {
 
-/// What of an engine decides which material a glTF material becomes. Constant while the engine lives.
+/// The properties of an engine that select the material of a glTF material. Constant while the engine lives.
 struct GltfMaterialChoice {
     /// Of an engine material; exact by default. Any thread.
     std::function<std::span<const std::byte>(std::string_view)> package = &shader::engineMaterial;

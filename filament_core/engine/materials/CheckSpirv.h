@@ -5,7 +5,7 @@
 ///           its program; its `main` is of the stage that it stands for; no type is larger than 1 MiB.
 ///   Trust   packages that are part of this program (shader::isEnginePackage()) need no check.
 ///   Thread  any; pure.
-///   Fails   Corrupt: the variant, the stage and what SPIRV-Tools says.
+///   Fails   Corrupt: the variant, the stage and the message of SPIRV-Tools.
 ///   Cost    4 ms for each stage, once, when a material is created; variants share stages.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialNumbers: the ids of materials, which sort keys and caches have 20 bits for.
-///   Order   ascending, as materials are created, because draws of equal depth are sorted by them: what was destroyed
+///   Order   ascending, as materials are created, because draws of equal depth are sorted by them: objects destroyed
 ///           before must not change an image. A number is used again only once all have been used.
 ///   Thread  one at a time.   Memory: a bit for each number up to the largest.
 ///   Fails   take(): std::bad_alloc; OutOfHandles if 2^20 materials live.
