@@ -13,6 +13,6 @@ const int kViewMipLevel = 24;
 const int kViewOverdraw = 25;
 const int kViewTransparentLayers = 26;
 
-// Alpha of what is shown: a value; nothing, because the material has no such input. Where there is no surface: 0.
+// Alpha of the output: for a value; for a material without such an input. Without a surface: 0.
 const float kHasValue = 1.0;
 const float kHasNone = 0.5;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What auto exposure and the view of its histogram agree on.
+// Shared by auto exposure and the debug view of its histogram.
 
 const float kMiddleGreyStops = -2.4739312; // log2(0.18)
 
-// How many pixels are darker than those that count, and than the last one of them. At least a thousandth counts.
+// The number of pixels below the lower and below the upper percentile. At least a thousandth lies between.
 vec2 countedRange(vec2 shares, float all) {
     float low = min(shares.x, 0.999) * all;
     return vec2(low, max(shares.y * all, low + 0.001 * all));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes of the lens flare share.
+// Shared by the passes of the lens flare.
 
 const float kBrightestOfFlare = 16384.0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes of depth of field share; included after shaders/lib/distance.glsl. The material has the parameter
+// Shared by the passes of depth of field; included after shaders/lib/distance.glsl. The material has the parameter
 // `focus`: the members of prepare::Focus.
 
 // Radius of the disc, in pixels, of a point at the depth of a depth buffer; < 0: in front of the focus.

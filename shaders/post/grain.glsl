@@ -15,14 +15,14 @@ uvec3 hashed(uvec3 v) {
     return v;
 }
 
-// Sum of three even distributions: mean 0, deviation 1.
+// Sum of three uniform distributions: mean 0, standard deviation 1.
 float grainAt(ivec2 cell) {
     uvec3 bits = hashed(uvec3(uvec2(cell), floatBitsToUint(frameUniforms.time.x) ^ floatBitsToUint(frameUniforms.time.y)));
     vec3 even = vec3(bits >> 8u) * (1.0 / 16777216.0);
     return (even.x + even.y + even.z - 1.5) * 2.0;
 }
 
-// The same at any size of a grain: four of them are mixed, by weights that keep the deviation.
+// For any grain size: four of them are mixed, by weights that keep the standard deviation.
 float grainOf(vec2 pixel, float size) {
     vec2 place = pixel / size;
     vec2 cell = floor(place);
@@ -33,7 +33,7 @@ float grainOf(vec2 pixel, float size) {
     return dot(grains, weights) * inversesqrt(dot(weights, weights));
 }
 
-// Most in the middle tones: black and white of film are even.
+// Strongest in the midtones: black and white of film have no grain.
 vec3 grained(vec3 color) {
     if (materialConstants_grain) {
         float y = saturate(luminance(color));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From where this frame shows a surface to where the last one did. Includes need: the parameters `motion`
-// (FrameTargets::motion), `lastFromPixel`, `perSample` (1 / size) and `jitter` (pixels by which this frame is moved), and
+// The motion of a surface on screen from this frame to the previous one. Includes need: the parameters `motion`
+// (FrameTargets::motion), `lastFromPixel`, `perSample` (1 / size) and `jitter` (of this frame, pixels), and
 // the constants `hasMotion` and `isElsewhere` (the camera moved).
 
 // point: pixel and its depth. Returns fractions of the screen's width and height; outside of it: nowhere.

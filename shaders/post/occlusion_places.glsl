@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of the texels of an occlusion texture, and linear depth there. Includes need: the parameter
 // `depth`, the values `last` and `inverseOfDepth`, and the constant `grid`: 0 full, 1 half, 2 checkerboard.
-//   inverse  what is linear in the depth and over the pixels of a plane, and greater if nearer: 1 / distance of a
-//            perspective projection; of a parallel one how much nearer than the far plane, in widths of pixels.
+//   inverse  linear in depth and in screen space on a plane, and greater if nearer: 1 / distance of a
+//            perspective projection; of an orthographic one the distance to the far plane, in widths of pixels.
 
 const int kGridFull = 0;
 const int kGridHalf = 1;

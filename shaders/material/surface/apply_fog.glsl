@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fog makes of the colour of a fragment, by how it is blended. quality_fog is a set of shader::FogTerms.
+// Fog on the colour of a fragment, by its blending. quality_fog is a set of shader::FogTerms.
 
 const int kFogFromEnvironment = 2;
 const int kFogFromRgbm = 4;
 const int kFogSun = 8;
 
-// Lit materials know their point. Others do not need it for anything else; they have it from the depth, or from its
+// Lit materials have their position. Others need it only here, and derive it from the depth, or from its
 // inverse as it was before the projection, which is as exact with any depth range.
 FogRay fogRayOfFragment() {
 #if defined(FOG_POINT_IS_KNOWN)
@@ -34,7 +34,7 @@ highp vec3 fogRadiance(highp vec3 direction) {
     return light;
 }
 
-// What the fog between camera and fragment adds; w: how much it hides.
+// The light of the fog between camera and fragment; w: its opacity.
 highp vec4 fogOfFragment() {
     FogRay ray = fogRayOfFragment();
     highp float opacity = fogAlong(ray, frameUniforms.fogMedium.z);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rectangles, discs and tubes among the lights of a view: reading them, and how they shine on any shading model.
-// quality_areaLights is 0 in a view without them, and then nothing of this is in the program.
+// Rectangles, discs and tubes among the lights of a view: reading them, and their light for any shading model.
+// quality_areaLights is 0 in a view without them, and then none of this is in the program.
 
-// What the light list says of the shape (LightShape of ShaderInterface.h).
+// The shape in the light list (LightShape of ShaderInterface.h).
 const float kShapeSpot = 1.0;
 const float kShapeDisc = 3.0;
 const float kShapeTube = 4.0;
@@ -14,7 +14,7 @@ struct AreaLight {
     highp vec3 center;       // from the point that is shaded
     highp vec3 halfX, halfY; // their cross product points away from a point that it shines on
     highp vec3 luminance;    // pre-exposed
-    highp vec3 visibility;   // [0, 1]: what shadow maps leave of it
+    highp vec3 visibility;   // [0, 1]: visibility from shadow maps
     bool isDisc;
     bool isTwoSided;
 };
@@ -26,7 +26,7 @@ struct AreaFrame {
 
 bool isArea(highp float shape) { return shape > kShapeSpot + 0.5; }
 
-// The rectangle that covers a tube in view of a point: between the two planes through the point that touch the cylinder.
+// The rectangle that covers a tube as seen from a point: between the two tangent planes of the cylinder through the point.
 // halfAxis: from the middle to an end.
 highp vec3 tubeAcross(highp vec3 center, highp vec3 halfAxis, highp float radius) {
     highp vec3 across = cross(center, halfAxis);
@@ -104,7 +104,7 @@ Light representativeOf(AreaFrame frame, AreaLight area, highp vec3 integral) {
     return arriving;
 }
 
-// For any shading model. Models that light crosses see what shines on their back as a point of its own.
+// For any shading model. Transmissive models get light on their back as a separate point.
 highp vec3 shadeAreaAsPoint(Surface surface, AreaLight area) {
     AreaFrame frame = areaFrame(surface.normal, surface.view);
     highp vec3 integral = integralOver(frame, area);

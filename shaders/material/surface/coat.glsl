@@ -31,7 +31,7 @@ float coatAlbedo(Coat coat) { return mix(coat.dfg.x, coat.dfg.y, kCoatF0) * coat
 // The factor of the layers below, for the environment.
 float coatLeaves(Coat coat) { return coatTransmissionFromDfg(coat.dfg, coat.strength); }
 
-// The same for one light. nol: at the coat's normal, in [0, 1].
+// The factor for one light. nol: at the coat's normal, in [0, 1].
 float coatLeavesOfLight(Coat coat, float nol) {
     vec2 dfg = splitSumTerm(max(nol, kMinNoV), coat.perceptualRoughness);
     return min(coatLeaves(coat), coatTransmissionFromDfg(dfg, coat.strength));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows of what is too small or too near for shadow maps: a ray from the fragment towards the light through the
+// Shadows of casters that are too small or too near for shadow maps: a ray from the fragment towards the light through the
 // depth buffer (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
 
-const highp float kContactBias = 0.25; // of a pixel's width: what rises less above the plane of the fragment is that plane
-const highp float kContactFade = 0.75; // of the ray: what is farther away fades
+const highp float kContactBias = 0.25; // of a pixel's width: smaller heights above the fragment's plane are that plane
+const highp float kContactFade = 0.75; // of the ray, from which shadows fade
 const highp float kDepthUnit = 1.2e-7; // of a depth buffer with floats near 1
 
-// What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the
+// Constants of all rays of a fragment. A pixel at `place`, in [-1, 1], shows a point at the distance d along the
 // view at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
 // In an orthographic projection the point is at axes x place.x + axes y place.y + the image centre + forward d.
 struct ContactReceiver {
@@ -50,8 +50,8 @@ ContactReceiver contactReceiver() {
     return receiver;
 }
 
-// 1: nothing stands between the fragment and the light. toLight: unit. reach: metres to the light. Towards what lies
-// behind the plane no ray leads: it is dark there anyway.
+// 1: the light is visible. toLight: unit. reach: metres to the light. There are no rays towards lights
+// behind the plane, which is dark anyway.
 highp float contactVisibility(bool isAsked, highp vec3 toLight, highp float reach) {
     ContactReceiver receiver = contactReceiver();
     bool isAbove = dot(receiver.normal, toLight) > 0.0;

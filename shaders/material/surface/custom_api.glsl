@@ -14,5 +14,5 @@ struct LightData {
     float NdotL;         // [0, 1]
     vec3 worldPosition;  // for the sun: a metre away in its direction
     float attenuation;   // by distance and cone: 1 / m^2; 1 for the sun
-    float visibility;    // [0, 1]: what shadows leave of the light
+    float visibility;    // [0, 1]: visibility from shadows
 };

@@ -2,7 +2,7 @@
 // Lights for materials with customSurfaceShading: shadeLight() is the author's function, also for lights behind the
 // surface.
 
-// LightData::visibility is one number: what a coloured shadow is beyond it goes into the light's colour.
+// LightData::visibility is one number: the tint of a coloured shadow goes into the light's colour.
 highp vec3 tintedByShadow(highp vec3 color, highp vec3 visibility) {
     highp float most = max3(visibility);
     if (variant_shadows != 0 && quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;

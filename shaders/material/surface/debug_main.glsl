@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragment stage of variants with kVariantDebug: one of the values that the material's code gives to shading, for
-// DebugView. Nothing is lit. debug_material.mat makes colours of it.
+// DebugView. Nothing is lit. debug_material.mat converts it to colours.
 
 // Levels of a texture of 1024 texels a side that the first coordinates read: log2 of the texels between two pixels (OpenGL
 // ES 3.1, 8.14.1).
@@ -48,7 +48,7 @@ vec4 debugShading(MaterialInputs inputs, int view) {
     return shown;
 }
 
-// 1 for a layer that transparency.glsl composes. A surface that hides what is behind it only writes its depth.
+// 1 for a layer that transparency.glsl composes. Opaque surfaces only write depth.
 vec4 debugLayer(MaterialInputs inputs) {
 #if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
     return vec4(0.0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of variants that leave depth alone: what it cuts out decides, nothing is lit and no colour is written.
+// Fragment stage of depth-only variants: only discards matter, nothing is lit and no colour is written.
 
 #if defined(DITHERS_DEPTH) || defined(TRANSMITS_DEPTH)
 
-// Eight patterns, of which no two are alike or shifted: one for each of 16 layers of depth an octave, in turns. So two panes
-// in different layers pass the product of what each of them does.
+// Eight patterns, all different and none a shift of another, in turns for 16 layers of depth per octave. So two panes
+// in different layers transmit the product of their transmittances.
 highp float noiseOfLayer() {
     uint layer = floatBitsToUint(gl_FragCoord.z) >> 19u;
     highp vec2 pixel = floor(gl_FragCoord.xy);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane of the triangle that a fragment belongs to, from the derivatives of its position.
 
-// Its normal, unit and of any side; zero where the triangle is too small to tell.
+// Its normal, unit and of any side; zero where the triangle is too small.
 highp vec3 shading_facet;
 // From this pixel to its neighbours.
 highp vec3 shading_right, shading_down;

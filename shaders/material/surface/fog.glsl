@@ -5,11 +5,11 @@
 
 struct FogRay {
     highp vec3 direction; // unit
-    highp float meters;   // to what the fragment shows, at most kFogInfinity
+    highp float meters;   // to the fragment, at most kFogInfinity
     highp float height;   // where it begins, above the camera
 };
 
-// Parallel to the others, from the plane of the camera. point: w = 0: nothing is there.
+// Parallel to the others, from the plane of the camera. point: w = 0: background.
 FogRay parallelFogRay(highp vec4 point) {
     highp mat4 view = frameUniforms.viewFromWorld;
     FogRay ray;
@@ -33,7 +33,7 @@ FogRay fogRayTo(highp vec4 point) {
     return ray;
 }
 
-// The share of light that fog replaces between `from` and the end of the ray.
+// The fraction of light that fog replaces between `from` and the end of the ray.
 highp float fogAlong(FogRay ray, highp float from) {
     highp vec4 medium = frameUniforms.fogMedium;
     highp float density = medium.x - medium.y * ray.height;

@@ -8,8 +8,8 @@ struct LightList {
     bool isFroxel; // otherwise the lights are 0, 1, ..., count - 1: all of the view
 };
 
-// The froxel is that of the point, not of the pixel: it is the point that lights reach, and a vertex stage may draw it
-// elsewhere. A point outside of the grid has all lights, so lists need not know what is there.
+// The froxel is that of the position, not of the pixel: lights reach the position, and a vertex stage may draw it
+// elsewhere. A point outside of the grid has all lights, so lists need no bounds.
 // filament_core/prepare/Froxels.cpp, froxelAt(), is the twin.
 LightList lightsNear(highp vec3 point) {
     highp vec4 grid = frameUniforms.froxelGrid;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Areas on the standard model and specular-glossiness: the diffuse lobe by the integral of the cosine, the specular lobes
 // by linearly transformed cosines. What depends on the direction of light otherwise (the diffuse lobe's share, sheen, the
-// boundary of bumps) takes the mean direction.
+// boundary of bumps) uses the mean direction.
 
 // The entry of the table between its nodes.
 highp vec3 ltcNode(int column, int row) {

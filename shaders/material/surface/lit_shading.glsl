@@ -18,7 +18,7 @@ highp vec3 reflectedOf(Surface surface) {
     return reflected;
 }
 
-// The share of ambient light that reaches what is below the specular lobe.
+// The fraction of ambient light that reaches the layers below the specular lobe.
 vec3 leftBySpecular(Surface surface) { return 1.0 - surface.boundary; }
 
 #if defined(REFRACTION)
@@ -100,7 +100,7 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
 
 #if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
 
-// What the layers above leave of light from the base.
+// Transmittance of the layers above for light from the base.
 highp vec3 throughLayers(Surface surface, highp vec3 light) {
 #if defined(HAS_SHEEN)
     if (hasSheen(surface.sheen)) light *= sheenLeaves(surface.sheen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the standard model and specular-glossiness know about a surface, computed once for all light.
+// The surface of the standard model and specular-glossiness, computed once for all lights.
 
 #include "shaders/lib/specular.glsl"
 #include "shaders/material/surface/mixture.glsl"
@@ -86,7 +86,7 @@ void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surf
 
 #endif
 
-// No real material reflects less than 2 %; a darker f0 means that the material wants no reflection at all. Lagarde and
+// No real material reflects less than 2 %; a darker f0 disables reflection. Lagarde and
 // de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
 float f90Of(vec3 f0) { return saturate(dot(f0, vec3(50.0 * 0.33))); }
 
@@ -107,7 +107,7 @@ void coverReflectances(inout Surface surface) {
 #endif
 #if defined(HAS_CLEAR_COAT) && defined(CLEAR_COAT_IOR_CHANGE)
     if (surface.coat.strength > 0.0) {
-        vec3 covered = f0UnderCoat(surface.f0, 1.0) * saturate(surface.f0 * 50.0); // what wants no reflection has none
+        vec3 covered = f0UnderCoat(surface.f0, 1.0) * saturate(surface.f0 * 50.0); // disabled reflection
         surface.f0 = mix(surface.f0, covered, surface.coat.strength);
         surface.f90 = min(surface.f90, f90Of(surface.f0));
     }
@@ -192,7 +192,7 @@ void setTransmission(MaterialInputs material, inout Surface surface) {
 
 #if defined(REFRACTION)
 
-// What transmitted light is tinted with: the colour of the dielectric, not its share of the surface.
+// The tint of transmitted light: the colour of the dielectric, not its fraction of the surface.
 vec3 dielectricColor(vec3 baseColor, Surface surface) {
 #if defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
     return surface.diffuse;

@@ -45,7 +45,7 @@ highp vec3 radianceAlongGrain(Grooves grooves, int count) {
     for (int i = 0; i < count; ++i) {
         highp float u = (2.0 * float(i) + 1.0) * spacing - 1.0;
         highp vec4 lookUp = grainLookUp(view, alpha, u);
-        if (lookUp.w <= 0.0) continue; // below the surface, or not seen
+        if (lookUp.w <= 0.0) continue; // below the surface, or hidden
         highp vec3 direction = x * lookUp.x + y * lookUp.y + shading_normal * lookUp.z;
         sum += environmentRadiance(direction, grainLookUpRoughness(alpha, u, spacing)) * lookUp.w;
         weights += lookUp.w;

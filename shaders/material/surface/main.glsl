@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragment stage of lit surface materials, entry point.
 
-// Before the author's code and the mask, which may discard neighbours: what a device does not go on with has undefined
+// Before the author's code and the mask, which may discard neighbours: a fragment that a device has ended has undefined
 // derivatives (OpenGL ES Shading Language, "Derivative Functions"). GPUs stop there, Mesa's CPU drivers do not.
 void takeDerivatives() {
 #if defined(SPECULAR_ANTI_ALIASING)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
-// scatters and transmits. With one f0 between both, the light that the metal reflects would be taken from it a second
+// scatters and transmits. With one interpolated f0, the light that the metal reflects would be removed a second
 // time, and bounces between facets would be compensated for neither.
 
 struct Mixture {
-    vec3 matterAlbedo; // of the dielectric's interface, with all bounces: what this leaves enters the matter
+    vec3 matterAlbedo; // of the dielectric's interface, with all bounces: the rest enters the dielectric
     vec3 albedo;       // of both interfaces
     vec3 compensation; // of both for their bounces
 };

@@ -6,7 +6,7 @@ layout(location = 0) in vec4 vertex_lastClip;
 layout(location = 1) in vec2 vertex_distances;
 layout(location = 0) out vec4 fragment_motion; // FrameTargets::motion
 
-const float kOutOfPicture = 4.0; // in widths and heights of the screen: farther than any two pixels are apart
+const float kOutOfPicture = 4.0; // in widths and heights of the screen: larger than any distance of two pixels
 const float kLargestHalf = 65504.0;
 
 void main() {

@@ -23,7 +23,7 @@ float materialVisibility(MaterialInputs material) {
 #endif
 }
 
-// Both know some of the same surroundings: the smaller one knows more of them.
+// Both contain some of the same occluders: the smaller one contains more of them.
 float ambientVisibility(MaterialInputs material) {
     float visibility = materialVisibility(material);
     if (quality_screenOcclusion != 0) visibility = min(visibility, screenOcclusion().w);
@@ -44,7 +44,7 @@ highp vec3 openNormal(highp vec3 normal) {
     return open;
 }
 
-// Whether anything knows of surroundings: otherwise the code that uses them is left out.
+// Whether there is any occlusion: otherwise the code that uses it is omitted.
 bool isOccluded() {
 #if defined(HAS_AMBIENT_OCCLUSION)
     return true;
@@ -64,7 +64,7 @@ vec3 seenDiffuse(vec3 light, float visibility, vec3 albedo) {
 #endif
 }
 
-// The same for a lobe around `reflected`; alpha and perceptualRoughness are its roughness.
+// Occlusion of a lobe around `reflected`; alpha and perceptualRoughness are its roughness.
 vec3 seenReflection(vec3 light, float visibility, float nov, highp vec3 reflected, float alpha,
         highp float perceptualRoughness, vec3 albedo) {
     vec3 seen = light;

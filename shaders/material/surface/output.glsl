@@ -68,7 +68,7 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #if defined(ALPHA_TO_COVERAGE)
 
 // Sample s of N is covered if alpha > s / N: the first ceil(alpha * N) of them. Which samples devices would choose is
-// their own affair (Vulkan 1.3, "Multisample Coverage"), and versions of Mesa differ. samples: a power of two, at most
+// unspecified (Vulkan 1.3, "Multisample Coverage"), and versions of Mesa differ. samples: a power of two, at most
 // 16, which makes the product exact. Returns bit s for sample s; no sample if alpha is no number.
 int coveredSamples(highp float alpha, highp float samples) {
     int count = alpha > 0.0 ? int(ceil(min(alpha, 1.0) * samples)) : 0;

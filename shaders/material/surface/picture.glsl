@@ -23,12 +23,12 @@ struct Look {
 
 Behind nothingBehind() { return Behind(vec3(0.0), vec3(1.0), 0.0); }
 
-// How wide the lobe is, in pixels, that leaves at `distance` and ends at 1 / nearness, both along the view in metres.
+// The width in pixels of the lobe from `distance` to 1 / nearness, both linear depths in metres.
 highp float blurredPixels(highp float deviation, highp float distance, highp float nearness) {
     highp float perTangent = 0.5 * abs(frameUniforms.clipFromView[1].y) * passUniforms.target.y;
     highp float way;
     if (ofFragment(frameUniforms.clipFromView[3].w) == 0.0) {
-        way = 1.0 - distance * nearness; // perspective: of what is far away, pixels are tangents
+        way = 1.0 - distance * nearness; // perspective: for distant surfaces, pixels are tangents
     } else {
         way = 1.0 / max(nearness, kLeastNearness) - distance;
     }
@@ -54,7 +54,7 @@ Look lookAt(highp vec3 offset, highp float deviation) {
     } else {
         share = 0.0; // behind the camera
     }
-    // What is nearer than this surface is not behind it. What is straight behind it always is.
+    // Pixels nearer than this surface are not behind it. The pixel straight behind always is.
     if (pictureTexel(pixel, 0.0).a * alongView(vertex_worldPosition) > 1.00390625) pixel = gl_FragCoord.xy;
 #endif
     if (deviation > 0.0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a light with a profile shines in a direction. quality_lightProfiles is 0 in a view without such lights, and
-// then nothing of this is in the program. LightProfileTable::shareAt() is the twin.
+// The relative intensity of a light with a profile in a direction. quality_lightProfiles is 0 in a view without such lights, and
+// then none of this is in the program. LightProfileTable::shareAt() is the twin.
 
 // Of 65535. entries: the word where those of the table begin.
 highp float profileEntry(int entries, int entry) {

@@ -89,7 +89,7 @@ vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
 // Directional albedo of the specular lobe with all bounces.
 vec3 specularAlbedoTerm(vec3 f0, float f90, vec2 dfg) { return specularDfg(f0, f90, dfg) * energyCompensationTerm(f0, dfg); }
 
-// The two factors of the diffuse lobe under lights: one is the part that the specular lobe leaves towards one
+// The two factors of the diffuse lobe under lights: one is the part not reflected by the specular lobe towards one
 // direction; the other is that for the other direction, divided by the average part left.
 vec3 diffuseEntryTerm(vec3 albedo) {
     vec3 share = vec3(1.0);
@@ -103,7 +103,7 @@ vec3 diffuseExitTerm(vec3 albedo, vec3 averageAlbedo) {
     return share;
 }
 
-// The direction of the one look-up that stands for a rough lobe.
+// The direction of the single fetch that approximates a rough lobe.
 highp vec3 lobeDirectionTerm(highp vec3 normal, highp vec3 reflected, float alpha) {
     highp vec3 direction;
     if (quality_specularLookUps == kLookUpsQuadratic) {

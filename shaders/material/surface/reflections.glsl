@@ -4,12 +4,12 @@
 // subdivided down to pixels. The colour of a hit is the scene colour there: for opaque surfaces that of the previous
 // frame, reprojected to this one.
 //   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines on screen are walked, and what
-//           is linear in the world is interpolated as a fraction of w. Uludag 2014, "Hi-Z Screen-Space Cone-Traced
-//           Reflections", GPU Pro 5: the pyramid.
+//           is linear in the world is interpolated divided by w. Uludag 2014, "Hi-Z Screen-Space Cone-Traced
+//           Reflections", GPU Pro 5: the hierarchical depth buffer.
 
 const highp float kReflectionBorder = 0.08;     // of the screen, over which hits fade
-const highp float kReflectionBias = 0.0009765625; // of the distance: what counts as the same surface
-const highp float kIntoNextCell = 0.03125; // pixels: beyond the border, whatever rounding does
+const highp float kReflectionBias = 0.0009765625; // of the distance: tolerance for the same surface
+const highp float kIntoNextCell = 0.03125; // pixels: beyond the border, despite rounding
 
 #include "shaders/material/surface/picture_texel.glsl"
 
@@ -21,7 +21,7 @@ struct PictureHit {
 
 PictureHit noHit() { return PictureHit(vec3(0.0), 0.0, 0.0); }
 
-// For DebugView::Reflections: red is -1 - metres, or -0.5 where nothing is hit.
+// For DebugView::Reflections: red is -1 - metres, or -0.5 for a miss.
 highp vec3 codeOfHit(PictureHit hit) { return vec3(hit.weight > 0.0 ? -1.0 - min(hit.meters, 6e4) : -0.5, 0.0, 0.0); }
 
 // A ray as a line on screen.
@@ -41,7 +41,7 @@ highp float insidePicture(highp float start, highp float along, highp float size
     return clamp(end, 0.0, 1.0);
 }
 
-// `meters`: how far the ray goes; less, where it would pass behind the camera.
+// `meters`: the length of the ray; less, where it would pass behind the camera.
 PictureRay pictureRay(highp vec3 from, highp vec3 direction, inout highp float meters) {
     highp vec4 first = frameUniforms.clipFromWorld * vec4(from, 1.0);
     highp vec4 last = frameUniforms.clipFromWorld * vec4(from + direction * meters, 1.0);
@@ -67,7 +67,7 @@ highp float distanceOfRay(PictureRay ray, highp float s) {
 
 // The nearest distance in a cell of a level.
 highp float distanceOfCell(highp vec2 cell, int level) {
-    ivec2 last = max(ivec2(passUniforms.target.xy) >> level, ivec2(1)) - 1; // it takes what is left over
+    ivec2 last = max(ivec2(passUniforms.target.xy) >> level, ivec2(1)) - 1; // it covers the remainder
     return texelFetch(passSceneDepth, clamp(ivec2(cell), ivec2(0), last), level).x;
 }
 
@@ -81,7 +81,7 @@ highp float endOfCell(PictureRay ray, highp vec2 cell, highp float width) {
     return min(x, y);
 }
 
-// Where on [begin, end] the ray is as far away as `distance`; begin, if it is farther there already.
+// Where on [begin, end] the ray reaches `distance`; begin, if it is farther there already.
 highp float meetsDistance(PictureRay ray, highp float begin, highp float end, highp float distance) {
     highp float over = distance * ray.w.x - ray.distances.x;
     highp float under = (ray.distances.y - ray.distances.x) - distance * (ray.w.y - ray.w.x);
@@ -93,7 +93,7 @@ highp float hitOfRay(PictureRay ray) {
     int cells = int(passUniforms.reflection.x);
     highp float thickness = passUniforms.reflection.z;
     int last = int(passUniforms.reflection.w);
-    // Its own pixel is the surface itself.
+    // The ray starts in its own pixel: no hit.
     highp float begin = 1.0 / max(max(abs(ray.along.x), abs(ray.along.y)), 1e-6);
     highp float atBegin = distanceOfRay(ray, begin);
     highp float found = -1.0;
@@ -127,7 +127,7 @@ PictureHit lookAtHit(highp vec3 direction, highp float meters, highp float share
     highp float radius = lobeRadius(perceptualRoughness * perceptualRoughness) * meters * pixelsPerMeter;
     highp vec2 pixel = uv * passUniforms.target.xy;
     highp vec4 texel = pictureTexel(pixel, min(blurLevel(radius), passUniforms.raster.z));
-    // Where it showed something else, the hit was hidden then.
+    // Where it showed another surface, the hit was hidden.
     highp float known = smoothUnit(3.0 - 30.0 * abs(pictureTexel(pixel, 0.0).a * place.w - 1.0));
     highp vec2 inPicture = (pixel - passUniforms.picture.xy) / (passUniforms.picture.zw - passUniforms.picture.xy);
     highp float weight = known * insideWeight(uv, kReflectionBorder) * insideWeight(inPicture, kReflectionBorder);
@@ -142,7 +142,7 @@ PictureHit reflectionInPicture(highp vec3 direction, highp float perceptualRough
         PictureRay ray = pictureRay(vertex_worldPosition, direction, meters);
         highp float s = hitOfRay(ray);
         if (s >= 0.0) {
-            // From a share of the line to one of the ray.
+            // From a fraction of the line to a fraction of the ray.
             meters *= s * ray.w.y / (ray.w.x + (ray.w.y - ray.w.x) * s);
             hit = lookAtHit(direction, meters, meters / passUniforms.reflection.y, perceptualRoughness);
             hit.weight *= away;

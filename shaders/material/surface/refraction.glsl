@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment stands
-// for the scene behind, unless the material refracts the scene colour. Directions are in 32 bits, whatever the precision of
+// Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment replaces
+// the scene behind, unless the material refracts the scene colour. Directions are in 32 bits, whatever the precision of
 // the lighting.
 
 #include "shaders/material/surface/transmission.glsl"
@@ -8,7 +8,7 @@
 #include "shaders/material/surface/picture.glsl"
 #endif
 
-// What the far interface adds to the albedo f of the near one. A ball's is omitted: that light leaves elsewhere.
+// Contribution of the far interface to the albedo f of the near one. A ball's is omitted: that light leaves elsewhere.
 vec3 farReflectedShare(Refraction refraction, vec3 f) {
 #if defined(REFRACTION_THIN)
     return refraction.transmission * thinFarReflectance(f, refraction.tint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The share of a light that shadow maps let through to this fragment.
+// The visibility of a light from this fragment, by shadow maps.
 //
 // Every texel of a filter is compared with the depth that the receiving plane, the triangle's own, has at the centre of
 // that texel. The map holds the same depth there if nothing is in between, so surfaces do not shadow themselves however
