@@ -80,7 +80,7 @@ float4x4 Camera::clipFromView(float aspect) const {
     checkLens(lens);
     // Reversed depth. Perspective, with the far plane at infinity: z_clip = near, w_clip = -z_view. Parallel: z_clip
     // from 1 to 0, w_clip = 1. Row 0 of the image is at y_ndc = -1 on both APIs, so +Y of the view maps to -y. The
-    // shift moves by whole pictures, which are 2 wide: over w, so in the column of what w is made of.
+    // shift moves by whole images, which are 2 wide: over w, so in the column of what w is made of.
     const float shown = lens.aspect > 0 ? lens.aspect : aspect;
     const float focal = lens.isParallel() ? 2.0f / lens.parallelMeters
                                           : 1.0f / elementary::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);

@@ -28,7 +28,7 @@ const double3x3 kConesFromXyz = fromRows(double3(0.401288, 0.650173, -0.051461),
 constexpr double kMired = 1e6 / 6504, kColdestMired = 1e6 / 25'000, kWarmestMired = 1e6 / 4000;
 constexpr double kTintOfY = 0.04; // chromaticity for a tint of 1
 
-/// Of the light that the picture is to show as white, in cones.
+/// Of the light that becomes white, in cones.
 double3 whiteOf(double temperature, double tint) {
     const double mired = kMired - temperature * (temperature > 0 ? kMired - kColdestMired : kWarmestMired - kMired);
     double2 white = color::daylightChromaticity(1e6 / mired);

@@ -12,9 +12,9 @@
 ///                lineWidth           float   [1]      wireframe: pixels, [0, 1024]
 ///                depthBias           float   [4]      wireframe: lines hide their surface up to this slope: 4 is 76
 ///                                    degrees
-///              Without a map its texel is white. All are opaque, with their back culled but for wireframe; what any
+///              Without a map its texel is white. All are opaque, with their back culled except for wireframe; what any
 ///              instance can change (Engine::setCulling(), setDoubleSided(), setStencil(), ...) these can, too.
-///   Vertices   position; lit*: tangents; *Textured: uv0, (0, 0) is the lower left corner of the picture; *ertexColors:
+///   Vertices   position; lit*: tangents; *Textured: uv0, (0, 0) is the lower left corner of the image; *ertexColors:
 ///              color; wireframe: what makeWireframe() and makeLineQuads() return. A Mesh has all but the last.
 ///   Unlit      baseColor is what the target shows: neither lights nor the camera's exposure count.
 ///   Thread     the app thread of the engine.

@@ -2,7 +2,7 @@
 /// Camera: position and orientation, lens and exposure. A plain value.
 ///   Position and orientation are double precision: the image is the same a million kilometres from the origin.
 ///   The depth buffer is reversed. A perspective lens has an infinite far plane, and only the near plane can be tuned;
-///   a parallel one ends at Lens::farMeters.
+///   an orthographic one ends at Lens::farMeters.
 #pragma once
 
 #include <filament/Math.h>
@@ -28,25 +28,25 @@ struct Exposure {
     static float illuminance(float ev100);
 };
 
-/// How the picture is projected. The plain values are those of a perspective lens that looks straight ahead;
-/// Lens::box() and Lens::offCenter() make others.
+/// The projection. The defaults are a symmetric perspective lens;
+/// Lens::box() and Lens::offCenter() create others.
 struct Lens {
     float verticalFovDegrees = 45.0f; ///< (0, 180); perspective only
-    float nearMeters = 0.01f;         ///< distance of the near plane: > 0, or >= 0 for a parallel lens
-    /// Height of the picture in metres, the same at any distance: a parallel (orthographic) lens. 0: a perspective one.
+    float nearMeters = 0.01f;         ///< distance of the near plane: > 0, or >= 0 if orthographic
+    /// Height of the image in metres of an orthographic lens. 0: perspective.
     float parallelMeters = 0;
-    float farMeters = 1000; ///< > nearMeters; parallel only: beyond it nothing is drawn
-    /// Lens shift, in sizes of the picture: (1, 0) shows what would be just right of it, (0, 0.5) half a picture more
+    float farMeters = 1000; ///< > nearMeters; orthographic only: nothing is drawn beyond it
+    /// Lens shift, in sizes of the image: (1, 0) shows the part just right of it, (0, 0.5) half an image more
     /// above.
     float2 shift{ 0 };
-    float aspect = 0; ///< width / height of what the picture shows; 0: that of the view, so that circles are round
+    float aspect = 0; ///< width / height of the image; 0: that of the view, so that circles are round
 
     bool isParallel() const { return parallelMeters > 0; }
 
-    /// A parallel lens that shows x in [left, right] and y in [bottom, top], in metres of the view's space.
+    /// An orthographic lens that shows x in [left, right] and y in [bottom, top], in metres of the view's space.
     static Lens box(float left, float right, float bottom, float top, float nearMeters = 0, float farMeters = 1000);
-    /// A perspective lens whose picture shows x in [left, right] and y in [bottom, top] of the plane at distance 1: a
-    /// part of a wall of screens, or an eye beside the middle of its display.
+    /// A perspective lens that shows x in [left, right] and y in [bottom, top] of the plane at distance 1: a
+    /// part of a wall of screens, or an eye off the centre of its display.
     static Lens offCenter(float left, float right, float bottom, float top, float nearMeters = 0.01f);
     /// The perspective lens of a camera, by its focal length and the height of its sensor or film, both > 0: the field
     /// of view is 2 atan(height / (2 focal length)). 24 mm is the height of a full frame.
@@ -63,10 +63,10 @@ struct Camera {
 
     double3 position() const { return double3(worldFromView[3]); }
     /// Clip from view: +Y of the view is row 0 of the image. Perspective: z = near / distance (1 at the near plane, 0
-    /// at infinity); parallel: z falls linearly from 1 at the near to 0 at the far plane. `aspect`: of the view;
-    /// Lens::aspect takes its place.
+    /// at infinity); orthographic: z falls linearly from 1 at the near to 0 at the far plane. `aspect`: of the view;
+    /// Lens::aspect overrides it.
     float4x4 clipFromView(float aspect) const;
-    /// The inverse: the point that the picture shows at `clip` (x and y as above: (-1, -1) is its upper left corner) at
+    /// The inverse: the point shown at `clip` (x and y as above: (-1, -1) is its upper left corner) at
     /// a distance along the view. In the space of the view; in double precision.
     double3 viewFromPicture(double2 clip, double distanceMeters, double aspect) const;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ColorGrading: how scene-referred light becomes the values of a display, as a plain value; part of View.
-/// docs/finish.md has the formulas. What comes before it, and after a camera, is Grading of Effects.h.
+/// docs/finish.md has the formulas. Grading of Effects.h comes before it.
 ///   Names    each field but `look` is an option (Options.h): "toneCurve.contrast".
 ///   Thread   any.
 #pragma once
@@ -55,7 +55,7 @@ struct ToneCurve {
     friend bool operator==(ToneCurve const&, ToneCurve const&) = default;
 };
 
-/// The colour space of display values. Outputs of light (RGBA16F) are linear Rec. 709 with any of them.
+/// The colour space of display values. Linear outputs (RGBA16F) are linear Rec. 709 with any of them.
 enum class OutputSpace : uint8_t {
     Srgb,         ///< IEC 61966-2-1
     LinearRec709, ///< without a transfer function

@@ -25,7 +25,7 @@
 
 namespace filament {
 
-/// Whether the surfaces of the scene hide what is drawn in the world. What blends leaves no depth and hides nothing.
+/// Whether items in the world are depth-tested against the scene. Transparent surfaces hide nothing.
 enum class DebugDepth : uint8_t { Tested, Through };
 
 struct DebugStyle {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DebugViews: what the colours of View::debugView mean, as values: for legends, and for programs that read such
-/// pictures. docs/debug-views.md says it in words.
+/// images. docs/debug-views.md explains them.
 ///   Colours  codes of sRGB, 0 to 255, as an RGBA8 or RGBA8Srgb target has them.
 ///   Thread   any; pure.   Memory: none.   Fails: never.
 #pragma once
@@ -15,7 +15,7 @@ namespace filament {
 
 using DebugColor = std::array<uint8_t, 3>; ///< red, green, blue
 
-/// What DebugView::Numerics marks in the scene-linear picture before it becomes half floats. Of a pixel for which
+/// What DebugView::Numerics marks in the linear scene colour before it becomes half floats. Of a pixel for which
 /// several are true, the last one.
 enum class NumericsMark : uint8_t {
     None,       ///< the pixel is grey

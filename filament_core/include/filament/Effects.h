@@ -65,7 +65,7 @@ struct ScreenSpaceReflections {
     friend bool operator==(ScreenSpaceReflections const&, ScreenSpaceReflections const&) = default;
 };
 
-/// Fog that thins out exponentially with height, and light that it scatters.
+/// Fog that decreases exponentially with height, and light that it scatters.
 struct Fog {
     bool enabled = false;
     float density = 0.1f;     ///< at heightMeters, [0, 1e4] 1/m
@@ -104,7 +104,7 @@ struct EnumNames<BloomResolution> {
 struct Bloom {
     bool enabled = false;
     BloomResolution resolution = BloomResolution::Half;
-    float strength = 0.1f; ///< share of the light that is scattered, [0, 1]
+    float strength = 0.1f; ///< fraction of the light that is scattered, [0, 1]
     float radius = 0.1f;   ///< radius of the widest lobe, as a share of the image height, [0.001, 1]
     float threshold = 0;   ///< only light above this value is scattered, relative to white, [0, 1e4]
     /// Dirt on the lens over the whole image: areas brighter than the mean of the texture show more of the scattered
@@ -114,51 +114,51 @@ struct Bloom {
     friend bool operator==(Bloom const&, Bloom const&) = default;
 };
 
-/// What the surfaces of a lens reflect: ghosts, which are blurred images of what is bright, on the line from it through
-/// the middle of the picture; and a halo, a ring around it. The light is taken from where it was: none is added.
+/// Reflections in a lens: ghosts, which are blurred images of bright light, on the line from it through
+/// the image centre; and a halo, a ring around it. The light is removed from its source: none is added.
 struct LensFlare {
     bool enabled = false;
-    float threshold = 4;         ///< only of what is brighter, by that much, [0, 1e4]; 1 is white
-    float ghostStrength = 0.03f; ///< share of the light in all ghosts together, [0, 1]
+    float threshold = 4;         ///< only of light above it, [0, 1e4]; 1 is white
+    float ghostStrength = 0.03f; ///< fraction of the light in all ghosts together, [0, 1]
     uint8_t ghostCount = 5;      ///< [0, 8]
-    float ghostSpacing = 0.4f;   ///< from the light and from ghost to ghost, of its distance from the middle, [0.05, 2]
-    float ghostRadius = 0.03f;   ///< their mean, as a share of the picture's height, [0.005, 0.25]
-    float haloStrength = 0.01f;  ///< share of the light in the halo, [0, 1]
-    float haloRadius = 0.25f;    ///< as a share of the picture's height, [0.05, 1]
-    float haloThickness = 0.2f;  ///< of the ring, as a share of its radius, [0, 1]
+    float ghostSpacing = 0.4f;   ///< from the light and between ghosts, of its distance from the centre, [0.05, 2]
+    float ghostRadius = 0.03f;   ///< mean, as a fraction of the image height, [0.005, 0.25]
+    float haloStrength = 0.01f;  ///< fraction of the light in the halo, [0, 1]
+    float haloRadius = 0.25f;    ///< as a fraction of the image height, [0.05, 1]
+    float haloThickness = 0.2f;  ///< of the ring, as a fraction of its radius, [0, 1]
     float dispersion = 0.7f;     ///< [0, 1]: from white to the colours of a spectrum, red outermost
     friend bool operator==(LensFlare const&, LensFlare const&) = default;
 };
 
-/// The blur of what a lens does not focus, by the aperture of the camera's exposure and the focal length of its field
-/// of view, for a sensor 24 mm high. What blends has the blur of what lies behind it.
+/// Blur of surfaces that are out of focus, by the aperture of the camera's exposure and the focal length of its field
+/// of view, for a sensor 24 mm high. Transparent objects have the blur of the surface behind them.
 struct DepthOfField {
     bool enabled = false;
-    float focusMeters = 2;   ///< distance along the view that is sharp, [0, 1e9]
-    float blurScale = 1;     ///< times what the aperture gives, [0, 100]
-    float maxRadius = 0.03f; ///< of a blurred point, as a share of the picture's height, [0, 0.1]
+    float focusMeters = 2;   ///< linear depth that is sharp, [0, 1e9]
+    float blurScale = 1;     ///< factor of the physical blur, [0, 100]
+    float maxRadius = 0.03f; ///< of a blurred point, as a fraction of the image height, [0, 0.1]
     uint8_t blades = 0;      ///< of the aperture: a polygon with as many sides, [0, 16]; less than 3: round
     friend bool operator==(DepthOfField const&, DepthOfField const&) = default;
 };
 
-/// The blur of what moves while the shutter is open: surfaces that are opaque or masked, and everything if the camera
-/// does. What blends has the blur of what lies behind it.
+/// Blur of moving surfaces while the shutter is open: opaque and masked ones, and everything if the camera
+/// moves. Transparent objects have the blur of the surface behind them.
 struct MotionBlur {
     bool enabled = false;
     float shutterDegrees = 180; ///< the part of a frame during which the shutter is open, of 360, [0, 360]
-    float maxRadius = 0.03f;    ///< half of the longest way, as a share of the picture's height, [0, 0.1]
+    float maxRadius = 0.03f;    ///< half of the longest streak, as a fraction of the image height, [0, 0.1]
     friend bool operator==(MotionBlur const&, MotionBlur const&) = default;
 };
 
-/// Exposure that follows the picture: the mean luminance of the pixels between two percentiles becomes middle grey. On
-/// top of the camera's exposure. How fast it follows is measured in View::timeSeconds; the first frame is exposed at
+/// Exposure that adapts to the image: the mean luminance of the pixels between two percentiles becomes middle grey. On
+/// top of the camera's exposure. Its speed is relative to View::timeSeconds; the first frame is exposed at
 /// once.
 struct AutoExposure {
     bool enabled = false;
     float lowPercentile = 0.4f, highPercentile = 0.95f; ///< darker and brighter pixels do not count, [0, 1]
     float compensation = 0;                             ///< stops, [-16, 16]
     float minStops = -8, maxStops = 8;                  ///< least and most correction, [-16, 16]
-    float speedUp = 3, speedDown = 1; ///< towards brighter and darker pictures, stops a second, [0, 1e3]
+    float speedUp = 3, speedDown = 1; ///< towards brighter and darker images, stops a second, [0, 1e3]
     friend bool operator==(AutoExposure const&, AutoExposure const&) = default;
 };
 
@@ -168,7 +168,7 @@ struct AutoExposure {
 /// docs/finish.md has the formulas.
 struct Grading {
     bool enabled = false;
-    float nightAdaptation = 0; ///< [0, 1]: of an eye that sees by its rods; dark colours get brighter, bluer and paler
+    float nightAdaptation = 0; ///< [0, 1]: rod vision; dark colours get brighter, bluer and paler
     float exposure = 0;        ///< stops, [-16, 16]
     float temperature = 0;     ///< [-1, 1]: cooler to warmer, along daylight from 4000 to 25 000 kelvin
     float tint = 0;            ///< [-1, 1]: greener to more magenta
@@ -187,17 +187,17 @@ struct Grading {
     friend bool operator==(Grading const&, Grading const&) = default;
 };
 
-/// Darker towards the corners, as a lens makes a picture.
+/// Darkening towards the corners.
 struct Vignette {
     bool enabled = false;
-    float midPoint = 0.5f;  ///< how far from the middle it begins, [0, 1]
+    float midPoint = 0.5f;  ///< distance from the centre where it begins, [0, 1]
     float roundness = 0.5f; ///< [0, 1]: from a rectangle by an ellipse (0.5) to a circle
-    float feather = 0.5f;   ///< how soft its edge is, [0.05, 1]
-    LinearColor color{ 0 }; ///< that the picture is multiplied by in the end, [0, 1]
+    float feather = 0.5f;   ///< softness of its edge, [0.05, 1]
+    LinearColor color{ 0 }; ///< factor of the image at the corners, [0, 1]
     friend bool operator==(Vignette const&, Vignette const&) = default;
 };
 
-/// Noise as of photographic film, of the display's values; another one in each frame.
+/// Film grain of display values, different in each frame.
 struct Grain {
     bool enabled = false;
     float strength = 0.05f; ///< standard deviation in the middle tones, [0, 1]
@@ -205,10 +205,10 @@ struct Grain {
     friend bool operator==(Grain const&, Grain const&) = default;
 };
 
-/// A lens that bends blue light more than red: coloured fringes that grow with the distance from the middle.
+/// Dispersion of the lens: coloured fringes that grow with the distance from the centre.
 struct ChromaticAberration {
     bool enabled = false;
-    float strength = 0.005f; ///< how far red and blue lie apart at the corners, as a share of the height, [0, 0.1]
+    float strength = 0.005f; ///< distance of red and blue at the corners, as a fraction of the height, [0, 0.1]
     friend bool operator==(ChromaticAberration const&, ChromaticAberration const&) = default;
 };
 
@@ -227,32 +227,32 @@ struct EnumNames<Upscaling> {
 };
 
 /// How many pixels are drawn, before `upscaling` or AntiAliasing::Taa makes as many of them as the view has. With
-/// `dynamic`, Renderer finds the largest share, up to `scale`, that its frames have time for: docs/resolution.md.
+/// `dynamic`, Renderer finds the largest scale, up to `scale`, that fits the frame time: docs/resolution.md.
 struct Resolution {
     Upscaling upscaling = Upscaling::Off;
-    float2 scale{ 1 };             ///< share of View::size, each way, [0.5, 1]
-    bool dynamic = false;          ///< the share follows the time that frames take
-    float targetMilliseconds = 16; ///< that a frame may take, [0.1, 1000]
-    float leastScale = 0.5f;       ///< the smallest share, each way, [0.5, 1]
-    float headroom = 0.1f;         ///< share of the target that stays free when the picture grows, [0, 0.5]
-    uint8_t history = 8;           ///< frames that must agree before the share changes, [1, 32]
-    bool uniform = true;           ///< both ways alike; off: the width first, down to its least
+    float2 scale{ 1 };             ///< fraction of View::size, per axis, [0.5, 1]
+    bool dynamic = false;          ///< the scale follows the frame time
+    float targetMilliseconds = 16; ///< frame time to stay below, [0.1, 1000]
+    float leastScale = 0.5f;       ///< the smallest scale, per axis, [0.5, 1]
+    float headroom = 0.1f;         ///< fraction of the target that stays free when the scale grows, [0, 0.5]
+    uint8_t history = 8;           ///< frames that must agree before the scale changes, [1, 32]
+    bool uniform = true;           ///< both axes equal; off: the width first, down to its minimum
     friend bool operator==(Resolution const&, Resolution const&) = default;
 };
 
-/// Contrast between neighbours, raised as far as none of them becomes darker than black or brighter than white.
+/// Increases the contrast of neighbours as far as none becomes darker than black or brighter than white.
 struct Sharpening {
     bool enabled = false;
     float strength = 0.5f; ///< [0, 1]
     friend bool operator==(Sharpening const&, Sharpening const&) = default;
 };
 
-/// Pixels around the picture that are drawn and cut off in the end, so that what lies beside the picture is seen by
-/// occlusion, reflections, refraction, bloom and blurs. Not while gathering frames enlarges the picture, and not of
+/// Pixels drawn around the image and cropped in the end, so that off-screen surfaces are available to
+/// occlusion, reflections, refraction, bloom and blurs. Not with temporal upscaling, and not for
 /// render targets with depth.
 struct GuardBand {
     bool enabled = false;
-    float width = 0.1f; ///< on each side, as a share of the height of the picture, [0, 0.5]
+    float width = 0.1f; ///< on each side, as a fraction of the image height, [0, 0.5]
     friend bool operator==(GuardBand const&, GuardBand const&) = default;
 };
 

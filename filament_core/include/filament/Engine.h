@@ -95,7 +95,7 @@ struct EngineOptions {
     /// cache. Mesa has one; backend/gles/README.md says what this option adds to it.
     bool cachePrograms = false;
     /// Before its first use a driver draws 8 x 8 pixels whose values are known. Engine::create() fails with
-    /// Unsupported if they are wrong, instead of an engine that draws wrong pictures. A file in cacheDirectory names
+    /// Unsupported if they are wrong, instead of an engine that draws wrong images. A file in cacheDirectory names
     /// the drivers that passed, which are not tested again.
     bool driverSelfTest = true;
     EngineDebug debug{};
@@ -174,8 +174,8 @@ public:
     MaterialInstance createInstance(Material material, std::string name = {});
 
     // New contents, from the next frame on; frames before it show the old ones. Copied before the call returns,
-    // uploaded in the order of the calls; nothing waits. What does not fit ends the process; if memory runs out, the
-    // object keeps what it had, and takeErrors() says so.
+    // uploaded in the order of the calls; nothing waits. Data out of range ends the process; if memory runs out, the
+    // object keeps its contents, and takeErrors() reports it.
 
     /// `data`: whole vertices. Bounds that renderables did not name follow.
     void update(VertexBuffer buffer, std::span<const std::byte> data, uint32_t firstVertex = 0);
@@ -183,7 +183,7 @@ public:
     void update(Texture texture, TextureUpdate const& update);
 
     /// New images of another size, without contents; a window keeps its image until the next present(). Pixels that
-    /// were asked for arrive.
+    /// were requested arrive.
     void resize(SwapChain swapChain, uint2 size);
 
     /// The textures of a render target, for parameters of materials. They are the app's own; depthOf() may be none.
@@ -228,12 +228,12 @@ public:
     /// These override the material's own state for one instance, from the next frame on. A new combination of states
     /// creates a pipeline, unless an instance had it when compile() was called.
     void setCulling(MaterialInstance instance, Culling culling);
-    /// Of which faces none stop light in shadow maps. None given, the default: of those that are not drawn.
+    /// Faces that are culled in shadow maps. Unset, the default: the faces that are not drawn.
     void setShadowCulling(MaterialInstance instance, std::optional<Culling> culling);
     void setColorWrite(MaterialInstance instance, bool writes);
     void setDepthWrite(MaterialInstance instance, bool writes);
     void setDepthCulling(MaterialInstance instance, bool tests); ///< false: draws over everything and writes no depth
-    /// None, the default: neither tests nor changes stencil values.
+    /// Unset, the default: neither tests nor changes stencil values.
     void setStencil(MaterialInstance instance, std::optional<StencilState> state);
     /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
@@ -263,7 +263,7 @@ private:
     explicit Engine(std::shared_ptr<Impl> impl);
     Result<void> setNumber(MaterialInstance instance, std::string_view parameter, ParameterNumber const& number);
 
-    std::shared_ptr<Impl> mImpl; ///< shared with nobody; what belongs to the engine sees when it ends
+    std::shared_ptr<Impl> mImpl; ///< not shared; weak references detect its end
 };
 
 /// Owns one object and destroys it at the end of the scope. The engine may be moved, and may end before it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Image: pixels in memory, tightly packed, row 0 at the top; read from files and written to them.
-///   Thread  any; plain values. A picture is decoded on the calling thread.
+///   Thread  any; plain values. An image is decoded on the calling thread.
 #pragma once
 
 #include <filament/ColorGrading.h>
@@ -23,7 +23,7 @@ struct Image {
     std::vector<std::byte> pixels{};
 };
 
-/// What the numbers in a picture are.
+/// Meaning of the numbers in an image.
 enum class ImageContent : uint8_t {
     Color, ///< codes of sRGB in PNG, JPEG, WebP and AVIF: base colours, what is shown
     Data,  ///< themselves: normals, roughness, occlusion, heights
@@ -34,7 +34,7 @@ struct ImageLoadOptions {
     bool fullFloats = false; ///< RGBA32F instead of RGBA16F: all 16 bits of heights, radiances above 65504
 };
 
-/// A picture in a file; its first bytes, not its name, say of which kind it is.
+/// An image file; its first bytes determine the format, not its name.
 ///   8 bits     of PNG, JPEG, WebP, AVIF: RGBA8Srgb, or RGBA8 of data. Missing alpha is 255; grey is copied to all
 ///              colours; colour profiles are ignored; alpha is not multiplied in.
 ///   10 to 16   bits of PNG, AVIF: RGBA16F, colours as linear light, data as code / 65535.

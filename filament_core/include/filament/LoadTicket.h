@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LoadTicket: a model or an environment that is being loaded, while frames go on.
-///   In      what loadGltf() and loadEnvironment() take. Bytes in memory are copied.
+/// LoadTicket: a model or an environment that is loaded in the background.
+///   In      the arguments of loadGltf() and loadEnvironment(). Bytes in memory are copied.
 ///   Out     the same result as theirs, to the bit, whatever the number of workers.
 ///   Thread  files are read, decoded and baked on background threads of the engine. poll() creates the engine's
 ///           objects, a slice at a time: call it once a frame. All calls of a ticket belong to the thread of its engine
@@ -66,9 +66,9 @@ public:
 
     /// Creates the next slice of objects, if everything is decoded. Never waits.
     LoadStatus poll(size_t sliceBytes = kLoadSliceBytes);
-    /// Where it is now; creates nothing.
+    /// The current progress; creates nothing.
     LoadStatus status() const;
-    /// Does nothing to what is finished.
+    /// No effect if finished.
     void cancel();
     /// Once, when poll() says that it is finished; InvalidArgument before that, and the second time.
     Result<T> take();

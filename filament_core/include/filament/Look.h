@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Look: a table of colours that other programs made, a .cube file (Adobe, "Cube LUT Specification" 1.0), for
+/// Look: a colour table of another program, a .cube file (Adobe, "Cube LUT Specification" 1.0), for
 /// ColorGrading::look. An immutable value: views share it.
 ///   Meaning  sRGB display values in and out, after the tone mapper; any other output space is encoded from its result.
 ///   Limits   2 to 65536 entries of a 1D table, 2 to 128 a side of a 3D table; finite numbers within 1e10.
@@ -30,11 +30,11 @@ struct Look {
     friend bool operator==(Look const&, Look const&) = default;
 };
 
-/// What a look makes of a colour: linear between the entries of a curve, tetrahedral in a cube; the nearest entry
+/// Applies a look to a colour: linear between the entries of a curve, tetrahedral in a cube; the nearest entry
 /// outside of its domain, and for NaN.
 float3 lookedUp(Look const& look, float3 color);
 
-/// `name` is what errors call the text.
+/// `name` identifies the text in errors.
 Result<std::shared_ptr<const Look>> parseLook(std::string_view text, std::string_view name);
 Result<std::shared_ptr<const Look>> loadLook(std::filesystem::path const& path);
 
@@ -42,7 +42,7 @@ Result<std::shared_ptr<const Look>> loadLook(std::filesystem::path const& path);
 std::string cubeText(Look const& look);
 Result<void> saveLook(std::filesystem::path const& path, Look const& look);
 
-/// What a view does to light, from grading to display values, as a cube of `size` entries a side, [2, 128], for other
+/// The transform of a view from grading to display values, as a cube of `size` entries a side, [2, 128], for other
 /// programs. Its inputs are linear Rec. 709 on the logarithm of ACEScct (S-2016-001, section 4.4), from 0 (0.0729) to
 /// 222.9 (1). `colorGrading.look` is part of it.
 Look bakeLook(ColorGrading const& colorGrading, Grading const& grading, uint32_t size);

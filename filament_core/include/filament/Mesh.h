@@ -4,7 +4,7 @@
 ///                const VertexBuffer vertices = engine.create(mesh.vertexBuffer());
 ///                const IndexBuffer indices = engine.create(mesh.indexBuffer());
 ///   Winding  counter-clockwise seen from the front, which is the side that the normals point to.
-///   Uv       u to the right and v upwards: (0, 0) is the lower left corner of a picture, as materials with `flipUV :
+///   Uv       u to the right and v upwards: (0, 0) is the lower left corner of an image, as materials with `flipUV :
 ///            true` take it, the default of .mat files. glTF counts v downwards and needs `flipUV : false`.
 ///   Thread   any; plain values and pure functions.   Memory: 64 B a vertex, 4 B an index.
 ///   Fails    InvalidArgument names the function, the vertex or triangle, and the rule. std::bad_alloc.

@@ -2,13 +2,13 @@
 /// ModelCopy: what one copy of a model in a scene consists of, by the names of its file, and what can be changed of it
 /// without touching other copies.
 ///   In      the root that Scene::add(model) returned.
-///   Names   are those of the file: they may be empty and need not be unique. Where a name is asked for, all that have
-///           it are meant, or the first one if only one can be; NotFound lists names that are near.
-///   Out     what is still there: parts that the program removed are left out. Lists are new at every call.
+///   Names   are those of the file: they may be empty and need not be unique. A name stands for all that have
+///           it, or the first one where only one is possible; NotFound lists similar names.
+///   Out     existing parts: those that the program removed are omitted. Lists are new at every call.
 ///   Thread  the app thread, between frames.
 ///   Life    a plain value that refers to the scene, which may be moved, and to the copy. Using it once one of them is
 ///           gone ends the process (docs/objects.md).
-///   Cost    proportional to the parts of the model. Frames do not pay for copies that nobody changes.
+///   Cost    proportional to the parts of the model. Frames do not pay for unchanged copies.
 ///
 ///   Result<ModelCopy> car = ModelCopy::of(scene, root);
 ///   car->set("paint", "baseColorFactor", float4(0.8f, 0, 0, 1));        // this car only
@@ -118,7 +118,7 @@ public:
 
     std::vector<CopyLevels> levels() const;
     /// Shows of each thing with levels the first whose `leastCoverage` it reaches in this view, and none if it reaches
-    /// none; until the first call, the finest. Coverage is pi R^2 / (A d^2): the share of the picture's area A at
+    /// none; until the first call, the finest. Coverage is pi R^2 / (A d^2): the fraction of the screen's area A at
     /// distance 1 that the sphere around its finest level has at the distance d of its centre, or pi R^2 / A for a
     /// parallel lens. So turning the camera changes nothing, and nor do frames before: there is no hysteresis. Around
     /// the camera it is infinite. `bias` > 0 multiplies it: 2 shows finer levels up to twice the area.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The objects of an engine: small typed handles, and the descriptions that they are created from.
-///   Defaults  a default-initialised description is valid except for the fields that say otherwise.
+///   Defaults  a default-initialised description is valid except for documented fields.
 ///   Lifetime  until Engine::destroy, or the end of the engine, which names objects that were not destroyed. Owned<T>
 ///             destroys its object by RAII.
 #pragma once
@@ -52,10 +52,10 @@ using Node = ObjectHandle<struct NodeObject>;             ///< of one Scene
 using Layers = uint8_t;
 inline constexpr Layers kDefaultLayers = 1, kAllLayers = 0xFF;
 
-/// The place of a renderable among what is drawn in an order: what blends, and what is opaque but does not test depth
-/// or leave it. Smaller priorities are drawn first, then smaller blend orders, then what is farther from the camera;
-/// those that agree in all of this keep the order of the scene. What refracts the picture and leaves depth has no
-/// place. Quality::transparency composes in any order only what has the default place.
+/// Sort order among transparent objects, and among opaque ones without depth test or depth write.
+/// Smaller priorities are drawn first, then smaller blend orders, then objects farther from the camera;
+/// ties keep the order of the scene. Ignored for refractive materials that write depth.
+/// Quality::transparency is order-independent only for objects with the default.
 struct DrawPlace {
     static constexpr uint8_t kLastPriority = 7;
     uint8_t priority = 4;    ///< [0, kLastPriority]
@@ -80,7 +80,7 @@ struct TextureDesc {
     std::string name{};
 };
 
-/// Which part of a texture changes, and to what.
+/// A part of a texture, and its new contents.
 struct TextureUpdate {
     std::span<const std::byte> pixels{}; ///< tightly packed rows, row 0 at the top, layer after layer
     uint32_t level = 0;
@@ -187,7 +187,7 @@ struct CompileProgress {
     friend bool operator==(CompileProgress const&, CompileProgress const&) = default;
 };
 
-/// What to prepare before the first draw: the programs of all requested variants, and their pipelines for every vertex
+/// Work before the first draw: the programs of all requested variants, and their pipelines for every vertex
 /// format and every kind of pass that may draw them.
 struct CompileDesc {
     CompilePriority priority = CompilePriority::Normal;
@@ -229,21 +229,21 @@ struct LightProfileDesc {
     std::string name{}; ///< in messages
 };
 
-/// What the file of a profile says of the luminaire.
+/// The luminaire in the file of a profile.
 struct LightProfileDescription {
     Candela peak{}; ///< the brightest direction, > 0
     Lumen flux{};   ///< of all directions together
 };
 
-/// What a view is drawn to. Materials may sample its textures in every render() but those that draw to it.
+/// The target of a view. Materials may sample its textures in every render() except those that draw to it.
 /// docs/views.md, "Render targets".
 struct RenderTargetDesc {
     /// Renderable 2D RGBA8, RGBA8Srgb, RGB10A2, or RGBA16F (then scene-linear, without tone mapping). Of RGBA8Srgb the
     /// texels are those of RGBA8, and samplers decode them. OpenGL ES needs EXT_sRGB_write_control for it: without, the
-    /// texture is not created, and takeErrors() says so.
+    /// texture is not created, and takeErrors() reports it.
     Texture color{};
-    /// Renderable 2D R32F of the same size: how far what covers a pixel is along the view, in metres; 1e30 where
-    /// nothing is. What blends leaves none. None: nobody asks.
+    /// Renderable 2D R32F of the same size: linear depth in metres; 1e30 for
+    /// background. Transparent surfaces are ignored. Null: no depth output.
     Texture depth{};
     bool generateMips = false; ///< after every view: levels 1.. of `color`, means of light for RGBA8Srgb
     std::string name{};

@@ -5,7 +5,7 @@
 ///   Closed   every shape but the plane, and those without caps, is closed: seen from outside all triangles are
 ///            counter-clockwise, each edge belongs to two triangles, and vertices that meet there have the same bits.
 ///   Uv       u to the right and v upwards, seen from outside; in [0, 1] (makeIcoSphere() says where not). Around an
-///            axis u = 0.5 + atan2(x, z) / 2 pi: the middle of a picture is at +z, its seam at -z.
+///            axis u = 0.5 + atan2(x, z) / 2 pi: the centre of an image is at +z, its seam at -z.
 ///   Normals  those of the shape itself, not of its triangles; the tangent is the direction in which u grows.
 ///   Colour   white.
 ///   Limits   65 536 segments each way and 2^24 vertices.
@@ -28,7 +28,7 @@ struct PlaneShape {
 };
 Result<Mesh> makePlane(PlaneShape const& shape = {});
 
-/// Each face shows all of a picture, upright on the sides; on the top and on the bottom u is along +x.
+/// Each face shows the whole image, upright on the sides; on the top and on the bottom u is along +x.
 struct BoxShape {
     float3 size{ 1 };
     uint3 segments{ 1 }; ///< along x, y and z, >= 1
@@ -44,15 +44,15 @@ struct UvSphereShape {
 Result<Mesh> makeUvSphere(UvSphereShape const& shape = {});
 
 /// An icosahedron with a corner at each pole, its triangles divided into four `subdivisions` times: nearly equal
-/// triangles everywhere. The texture coordinates are those of the UV sphere; of triangles that cross the seam, u goes
-/// on to at most 1.5, for samplers that repeat.
+/// triangles everywhere. The texture coordinates are those of the UV sphere; in triangles across the seam, u continues
+/// to at most 1.5, for samplers that repeat.
 struct IcoSphereShape {
     float radius = 0.5f;
     uint32_t subdivisions = 3; ///< [0, 8]: 20 * 4^n triangles
 };
 Result<Mesh> makeIcoSphere(IcoSphereShape const& shape = {});
 
-/// The side shows all of a picture; so does each cap: a disc within it, with u along +x.
+/// The side shows the whole image; so does each cap: a disc within it, with u along +x.
 struct CylinderShape {
     float radius = 0.5f, height = 1;
     uint32_t slices = 32; ///< around the axis, >= 3

@@ -20,7 +20,7 @@ namespace filament {
 /// Masking and shadowing of microfacets.
 enum class SpecularVisibility : uint8_t {
     Correlated,   ///< height-correlated Smith, Heitz 2014
-    Fast,         ///< the same without square roots, Hammon 2017: a few per cent too dark at medium roughness
+    Fast,         ///< without square roots, Hammon 2017: a few per cent too dark at medium roughness
     Uncorrelated, ///< separable Smith, Walter et al. 2007: darker at grazing angles
 };
 template <>
@@ -63,7 +63,7 @@ enum class SpecularLookUps : uint8_t {
     Dominant,  ///< once, in the direction of Lagarde and de Rousiers 2014
     Quadratic, ///< once, in a direction without a root: further off at middle roughness
     Eight,     ///< at eight visible half vectors (Heitz 2018), each as wide as its share of the lobe
-    ThirtyTwo, ///< the same with 32: a reference
+    ThirtyTwo, ///< with 32: a reference
 };
 template <>
 struct EnumNames<SpecularLookUps> {
@@ -157,10 +157,10 @@ enum class ShadowFilter : uint8_t {
     Hard, ///< one texel
     Pcf2, ///< 2 x 2 texels, as a bilinear sampler with comparison
     Pcf5, ///< 6 x 6 texels: a tent as wide as five
-    /// 16 texels of a disc as wide as five texels, turned by a pattern of the picture's pixels: noise instead of steps.
+    /// 16 texels of a disc as wide as five texels, rotated per pixel: noise instead of steps.
     Poisson,
     /// As wide as the penumbra that the size of the light makes (SunLight::angularRadiusDegrees, sourceRadiusMeters),
-    /// from 16 look-ups for what casts and 32 of that disc. Fernando 2005, "Percentage-Closer Soft Shadows".
+    /// 16 samples to find blockers and 32 of that disc. Fernando 2005, "Percentage-Closer Soft Shadows".
     Pcss,
     /// Two moments of each map, blurred and with mip levels: one look-up, smooth at any distance. Light bleeds where
     /// casters overlap, and contact shadows thin out. Donnelly and Lauritzen 2006, "Variance Shadow Maps".
@@ -187,7 +187,7 @@ struct EnumNames<AreaLightTerm> {
 
 /// What is seen through materials with `refractionMode : screenspace`.
 enum class RefractionSource : uint8_t {
-    Screen,      ///< what is opaque in the picture, and the environment where a ray leaves it
+    Screen,      ///< the opaque scene colour, and the environment where a ray leaves the screen
     Environment, ///< the environment alone
 };
 template <>
@@ -211,7 +211,7 @@ struct EnumNames<TransparencyOrder> {
     static constexpr std::array<std::string_view, 3> values{ "sorted", "weighted", "peeled" };
 };
 
-/// Whether what is opaque leaves its depth before anything is shaded, so that each pixel is shaded once.
+/// Whether opaque objects are drawn to depth before anything is shaded, so that each pixel is shaded once.
 enum class DepthPrepass : uint8_t {
     Auto, ///< where another effect reads the depths anyway
     On,
@@ -231,11 +231,11 @@ struct EnumNames<DepthRange> {
     static constexpr std::array<std::string_view, 2> values{ "reversed", "ordinary" };
 };
 
-/// How the edges of the picture are smoothed, besides by View::samples.
+/// Anti-aliasing in addition to View::samples.
 enum class AntiAliasing : uint8_t {
     Off,
-    Fxaa, ///< blends pixels along edges of the finished picture (Lottes 2009, "FXAA")
-    /// Gathers pictures over frames, each seen from another place in its pixels: Karis 2014, "High-Quality Temporal
+    Fxaa, ///< blends pixels along edges of the tone-mapped image (Lottes 2009, "FXAA")
+    /// Temporal accumulation of jittered frames: Karis 2014, "High-Quality Temporal
     /// Supersampling". The mean of all while nothing moves.
     Taa,
 };
@@ -256,9 +256,9 @@ struct EnumNames<MsaaResolve> {
     static constexpr std::array<std::string_view, 2> values{ "average", "toneAware" };
 };
 
-/// Which mip levels of materials' textures are read while frames are gathered (AntiAliasing::Taa).
+/// Which mip levels of materials' textures are read with temporal accumulation (AntiAliasing::Taa).
 enum class MipBias : uint8_t {
-    Output, ///< those of the picture that is shown, also if fewer pixels are drawn
+    Output, ///< those of the output resolution, also if fewer pixels are drawn
     Off,    ///< those of the pixels that are drawn
     Sharp,  ///< one sharper than Output: many frames have many samples a pixel
 };
@@ -316,12 +316,11 @@ struct Quality {
     bool coloredShadows = false;
     AreaLightTerm areaLights = AreaLightTerm::Ltc;
     RefractionSource refraction = RefractionSource::Screen;
-    /// How often the picture is copied for what refracts it, [1, 8]. 1: refracting objects show what is opaque. n: they
+    /// Copies of the scene colour for refraction, [1, 8]. 1: refractive objects show opaque ones. n: they
     /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.
     uint8_t refractionLayers = 1;
     TransparencyOrder transparency = TransparencyOrder::Sorted;
-    uint8_t transparencyLayers =
-            4; ///< of Peeled, [1, 8]: all but the last are peeled, the last is what is left, sorted
+    uint8_t transparencyLayers = 4; ///< of Peeled, [1, 8]: all but the last are peeled, the last holds the rest, sorted
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     AntiAliasing antiAliasing = AntiAliasing::Off;
     MsaaResolve msaaResolve = MsaaResolve::Average;

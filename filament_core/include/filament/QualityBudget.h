@@ -35,7 +35,7 @@ struct QualityBudget {
 struct QualityStep {
     std::string name, from, to;
     double milliseconds = 0;                ///< time that it adds
-    double errorBefore = 0, errorAfter = 0; ///< of the picture, without and with this step, after all earlier ones
+    double errorBefore = 0, errorAfter = 0; ///< of the image, without and with this step, after all earlier ones
 };
 
 struct QualityPrediction {

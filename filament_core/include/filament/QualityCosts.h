@@ -6,7 +6,7 @@
 ///   Time     device time of a whole frame with this value and everything else at its default. Only the ratio to the
 ///            default value of the same choice is used: both are measured in turns, so that the machine's load cancels
 ///            out. On CPU drivers (llvmpipe) it is a ratio of processor times, which excludes other processes.
-///   Error    root mean square of (picture - exact) / (exact + 1 % of its mean), in scene-linear luminance, with
+///   Error    root mean square of (image - exact) / (exact + 1 % of its mean), in scene-linear luminance, with
 ///            everything else at its most exact. 0 for the value that the others are compared with. Choices without
 ///            effect there are compared as displayed, after the tone mapper.
 ///   File     JSON, see docs/quality.md: { "machine", "driver", "commit", "size", "effects": [ ... ] }.
@@ -71,7 +71,7 @@ struct CostMeasurement {
 
 /// Measures one scene on the engine's backend; the view's quality provides the values of the other choices. The scene
 /// is still, so shadow maps are drawn once and kept: their filters have a price, drawing them has none. Draws about
-/// 30 pictures, each with its own programs, then rounds * 30 frames, which takes seconds to minutes. The other
+/// 30 images, each with its own programs, then rounds * 30 frames, which takes seconds to minutes. The other
 /// backend's times stay 0; see addBackend(). Fails: InvalidArgument for an unknown choice; errors of the device.
 Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, View const& view,
                                          CostMeasurement const& measurement = {});

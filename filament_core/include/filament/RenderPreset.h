@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RenderPreset: settings of a whole view by name: the approximations of shading, which effects run, and how exactly.
+/// RenderPreset: settings of a whole view by name: approximations of shading, enabled effects, and their accuracy.
 ///   Use      applyPreset(view, RenderPreset::Balanced); then change what should differ.
 ///   Scope    sets View::quality, View::samples, switch and exactness of ambient occlusion, screen-space reflections,
 ///            contact shadows and bloom, and the switch of motion blur. How effects look (strength, radius), and those
@@ -18,7 +18,7 @@ namespace filament {
 enum class RenderPreset : uint8_t {
     Fast,      ///< QualityPreset::Low and FXAA
     Balanced,  ///< QualityPreset::Medium, sampled ambient occlusion, bloom, FXAA
-    Fine,      ///< QualityPreset::High, ambient occlusion by horizons, reflections of the picture, bloom, TAA
+    Fine,      ///< QualityPreset::High, ambient occlusion by horizons, screen-space reflections, bloom, TAA
     Cinematic, ///< QualityPreset::Reference, all of that at full resolution, and motion blur
 };
 

@@ -3,8 +3,8 @@
 ///   Thread  the app thread of the engine.
 ///   Wait    render() returns when the scene has been read and the frame is submitted; it waits only when the driver
 ///           thread is two frames behind. The blocking forms wait for the pixels.
-///   Memory  after warm-up a frame allocates nothing from the heap, whatever the scene and the view ask for.
-///   Fails   a frame for which memory runs out is left out: takeErrors() says so, its target keeps the picture it had,
+///   Memory  after warm-up a frame allocates nothing from the heap, for any scene and view.
+///   Fails   without memory a frame is skipped: takeErrors() reports it, its target keeps its contents,
 ///           and the next frame is drawn as if it had not been tried. On a lost device everything returns at once.
 #pragma once
 
@@ -26,7 +26,7 @@ struct PixelTicket {
     explicit operator bool() const { return value != 0; }
 };
 
-/// Refers to a pick that is on its way.
+/// Refers to a pending pick.
 struct PickTicket {
     uint64_t value = 0;
     explicit operator bool() const { return value != 0; }
@@ -72,15 +72,15 @@ struct FrameStatistics {
     uint32_t passesRun = 0, passesCulled = 0;
 };
 
-/// What became of an effect or a pass in a frame.
+/// The outcome of an effect or a pass in a frame.
 struct EffectDecision {
     enum class State : uint8_t { Needed, NotNeeded, Ran, Culled }; ///< the first two: effects; the others: passes
 
     std::string name; ///< "light list", "tone map"
     State state = State::NotNeeded;
     std::string reason;
-    double gpuMilliseconds = 0;   ///< of a pass, and those merged with it, in the last frame that was timed; 0: unknown
-    uint64_t attachmentBytes = 0; ///< of a pass: what it draws to
+    double gpuMilliseconds = 0;   ///< of a pass, and those merged with it, in the last timed frame; 0: unknown
+    uint64_t attachmentBytes = 0; ///< of a pass: its attachments
 };
 const char* toString(EffectDecision::State state);
 
@@ -96,13 +96,13 @@ public:
     ~Renderer();
 
     /// Renders into the next image of a swap chain, or into a render target; either has view.size, or contains
-    /// view.viewport. A view that keeps what is there is drawn into the swap chain's last image. Returns at once.
+    /// view.viewport. A view that keeps contents is drawn into the swap chain's last image. Returns at once.
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
     /// Shows the image that was drawn last in the window of the swap chain. Returns at once, unless two images before
     /// it have not reached the window yet: then it waits for the first of them, so that the app is never further ahead.
-    /// A swap chain without a window, or without a picture: nothing happens.
+    /// A swap chain without a window, or without an image: no effect.
     void present(SwapChain swapChain);
     /// Whether present() would not wait: an app that has other work can do that first.
     bool mayPresent(SwapChain swapChain) const;
@@ -120,8 +120,8 @@ public:
     std::optional<Image> takePixels(PixelTicket ticket);
     Result<Image> waitPixels(PixelTicket ticket);
 
-    /// Asks what a pixel of the view shows, as the scene is now: bones, morph targets, holes of masked materials and
-    /// layers count. What blends is hit wherever its geometry is, however transparent. Draws that one pixel of
+    /// Picks a pixel of the view in the current scene: bones, morph targets, holes of masked materials and
+    /// layers count. Transparent objects are hit wherever their geometry is, at any alpha. Draws that one pixel of
     /// everything that may cover it, in a submission of its own; frames cost nothing for it. `pixel`: from the left and
     /// from the top of the view, below View::size. A ticket of 0 means out of memory. Up to 4096 renderables along the
     /// pixel are tried, the nearest first. docs/views.md, "Picking".
@@ -137,8 +137,8 @@ public:
     /// Of the frames that finished since the last call, oldest first. Among them are those whose pixels arrived, and
     /// all after Engine::waitIdle().
     std::vector<FrameTimings> takeTimings();
-    /// What the last frame needed, what it did not, and why: effects first, then passes in the order of their
-    /// declaration. docs/demand.md says what an effect that is not needed leaves out.
+    /// Needed and unneeded parts of the last frame, with reasons: effects first, then passes in the order of their
+    /// declaration. docs/demand.md describes the savings of unneeded effects.
     std::vector<EffectDecision> decisions() const;
     /// decisions() as a table, followed by the frame graph in words.
     std::string explain() const;

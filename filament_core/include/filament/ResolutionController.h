@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ResolutionController: how many pixels a frame can afford, from what finished frames took. Renderer has one for views
+/// ResolutionController: dynamic resolution by the times of finished frames. Renderer has one for views
 /// with Resolution::dynamic; a program that times its frames in its own way can use another.
-///   How     the median of the last frames of the same size, whose time is taken to grow with their pixels. Beyond the
-///           target the picture shrinks to what should fit; it grows only to what should leave the headroom free.
-///           Between the two nothing changes, so noise below the headroom moves nothing.
+///   How     the median of the last frames of the same size, assumed proportional to their pixels. Beyond the
+///           target the scale shrinks to fit; it grows only as far as the headroom stays free.
+///           Between the two nothing changes, so noise below the headroom has no effect.
 ///   Steps   scales are multiples of 1/32 of Resolution::scale, of both axes or (not `uniform`) of the area, so that
 ///           few sizes of targets exist.
 ///   Settles within three changes of `history` frames each, once the load is constant: docs/resolution.md.

@@ -4,8 +4,8 @@
 ///   Thread  the app thread, also for const functions: bounds() and Renderer::render() first update transforms. Do not
 ///           change the scene while Renderer::render runs (it returns once it has read the scene).
 ///   Memory  one array per field; adding and removing are O(1).
-///   Life    what the scene shows may be destroyed: the scene keeps it until it is removed or replaced. Handles of a
-///           scene name things of that scene only.
+///   Life    objects in the scene may be destroyed: the scene keeps it until it is removed or replaced. Handles of a
+///           scene are valid in that scene only.
 #pragma once
 
 #include <filament/Box.h>
@@ -180,7 +180,7 @@ public:
     void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
 
     Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
-    Box bounds(Renderable renderable) const; ///< in the world; as that
+    Box bounds(Renderable renderable) const; ///< in world space; conservative, like bounds()
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;
@@ -191,7 +191,7 @@ public:
     std::weak_ptr<Impl> share() { return mImpl; }
 
 private:
-    std::shared_ptr<Impl> mImpl; ///< shared with nobody; animators see when it ends
+    std::shared_ptr<Impl> mImpl; ///< not shared; animators detect its end
 };
 
 } // namespace filament

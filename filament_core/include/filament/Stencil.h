@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// StencilState: what a surface asks of the stencil values of the picture, and what it leaves there. A view has one
+/// StencilState: stencil test and stencil operations of a surface. A view has one
 /// value of 8 bits for each sample, 0 in the beginning; they exist only in frames in which a visible surface has a
 /// state.
 ///   Use      Engine::setStencil(). Portals, outlines, cut-outs of interfaces: docs/views.md.
-///   Order    what is opaque and changes values is drawn before everything else, what only tests them in its usual
-///            place; what blends keeps its place in either case.
-///   Limits   the picture of surfaces alone: shadow maps, motion, picking and the depths that effects read (ambient
-///            occlusion, reflections, depth of field) know nothing of it.
+///   Order    opaque objects that write values are drawn before everything else, those that only test them in the usual
+///            order; transparent objects keep their order in either case.
+///   Limits   the visible surfaces only: shadow maps, motion vectors, picking and the depth for effects (ambient
+///            occlusion, reflections, depth of field) ignore it.
 ///   Thread   plain values.   Fails: never.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace filament {
 /// How (reference & readMask) compares to (value & readMask) where a surface is drawn.
 enum class StencilTest : uint8_t { Never, Less, LessEqual, Equal, NotEqual, GreaterEqual, Greater, Always };
 
-/// What becomes of the bits of writeMask.
+/// Operation on the bits of writeMask.
 enum class StencilOperation : uint8_t {
     Keep,
     Zero,

@@ -19,42 +19,42 @@ namespace filament {
 
 class DebugDraw;
 
-/// What the engine decides for each pixel, what materials are made of, or which numbers the picture has, instead of the
-/// picture: for tools and tests. docs/debug-views.md says what the colours mean and which page explains the others;
+/// Decisions of the engine per pixel, properties of materials, or the numbers in the scene colour, instead of the
+/// image: for tools and tests. docs/debug-views.md explains the colours and links to the other pages;
 /// <filament/DebugViews.h> has them as values. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
     None,
-    Cascades,          ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
+    Cascades,          ///< the image in grey, tinted by the cascade of the sun that shades each pixel
     Atlas,             ///< the atlas of shadow maps: depths, and the outlines of its tiles
     Froxels,           ///< how many lights the list of each pixel's froxel has
     Lights,            ///< how many lights of the list reach each pixel: those whose range and cone contain it
     Occlusion,         ///< the visibility that ambient occlusion computes
-    BentNormals,       ///< the mean direction that is open, in the world
-    Reflections,       ///< how far reflected rays go until they hit something in the picture
-    Refraction,        ///< the blurred level of the picture that is seen through each refracting pixel
-    Fog,               ///< the share of each pixel that is fog
-    Motion,            ///< from where the last frame showed each pixel to where it is now
-    CircleOfConfusion, ///< how blurred depth of field makes each pixel, before and behind the focus
-    HistoryWeight,     ///< how much of the gathered picture temporal anti-aliasing keeps in each pixel
-    Histogram,         ///< what auto exposure measures, and the exposure that it chooses
-    // The picture in numbers:
+    BentNormals,       ///< the mean unoccluded direction, in world space
+    Reflections,       ///< length of reflected rays until their hit on screen
+    Refraction,        ///< the blurred level of the scene colour in each refractive pixel
+    Fog,               ///< opacity of fog in each pixel
+    Motion,            ///< motion vectors: from the previous frame to this one
+    CircleOfConfusion, ///< blur radius of depth of field, in front of and behind the focus
+    HistoryWeight,     ///< weight of the TAA history in each pixel
+    Histogram,         ///< the histogram of auto exposure, and the resulting exposure
+    // Numbers in the scene colour:
     Luminance, ///< stops above or below middle grey
-    Numerics,  ///< NaN, infinities, what half floats cannot hold or hold coarsely, and what is shown as full
-    // What the code of materials gives, of the surface that is seen:
+    Numerics,  ///< NaN, infinities, values out of range or coarse in half floats, and clipped ones
+    // Results of the code of materials, of the visible surface:
     BaseColor,
     Roughness, ///< perceptual
     Metallic,
-    Normals,            ///< that shading uses, in the world
-    Tangents,           ///< in the world
+    Normals,            ///< of shading, in world space
+    Tangents,           ///< in world space
     TextureCoordinates, ///< the first ones
-    MaterialOcclusion,  ///< of the material; Occlusion is that of the screen
+    MaterialOcclusion,  ///< of the material; Occlusion is in screen space
     Emissive,           ///< pre-exposed
     MipLevel,           ///< at which a texture of 1024 texels a side would be read by the first coordinates
-    // What drawing them costs:
+    // Cost of drawing:
     Overdraw,          ///< how many fragments are shaded in each pixel
-    TransparentLayers, ///< how many surfaces that blend are seen in each pixel
-    Wireframe,         ///< the edges of visible triangles, over the picture
-    WireframeAlone,    ///< the same without the picture
+    TransparentLayers, ///< visible transparent surfaces in each pixel
+    Wireframe,         ///< the edges of visible triangles, over the image
+    WireframeAlone,    ///< without the image
 };
 template <>
 struct EnumNames<DebugView> {
@@ -92,14 +92,14 @@ inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 
 /// Load operation of the target.
 enum class TargetContents : uint8_t {
-    Keep,  ///< they stay where the view draws nothing. In a swap chain the view joins the image that was rendered last
+    Keep,  ///< kept where the view draws nothing. In a swap chain the view joins the last rendered image
     Clear, ///< all of the target becomes Viewport::clearColor before the view is drawn
 };
 
-/// How a view is drawn over what its target has.
+/// Blending of a view over its target.
 enum class ViewBlending : uint8_t {
-    Opaque,      ///< in its place
-    Translucent, ///< shown through it by the view's alpha, which is that of `clearColor` where nothing is drawn
+    Opaque,      ///< replaces the target
+    Translucent, ///< blended by the view's alpha, which is that of `clearColor` for background
 };
 
 /// The part of a target that a view is drawn to: View::size pixels from `offset`. docs/views.md, "Several views".
@@ -114,7 +114,7 @@ struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
     ColorGrading colorGrading{};
-    Quality quality{};               ///< the approximations that shading uses
+    Quality quality{};               ///< approximations of shading
     Effects effects{};               ///< screen-space and post-processing effects, each with its switch
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< MSAA: 1 or 4
@@ -122,9 +122,9 @@ struct View {
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
-    Layers visibleLayers = kAllLayers;  ///< renderables of other layers are not there: they cast no shadows, either
-    std::optional<Viewport> viewport{}; ///< none: the view is all of its target
-    /// Drawn over the finished picture; <filament/DebugDraw.h>. Until render() returns.
+    Layers visibleLayers = kAllLayers;  ///< renderables of other layers are ignored: they cast no shadows, either
+    std::optional<Viewport> viewport{}; ///< none: the view covers its target
+    /// Drawn over the output; <filament/DebugDraw.h>. Until render() returns.
     DebugDraw const* debugDraw = nullptr;
 };
 
