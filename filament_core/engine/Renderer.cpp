@@ -334,7 +334,7 @@ struct Renderer::Impl final : engine::Dependent {
 
     // ------------------------------------------------------------------------------------------ expected frames
 
-    /// The passes of such a frame become slots of the pipeline cache; their own pipelines become wishes.
+    /// The passes of such a frame become slots of the pipeline cache; their own pipelines are requested.
     void expect(Scene const& scene, View const& view, Target const& target) {
         try {
             const jobs::AdoptedThread seat(engine.jobs);

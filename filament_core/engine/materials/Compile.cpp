@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine::compile(): turns the programs and pipelines that a material may need into wishes for the compile queue.
+// Engine::compile(): requests the programs and pipelines that a material may need from the compile queue.
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/EngineImpl.h"
 
@@ -72,7 +72,7 @@ std::span<const DrawPass> passesOf(scene::Material const& material) {
     return material.hasTwoPasses() ? std::span<const DrawPass>(kTwo) : std::span<const DrawPass>(kOne);
 }
 
-/// The parts of a wish besides pass and variant.
+/// The parts of a request besides pass and variant.
 struct Shapes {
     std::vector<uint16_t> layouts;
     uint16_t stateCount = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CompileQueue: programs and pipelines requested before their first draw, sent to the driver thread in slices.
-///   In      wishes: a material with the states of its instances, vertex layouts, variants, passes.
+///   In      requests: a material with the states of its instances, vertex layouts, variants, passes.
 ///   Out     creations recorded into frames; how many of them have been replayed.
 ///   Order   highest priority first, then in order of arrival. One slice is under way at a time: the next one is sent
 ///           when the driver thread has finished it, so that no frame waits for more than one.
 ///   Thread  the app thread.
-///   Memory  16 bytes per wish until it is done; 16 bytes per compilation permanently.
+///   Memory  16 bytes per request until it is done; 16 bytes per compilation permanently.
 ///   Fails   add() and recordSlice(): std::bad_alloc; anything not recorded stays queued.
 #pragma once
 
@@ -43,7 +43,7 @@ class CompileQueue {
 public:
     explicit CompileQueue(passes::PipelineCache& pipelines) : mPipelines(pipelines) {}
 
-    /// Wishes that already exist do not count.
+    /// Requests for existing objects do not count.
     Compilation add(CompileJob job, CompilePriority priority);
     CompileProgress progress(Compilation compilation) const;
 
@@ -53,14 +53,14 @@ public:
     void recordSlice(backend::CommandBuffer& commands, uint64_t submission);
     /// Counts what is finished, and calls the callbacks.
     void collect(uint64_t replayedSubmissions);
-    /// Stops work for a material that is destroyed: its remaining wishes count as done.
+    /// Stops work for a material that is destroyed: its remaining requests count as done.
     void forget(scene::Material const& material);
 
 private:
     struct Waiting {
         uint64_t id = 0;
         CompileJob job;
-        size_t next = 0; ///< index of the wish
+        size_t next = 0; ///< of the next one to create
     };
     using Queue = std::deque<Waiting>;
 
