@@ -27,7 +27,7 @@ enum class ReferenceKind : uint8_t {
     Traced,       ///< tools/reference: one reflection of unoccluded light, or whole paths, with the terms of `set`
     OtherBackend, ///< the engine with the same value on the second backend: how far the two APIs differ
     Furnace,      ///< a white furnace: a surface that reflects everything looks like its environment
-    Integral,     ///< numbers instead of a picture: an integral in double precision, by name
+    Integral,     ///< numbers instead of an image: an integral in double precision, by name
 };
 
 struct Reference {

@@ -41,7 +41,7 @@ std::vector<fs::path> fragmentsOf(ReportPlaces const& places) {
     return files;
 }
 
-/// A fragment in the folder of the page, beside its pictures. Nothing: it cannot be read, which is a warning.
+/// A fragment in the folder of the page, beside its images. Nothing: it cannot be read, which is a warning.
 Result<void> adopt(fs::path const& file, fs::path const& to, PagePictures& pictures) {
     const auto bytes = assets::readFileBytes(file);
     if (!bytes) {

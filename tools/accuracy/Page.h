@@ -3,7 +3,7 @@
 /// every number. The same data give the same page without a measurement: plot.py accuracy-page docs/accuracy -o
 /// docs/accuracy.html
 ///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg; the page; in the folder of its name results.json,
-///           the fragments, and their pictures (PagePictures.h).
+///           the fragments, and their images (PagePictures.h).
 ///   Fails   Unreadable with the path, also if plot.py cannot make the page. Without its plots it is a warning.
 ///   Thread  one.
 #pragma once

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PagePictures: the pictures of an HTML page, as files in the folder of its name: docs/accuracy.html shows
+/// PagePictures: the images of an HTML page, as files in the folder of its name: docs/accuracy.html shows
 /// docs/accuracy/*.
-///   In      pictures where the measurement left them; fragments of HTML whose pictures are relative to the fragment.
+///   In      images where the measurement left them; fragments of HTML whose images are relative to the fragment.
 ///   Out     copies under the same names.
-///   Fails   Unreadable with the path; InvalidArgument if two pictures have one name.
+///   Fails   Unreadable with the path; InvalidArgument if two images have one name.
 ///   Thread  one.
 #pragma once
 
@@ -19,14 +19,14 @@ class PagePictures {
 public:
     explicit PagePictures(std::filesystem::path page) : mPage(std::move(page)) {}
 
-    /// Copies the picture. Returns its address as seen from the page.
+    /// Copies the image. Returns its address as seen from the page.
     Result<std::string> add(std::filesystem::path const& picture);
 
-    /// Adds every picture that the fragment shows, src="..." relative to `folder`. Returns the fragment with their new
+    /// Adds every image that the fragment shows, src="..." relative to `folder`. Returns the fragment with their new
     /// addresses.
     Result<std::string> adopt(std::string const& fragment, std::filesystem::path const& folder);
 
-    /// Deletes pictures that the page's file shows and that have not been added: those of an earlier report. To be
+    /// Deletes images that the page's file shows and that have not been added: those of an earlier report. To be
     /// called before the file is replaced.
     void removeOthers() const;
 

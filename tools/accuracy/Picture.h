@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Picture: linear light as floats, and the difference between two pictures.
+/// Picture: linear light as floats, and the difference between two images.
 ///   Error   of a pixel: |test - reference| / (|reference| + 1 % of the reference's mean), as lengths of RGB vectors:
-///           relative, but not dominated by the darkest pixels. Pixels that are black in both pictures (background) do
+///           relative, but not dominated by the darkest pixels. Pixels that are black in both images (background) do
 ///           not count.
 ///   Thread  any; pure.
 #pragma once
@@ -22,10 +22,10 @@ struct Picture {
 Picture pictureOf(Image const& image);
 /// RGBA8 in sRGB codes, with values above 1 clamped, for viewing.
 Image displayImage(Picture const& picture);
-/// Each pixel is the mean of `factor` x `factor` pixels of a picture whose sides are multiples of `factor`.
+/// Each pixel is the mean of `factor` x `factor` pixels of an image whose sides are multiples of `factor`.
 Picture boxFiltered(Picture const& picture, uint32_t factor);
 
-/// Which pixels count when two pictures of the same objects are compared.
+/// Which pixels count when two images of the same objects are compared.
 enum class Edges : uint8_t {
     Count,
     Skip, ///< not pixels beside background: a rasteriser and a ray disagree about them
@@ -36,7 +36,7 @@ struct ErrorFigures {
     double flip = 0;         ///< mean FLIP, [0, 1]
 };
 
-/// Both pictures have the same size.
+/// Both images have the same size.
 ErrorFigures compare(Picture const& reference, Picture const& test, Edges edges = Edges::Count);
 
 } // namespace filament::accuracy

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cmgen: bakes an environment into NAME.ktx2, which loadEnvironment() takes in place of the picture, and shows what the
+// cmgen: bakes an environment into NAME.ktx2, which loadEnvironment() takes in place of the image, and shows what the
 // engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done; 1: it failed,
 // or the arguments are wrong (one line on standard error).
 #include "base/math/Half.h"

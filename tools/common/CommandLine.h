@@ -93,7 +93,7 @@ public:
     int reject(std::string const& message) const;
 
     bool wasGiven(std::string const& name) const;
-    /// The options that were given, as words again, but for some names.
+    /// The given options as words again, except for some names.
     std::vector<std::string> givenBesides(std::initializer_list<const char*> names) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DriverPromise: what is promised of the pictures of these drivers on this processor. The promise is of Mesa's CPU
+/// DriverPromise: what is promised of the images of these drivers on this processor. The promise is of Mesa's CPU
 /// drivers, in the versions that were measured (docs/drivers.md), with the same version for both APIs.
 ///   Thread  any; pure.
 #pragma once

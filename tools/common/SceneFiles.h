@@ -9,10 +9,10 @@
 
 namespace filament::tools {
 
-/// The folder of the pictures, created if it is missing.
+/// The folder of the images, created if it is missing.
 Result<void> makeOutFolder(SceneOptions const& options);
 
-/// The files of the command line. Without a model the showcase is written into the folder of the pictures, and without
+/// The files of the command line. Without a model the showcase is written into the folder of the images, and without
 /// environment and sun its sky. `--environment none` means none. An environment that the model itself brings comes
 /// before these, unless the command line names one: SceneOptions::environment is empty.
 Result<showcase::Files> chooseFiles(SceneOptions const& options);

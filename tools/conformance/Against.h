@@ -3,9 +3,9 @@
 /// pixels, and in which pass that began.
 ///   In      results with their folder; the folder of the other report. Pictures are compared where both have them
 ///           (--pictures all), as 8 bits a channel; whether a case differs is decided by the hashes of all bits.
-///   Out     a comparison in each case that both reports have. One that differs fails, with the other picture and the
+///   Out     a comparison in each case that both reports have. One that differs fails, with the other image and the
 ///           difference in FOLDER/images.
-///   Fails   as readResults(). A picture that cannot be read or written is named in the comparison.
+///   Fails   as readResults(). An image that cannot be read or written is named in the comparison.
 ///   Thread  any.
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Baselines: stored pictures, as a hash and a thumbnail each, with the machine that produced them.
+/// Baselines: stored images, as a hash and a thumbnail each, with the machine that produced them.
 ///   Rule    with the same driver, and with the versions of Mesa that the file lists, the hash must match on every
 ///           x86-64 processor with AVX and FMA; each version has the hashes of cases that have other bits there.
-///           Otherwise the thumbnails are compared with FLIP, and the report says so. A case without a baseline fails:
+///           Otherwise the thumbnails are compared with FLIP, which the report shows. A case without a baseline fails:
 ///           store one with --update-baselines.
 ///   File    tests/conformance/baselines.json: one machine, the other versions (scripts/check_drivers --write), every
 ///           case as a hash and 16 x 16 RGB.
@@ -24,7 +24,7 @@ inline constexpr double kThumbnailFlip = 0.02;
 
 struct Machine {
     std::string device, driver;
-    std::string cpuFeatures; ///< tools::cpuFeatures(): pictures have the bits of this class
+    std::string cpuFeatures; ///< tools::cpuFeatures(): images have the bits of this class
     friend bool operator==(Machine const&, Machine const&) = default;
 };
 Machine thisMachine(std::string device, std::string driver);

@@ -3,7 +3,7 @@
 /// their own, each with a lamp off its middle, so that no two directions look alike.
 ///   In      { "size": 64, "levels": 1, "intensity": 1.5, "degrees": [0, 30, 0] }. `levels`: 1 leaves it to the engine
 ///           to filter for rough surfaces; else all that the size has. `degrees`: turned as objects are.
-///   Out     pictures and coefficients in the scene, pre-filtered by the engine's own baker.
+///   Out     images and coefficients in the scene, pre-filtered by the engine's own baker.
 ///   Fails   through the reader.  Cost: 0.1 s for 64 texels.
 ///   Thread  any; pure.
 #pragma once

@@ -218,7 +218,7 @@ private:
         if (images.emission != kNone) use(material.emissive, images.emission);
     }
 
-    /// `bump`: the picture of colours is a height. `normals`: false leaves out the set's own relief.
+    /// `bump`: the image of colours is a height. `normals`: false leaves out the set's own relief.
     static void readBump(JsonReader& reader, TextureRef const& heights, MaterialData& material) {
         if (reader.has("bump")) material.bump.map = heights;
         reader.read("bump", material.bump.factor, -10, 10);

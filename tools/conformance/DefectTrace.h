@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DefectTrace: a defect on its way into a command stream, and how far it comes: which objects it changes, and whether
-/// a draw has them. A defect that no draw reads proves nothing, whatever its picture.
+/// a draw has them. A defect that no draw reads proves nothing, whatever its image.
 ///   In      the defect. `exaggerated`: where it changes numbers or texels there are zeros, so that whatever reads them
 ///           must show it.
 ///   Out     reach(), of everything since begin().
-///   Limits  which objects a draw has, not which of their numbers its code reads: that only the picture of the
+///   Limits  which objects a draw has, not which of their numbers its code reads: that only the image of the
 ///           exaggerated defect tells. States, programs and samplers are as gross as they can be.
 ///   Thread  that of a StreamEdit: the driver's. begin() and reach(): any, while the device is idle.
 ///   Memory  a name an object, a number for each that is bound or changed.   Fails: never.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Mutations: named defects, injected into the command stream of one engine. A comparison of pictures must detect each
+/// Mutations: named defects, injected into the command stream of one engine. A comparison of images must detect each
 /// of them; otherwise it proves nothing. The engine has no code for them.
-///   Controls "none" changes nothing, and "oneList" nothing that a picture may show; they must not be detected. The
+///   Controls "none" changes nothing, and "oneList" nothing that an image may show; they must not be detected. The
 ///            first shows that the detections are real, the second that froxels miss no light.
 ///   Limits   some edit the code of one API (Mutation::api) and are injected into the engine of that API.
 ///   Fails    an unknown name gives none, and mutationNames() lists the known ones.

@@ -17,14 +17,14 @@ namespace filament::conformance {
 
 struct Options {
     std::filesystem::path scenes, assets;
-    std::filesystem::path baselines; ///< empty: pictures are not compared with stored ones
+    std::filesystem::path baselines; ///< empty: images are not compared with stored ones
     std::filesystem::path out = "conformance";
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles }; ///< the first is the reference
     std::string requireDevice;
     std::vector<std::string> only;   ///< cases whose names contain one of these; empty: all
     std::vector<std::string> cases;  ///< of those, the ones with these names; empty: all
     std::optional<uint64_t> shuffle; ///< seed of the order in which cases are drawn; none: by name
-    bool fresh = false;              ///< new engines for each case: its picture is the first that they draw
+    bool fresh = false;              ///< new engines for each case: its image is the first that they draw
     tools::Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Report: results for programs (JUnit XML) and for people (one self-contained HTML file).
-///   In      results, and the folder that contains their pictures.
-///   Out     OUT/junit.xml, OUT/report.html: pictures, differences, both pictures in turn, the first differing pixel.
-///   Fails   Unreadable with the path. A missing picture is left out.
+///   In      results, and the folder that contains their images.
+///   Out     OUT/junit.xml, OUT/report.html: images, differences, both images in turn, the first differing pixel.
+///   Fails   Unreadable with the path. A missing image is left out.
 ///   Thread  any.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace filament::conformance {
 std::string junitOf(Results const& results);
 std::string htmlOf(Results const& results, std::filesystem::path const& folder);
 
-/// Removes the pictures of cases that passed from `results` and from the folder of the results: a million cases would
+/// Removes the images of cases that passed from `results` and from the folder of the results: a million cases would
 /// have 20 GB of them.
 void dropPassedPictures(std::filesystem::path const& folder, Results& results);
 

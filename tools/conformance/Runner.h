@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runner: draws the cases of a shard in every configuration, compares them, inspects frames, and tests mutations.
 ///   Configurations  each backend with one worker, captured; then 0, 2 and 8 workers, pinned and on big cores. The
-///                   first one produces the reference picture.
-///   Out     the results; pictures in OUT/images.
+///                   first one produces the reference image.
+///   Out     the results; images in OUT/images.
 ///   Memory  one engine per configuration, one case at a time.
 ///   Fails   a missing device or scene folder; errors within a case are results of that case.
 ///   Cost    about a second per case on two cores with Mesa's CPU drivers, half of it for mutations.

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white",
                            kStudio = "studio";
-constexpr uint32_t kSkyHeight = 64; // smooth except at the horizon: enough for pictures of 256 pixels
+constexpr uint32_t kSkyHeight = 64; // smooth except at the horizon: enough for images of 256 pixels
 constexpr float kSkyUnit = 22;      // klx: radiance 1 in the sky's file, as in the showcase
 
 fs::path resolve(std::string const& name, SceneSpec const& spec, fs::path const& assets) {
@@ -76,7 +76,7 @@ Result<void> writeWhite(fs::path const& path) {
 Result<void> writeStudio(fs::path const& path) {
     constexpr uint32_t kWidth = 1024, kHeight = 512;
     struct Lamp {
-        float left, top, right, bottom; ///< of the picture, in [0, 1]
+        float left, top, right, bottom; ///< of the image, in [0, 1]
         float3 radiance;
     };
     constexpr Lamp kLamps[] = { { 0.10f, 0.18f, 0.20f, 0.42f, { 24, 21, 17 } },

@@ -155,7 +155,7 @@ void readDirt(JsonReader& reader, SceneSpec& spec) {
     if (!file.empty()) spec.dirt = spec.folder / file;
 }
 
-/// Its view is the main one but for what it names.
+/// Its view is the main one except for its own fields.
 void readOverlay(JsonReader& reader, SceneSpec& spec) {
     OverlaySpec& overlay = spec.overlays.emplace_back(OverlaySpec{ .view = spec.view, .lens = spec.lens });
     readSize(reader, "size", overlay.view.size);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SceneFile: one .json of tests/conformance/scenes as values: the objects, the light, the camera, the post-processing,
-/// and how two pictures of it are compared. docs/conformance.md describes the fields.
+/// and how two images of it are compared. docs/conformance.md describes the fields.
 ///   Features  a scene's "features" are named changes of the same file (RFC 7396 merge patches). Each is a separate
 ///             case: "spheres/msaa" beside "spheres".
 ///   Fails     InvalidArgument, Unreadable: file, field, what is valid.
@@ -29,7 +29,7 @@ namespace filament::conformance {
 
 enum class ComparatorKind : uint8_t { Bits, Tolerance, Flip };
 
-/// How closely two pictures of a case must agree.
+/// How closely two images of a case must agree.
 struct Comparator {
     ComparatorKind kind = ComparatorKind::Bits;
     uint32_t tolerance = 2;                ///< Tolerance: in 1/255, every component of every pixel
@@ -41,7 +41,7 @@ using NamedWords = std::vector<std::pair<std::string, std::string>>;
 
 using LightSpec = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
-/// A view over the picture: of the same scene, in a part of it.
+/// A view over the image: of the same scene, in a part of it.
 struct OverlaySpec {
     View view{}; ///< without its camera
     double3 eye{ 0, 0, 1 }, at{ 0 };
@@ -63,12 +63,12 @@ struct SceneSpec {
     std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
-    std::vector<Layers> copyLayers;          ///< the same
-    std::vector<DrawPlace> copyPlaces;       ///< the same
+    std::vector<Layers> copyLayers;          ///< of each copy
+    std::vector<DrawPlace> copyPlaces;       ///< of each copy
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
     std::vector<CopyRaster> copyRasters;     ///< of each copy: raster states of a material
     std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place
-    double3 cameraMoves{ 0.0 };              ///< the same
+    double3 cameraMoves{ 0.0 };              ///< metres per frame
     double secondsPerFrame = 0;              ///< of the view's time and of the animation
     double3 origin{ 0.0 };                   ///< of everything: model, lights, camera
     std::optional<double3> eye;              ///< none: a place from which the whole model is visible
@@ -79,7 +79,7 @@ struct SceneSpec {
     uint2 target{ 0 };                 ///< pixels of the target that the view is a part of; 0: its size
     std::vector<OverlaySpec> overlays; ///< over the last frame, in this order
     DebugDraw debugDraw;               ///< over all frames
-    std::filesystem::path dirt;        ///< a picture for Bloom::dirt; empty: none
+    std::filesystem::path dirt;        ///< an image for Bloom::dirt; empty: none
     bool linear = false;               ///< scene-linear half floats: no tone mapping
     uint32_t frames = 1;               ///< frames drawn, including the one that is compared
     Comparator comparator{};

@@ -103,7 +103,7 @@ Result<std::optional<uint32_t>> animationOf(Options const& options, Model const&
     return std::optional(*named);
 }
 
-/// Everything between a running engine and its first picture, in the order in which it must be destroyed.
+/// Everything between a running engine and its first image, in the order in which it must be destroyed.
 class Stage {
 public:
     Stage(Engine& engine, Options const& options)

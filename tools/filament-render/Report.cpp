@@ -165,7 +165,7 @@ Json runJson(BackendRun const& run) {
              { "warnings", run.warnings },        { "errors", run.errors } };
 }
 
-/// The file that lit the pictures.
+/// The file that lit the images.
 std::string environmentOf(ReportInput const& input) {
     const bool isOwn = std::ranges::any_of(input.runs, &BackendRun::usesModelEnvironment);
     return isOwn ? input.model.string() + " (EXT_lights_image_based)" : input.environment.string();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// saveRunAsFrame: --save-frame, the picture of a command line as a folder that anyone can replay
+/// saveRunAsFrame: --save-frame, the image of a command line as a folder that anyone can replay
 /// (docs/saved-frames.md).
-///   In      the runs of the command line: the picture of the first one is what was shown.
+///   In      the runs of the command line: the image of the first one is what was shown.
 ///   Fails   errors of saveFrame(); Internal if an API does not draw again what was shown. The folder is then complete.
 #pragma once
 

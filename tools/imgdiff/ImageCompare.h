@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compareImages: how many pixels of two pictures are identical, and how far the others differ.
+/// compareImages: how many pixels of two images are identical, and how far the others differ.
 ///   In      two images of one size and format: RGBA8, RGB10A2 or RGBA16F, tightly packed.
 ///   Out     counts, and the largest difference of a component in steps of 1/255 (finer ones are rounded up, so that 0
 ///           means identical; NaN against anything else is 255).
@@ -28,7 +28,7 @@ struct ImageComparison {
 
 Result<ImageComparison> compareImages(Image const& a, Image const& b);
 
-/// A picture of the differences, RGBA8: `a` dimmed to a quarter where the bits agree, from yellow (1/255) to red
+/// An image of the differences, RGBA8: `a` dimmed to a quarter where the bits agree, from yellow (1/255) to red
 /// (16/255 and more) where they do not. The images must be comparable (compareImages succeeded).
 Image differenceImage(Image const& a, Image const& b);
 

@@ -4,11 +4,11 @@
 ///               // show: mesh=sphere tint=1,0.5,0.2 normalMap=brick/normal
 ///           mesh=sphere|plane|box|torus|scroll|lines|screen|billboard (MaterialMeshes.h); slab=true puts a grey
 ///           block through the object; instances=N draws N numbered copies in a row. Every other key is a parameter or
-///           a constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
+///           a constant: numbers, true, false, or the name of an image (MaterialPictures.h). "name[]" is an array, its
 ///           elements one after the other.
 ///   Thread  any.
 ///   Memory  readMaterialFile() compiles each text once per process and keeps it; compileMaterialFile() keeps the
-///           latest eight packages. Both ask the package cache of the environment first (PackageCache.h).
+///           latest eight packages. Both query the package cache of the environment first (PackageCache.h).
 ///   Fails   errors of the compiler, or Unreadable with the path.
 #pragma once
 
@@ -41,13 +41,13 @@ struct MaterialFile {
 /// A piece of the text to replace before compiling; it must occur.
 using TextEdit = std::pair<std::string, std::string>;
 
-/// `filteredVariants`: VariantBits that nobody will request; ignored for .fmat files.
+/// `filteredVariants`: VariantBits that are never requested; ignored for .fmat files.
 ///   Fails  NotFound: an edit does not apply.
 Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::path const& path,
                                                              std::vector<TextEdit> const& edits = {},
                                                              uint16_t filteredVariants = 0);
 
-/// The same from the file as it is now. If its text (but for what follows "// show:") and the files that it includes
+/// The same from the file as it is now. If its text (except for what follows "// show:") and the files that it includes
 /// are those of one of the latest eight compilations, the package of that one is used again.
 Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std::vector<TextEdit> const& edits = {},
                                          uint16_t filteredVariants = 0);
@@ -55,7 +55,7 @@ Result<MaterialFile> compileMaterialFile(std::filesystem::path const& path, std:
 /// How many texts this process has compiled.
 uint64_t compiledMaterialFiles();
 
-/// Forgets the latest compilations, for tests of what goes on beside one: from now on this process also compiles what
+/// Forgets the latest compilations, for tests of concurrent ones: from now on this process also compiles what
 /// the package cache has.
 void forgetCompiledMaterialFiles();
 

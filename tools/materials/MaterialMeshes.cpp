@@ -93,7 +93,7 @@ void addBox(MaterialMesh& mesh, float half) {
     }
 }
 
-/// A star in the plane of the picture, in which directions differ, and a helix towards the viewer, in which depth does.
+/// A star in the plane of the image, in which directions differ, and a helix towards the viewer, in which depth does.
 LineQuads starAndHelix() {
     std::vector<float3> star, helix;
     constexpr int kRays = 24, kSteps = 48;

@@ -19,7 +19,7 @@ struct MaterialTerm {
 
 /// The first is the standard model.
 std::vector<MaterialTerm> materialTerms();
-/// `filteredVariants`: VariantBits that nobody will request.
+/// `filteredVariants`: VariantBits that are never requested.
 Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term, uint16_t filteredVariants = 0);
 
 } // namespace filament::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadPictureTexture: a picture of sRGB colours as a texture with all of its mip levels.
+/// loadPictureTexture: an image of sRGB colours as a texture with all of its mip levels.
 ///   In      a .png or .jpg file.
 ///   Thread  that of the engine.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported: one line with the path and the reason.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of filament-accuracy: error and time of every value, from the folder of its data.
 
-In the folder: results.json, and *.fragment.html, finished sections whose pictures lie beside them. The page shows every effect as
+In the folder: results.json, and *.fragment.html, finished sections whose images lie beside them. The page shows every effect as
 a figure beside its table. A marker has the number of its row; pointing at one lights up the other. It needs no library, and no
 measurement: only the data.
 """
@@ -125,7 +125,7 @@ def dot(x, y, backend, is_whole, name, title):
 
 
 def whole_frames(data):
-    """Every value of every effect that the scene of whole frames shows: what it changes of the picture, and of its time."""
+    """Every value of every effect that the scene of whole frames shows: what it changes of the image, and of its time."""
     points = [(effect, value, backend) for effect in data["effects"] for value in effect["values"] for backend in COLORS
               if effect["cost"] == "frame" and effect.get("linear") and effect["frame"] == data["frame"]
               and backend in value.get("ratio", {}) and finite(value, "totalError", effect["name"]) > 0]
@@ -248,7 +248,7 @@ are files as in <a href="conformance.md">conformance.md</a>.</p></section>"""
 
 
 def fragment(text, folder):
-    """A finished section: its pictures beside their table, what is wide in a box that scrolls."""
+    """A finished section: its images beside their table, what is wide in a box that scrolls."""
     text = re.sub(r'src="(?![a-z]+:)', f'src="{folder}/', text)
     text = re.sub(r' style="[^"]*"', "", text)
     text = re.sub(r"((?:<figure.*?</figure>)+)(<table.*?</table>)",

@@ -12,7 +12,7 @@ BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
 BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
 EFFECT_COLORS = (BLUE, ORANGE, GREEN, PINK, RED, SKY, YELLOW, "#332288", "#117733", "#882255", "#44aa99", "#999933")
 SETTINGS_MARKERS = {"preset": "D", "budget": "s"}
-FARTHEST = 1.9  # times the default: slower values are drawn at the edge of the picture of whole frames, with their time
+FARTHEST = 1.9  # times the default: slower values are drawn at the edge of the image of whole frames, with their time
 LEAST_SPAN = 0.16  # of the median: values that differ by less are drawn close together
 LABEL_HEIGHT = 11  # pixels between labels at 100 dpi
 

@@ -6,7 +6,7 @@
   plot.py scaling FILE.json  -o OUT   only their growth with workers and renderables
   plot.py jobs    TRACE.json -o OUT   timeline of the threads: a Chrome trace-event file from --trace-jobs
   plot.py materials FILE.json -o OUT  cost of the terms of a material: material_bench --json
-  plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture per effect, and frames; --format
+  plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one image per effect, and frames; --format
   plot.py accuracy-page DIR -o OUT.html   the page of such results: DIR has results.json and *.fragment.html, and lies beside OUT
 
 OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.

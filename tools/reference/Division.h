@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Division: which part of a picture --tile, --samples and --shard name.
+/// Division: which part of an image --tile, --samples and --shard name.
 ///   Shards  near-square tiles as long as these have at least 16 pixels a side, then also ranges of passes. Together
-///           the shards 0/N to N-1/N are the picture, each part once.
+///           the shards 0/N to N-1/N are the image, each part once.
 ///   Fails   InvalidArgument in one line that names the option, the value and what is valid.
 ///   Thread  pure functions.
 #pragma once

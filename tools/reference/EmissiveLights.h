@@ -2,9 +2,9 @@
 /// EmissiveLights: glowing surfaces as lights that can be sampled, so that a lamp of a few triangles is found at once.
 ///   Method  picks a triangle in proportion to its area times its emission (luminance, the mean of four points on it),
 ///           then a point uniform in area. A triangle that is dark at those points is never picked. Paths find it by
-///           chance, with the full weight, so that pictures stay unbiased.
+///           chance, with the full weight, so that images stay unbiased.
 ///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", sections 6.5.4 and 12.2.
-///   Unit    radiance as in SurfaceSample::emitted: added to the picture without exposure.
+///   Unit    radiance as in SurfaceSample::emitted: added to the image without exposure.
 ///   Memory  40 bytes per emissive triangle, 4 per part. Thread: read-only after construction.
 #pragma once
 

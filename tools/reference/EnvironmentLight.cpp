@@ -44,7 +44,7 @@ double3 EnvironmentLight::texel(int x, int y) const {
 }
 
 // Mean over the components and over the pixels whose centres are in the cell; a single pixel if cells are pixels.
-// Integrating the bilinear picture over a pixel gives the weights 1 6 1 (/ 8) for it and its neighbours in either
+// Integrating the bilinear image over a pixel gives the weights 1 6 1 (/ 8) for it and its neighbours in either
 // direction.
 double EnvironmentLight::cellWeight(uint32_t column, uint32_t row) const {
     constexpr double kWeights[3] = { 0.125, 0.75, 0.125 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// EnvironmentLight: radiance from every direction, and sampling of directions in proportion to radiance.
-///   In      an equirectangular picture, interpolated bilinearly; columns wrap around, rows end at the poles.
+///   In      an equirectangular image, interpolated bilinearly; columns wrap around, rows end at the poles.
 ///   Method  cells of equal azimuth and polar angle. The probability of a cell is proportional to the exact integral of
-///           the bilinear picture over it (in u, v) times its solid angle; directions within a cell are uniform in
+///           the bilinear image over it (in u, v) times its solid angle; directions within a cell are uniform in
 ///           solid angle. Every cell with light can be picked: estimates are unbiased.
 ///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.5 (with uniform cells in cos
 ///           theta).
-///   Limits  4096 x 2048 cells: larger pictures share cells, which adds noise, but no bias.
-///   Memory  8 bytes per cell and the picture, shared.
+///   Limits  4096 x 2048 cells: larger images share cells, which adds noise, but no bias.
+///   Memory  8 bytes per cell and the image, shared.
 ///   Thread  read-only after construction.
 #pragma once
 
@@ -32,7 +32,7 @@ public:
     EnvironmentLight(std::shared_ptr<const assets::HdrImage> image, double factor, double rotationRadians);
 
     bool isBlack() const { return !mImage; }
-    /// `direction` is a unit vector of the world. The picture's radiance times `factor`.
+    /// `direction` is a unit vector of the world. The image's radiance times `factor`.
     double3 radiance(double3 direction) const;
     /// u in [0, 1)^2. Must not be called if isBlack().
     EnvironmentSample sample(double2 u) const;

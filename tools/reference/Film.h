@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Film: accumulates the passes and measures how much they differ.
-///   Method  passes are independent estimates of the picture. The mean of their means is the result; the spread of
+///   Method  passes are independent estimates of the image. The mean of their means is the result; the spread of
 ///           their means divided by the square root of their number is its standard error (Owen 1998, "Scrambling
 ///           Sobol' and Niederreiter-Xing Points": randomised quasi-Monte Carlo). This holds for any arrangement of
 ///           samples within a pass.
 ///   Order   sums of floating-point numbers depend on the order of their terms. Here passes are added in pairs, pairs
 ///           in pairs of pairs, and so on (pairwise summation: Higham 1993, "The Accuracy of Floating Point
 ///           Summation"): a node holds the sum of passes [k 2^j, (k + 1) 2^j). What a range of passes adds up to is
-///           therefore made of the same nodes wherever and by whomever they were added, and parts of a picture merge to
+///           therefore made of the same nodes wherever and by whomever they were added, and parts of an image merge to
 ///           the same bits.
 ///   Thread  add(): one thread per pixel, many pixels at once; the rest: one.
 ///   Memory  48 bytes per pixel and node: log2(passes) nodes at most, 4 for up to 16 passes.
@@ -43,7 +43,7 @@ std::vector<PassRange> nodesOf(PassRange passes);
 
 class Film {
 public:
-    /// `firstPass`: this film has a part of the passes of a picture.
+    /// `firstPass`: this film has a part of the passes of an image.
     Film(uint32_t width, uint32_t height, uint32_t firstPass = 0)
             : mWidth(width), mHeight(height), mPasses{ firstPass, 0 } {}
     /// A film that has `passes` already: its nodes are those of nodesOf(passes), with the film's pixels.

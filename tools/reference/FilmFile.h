@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FilmFile: a partial film as a file, with all that must be equal among the parts of one picture.
+/// FilmFile: a partial film as a file, with all that must be equal among the parts of one image.
 ///   File    little-endian: 8 bytes "FILMPART", u32 version (1), u32 bytes of the header, the header (JSON, below), for
 ///           every node of nodesOf(passes) width x height x 6 doubles (sum of red, green, blue; sums of their squares),
 ///           u64 hash of everything before it (base/Hash.h).
 ///   Header  { "settings": { "commit", "arguments", "contents", "size", "samplesPerPass", "passes", "warnings" },
 ///           "settingsHash" (of the text of "settings"), "tile": [x, y, width, height], "passRange": [first, count],
-///           "shard": [index, count] if --shard divided the picture, "rays", "lostSamples", "seconds" }
+///           "shard": [index, count] if --shard divided the image, "rays", "lostSamples", "seconds" }
 ///   Fails   Unreadable, or Corrupt with the file, what is wrong with it, and that the part must be rendered again. Any
 ///           bytes are safe.
 ///   Thread  any.
@@ -22,10 +22,10 @@ namespace filament::reference {
 
 inline constexpr const char* kPartName = "part.film"; ///< in the folder of a part
 
-/// What all parts of a picture have in common.
+/// What all parts of an image have in common.
 struct PictureSettings {
     std::string commit;                 ///< of the program
-    std::vector<std::string> arguments; ///< of the command line that renders the whole picture
+    std::vector<std::string> arguments; ///< of the command line that renders the whole image
     uint64_t contents = 0;              ///< hash of what the scene's files contain
     uint2 size{ 1, 1 };
     PassPlan plan{};

@@ -70,7 +70,7 @@ std::optional<PassRange> gapOf(std::vector<PassRange> column, uint32_t passes) {
     return std::nullopt;
 }
 
-// The upper left corner of what is missing has the row of the picture's or a part's border, and so has its column.
+// The upper left corner of what is missing has the row of the image's or a part's border, and so has its column.
 Result<void> checkCovered(std::vector<FilmPart> const& parts) {
     PictureSettings const& settings = parts.front().header.settings;
     std::set<uint32_t> rows{ 0 };

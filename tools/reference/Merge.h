@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Merge: one picture from partial films (FilmFile.h), with the bits of one run that is not divided.
+/// Merge: one image from partial films (FilmFile.h), with the bits of one run that is not divided.
 ///   In      files, or folders with a part.film, in any order.
-///   Memory  the picture (PartialFilm.h) and one part.
+///   Memory  the image (PartialFilm.h) and one part.
 ///   Fails   InvalidArgument for parts that differ in what they draw, overlap, are given twice, or do not cover the
-///           picture; Corrupt and Unreadable for their files. The message names the file and what to do.
+///           image; Corrupt and Unreadable for their files. The message names the file and what to do.
 ///   Thread  one.
 #pragma once
 
@@ -16,7 +16,7 @@ struct FilmPart {
     PartHeader header;
 };
 
-/// Whether the parts are one picture.
+/// Whether the parts are one image.
 Result<void> checkParts(std::vector<FilmPart> const& parts);
 
 struct MergedPicture {

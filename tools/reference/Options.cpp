@@ -255,7 +255,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
          { convertChoices, convertMicrofacets, convertLobes, convertPrefiltered, convertNumbers, convertPart }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
-    // which part of the picture is rendered, how and where to is not of the picture
+    // which part of the image is rendered, how and where to is not of the image
     options.arguments =
             app.givenBesides({ "--help", "--out", "--threads", "--tile", "--samples", "--shard", "--merge" });
     if (!options.merge.empty() && !options.arguments.empty())

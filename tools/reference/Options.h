@@ -16,10 +16,10 @@ struct Options : tools::SceneOptions {
     int workers = -1;                         ///< as JobSystemOptions::workers
     bool writesErrors = false;                ///< error.exr
     double rotationDegrees = 0;               ///< of the environment around +Y
-    std::optional<FilmRegion> part;           ///< --tile, --samples, --shard: this instead of the whole picture
+    std::optional<FilmRegion> part;           ///< --tile, --samples, --shard: this instead of the whole image
     std::optional<tools::Shard> shard;        ///< --shard: that this part is
     std::vector<std::filesystem::path> merge; ///< parts to merge; empty: render
-    /// Of the whole picture: all options but those of the part, --out and --threads, in the order of the help text.
+    /// Of the whole image: all options but those of the part, --out and --threads, in the order of the help text.
     std::vector<std::string> arguments;
 };
 

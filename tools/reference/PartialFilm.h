@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PartialFilm: a tile of a picture in some of its passes, so that several machines can share one picture; FilmMerger
-/// puts the parts together. The merged picture has the bits of render() (Film.h: Order).
+/// PartialFilm: a tile of an image in some of its passes, so that several machines can share one image; FilmMerger
+/// puts the parts together. The merged image has the bits of render() (Film.h: Order).
 ///   Thread  one; renderPart() works on the job system.
-///   Memory  48 bytes per pixel of the tile and node (Film.h); FilmMerger: of the picture.
-///   Fails   renderPart(): as render(), and InvalidArgument for a region outside the picture, or whose file would
+///   Memory  48 bytes per pixel of the tile and node (Film.h); FilmMerger: of the image.
+///   Fails   renderPart(): as render(), and InvalidArgument for a region outside the image, or whose file would
 ///           exceed kMaxPartBytes. The message says what to give instead.
 #pragma once
 
@@ -14,14 +14,14 @@ namespace filament::reference {
 inline constexpr uint64_t kMaxPartBytes = 0xF0000000; ///< of pixels; files are read in one piece of at most 4 GiB
 
 struct FilmRegion {
-    uint2 offset{ 0, 0 }; ///< pixels; (0, 0) is the upper left corner of the picture
+    uint2 offset{ 0, 0 }; ///< pixels; (0, 0) is the upper left corner of the image
     uint2 size{ 0, 0 };
     PassRange passes{};
     friend bool operator==(FilmRegion const&, FilmRegion const&) = default;
 };
 /// "pixels 0,0,64,64, passes 4 to 7"
 std::string toString(FilmRegion const& region);
-/// Both have this part of the picture; an empty size or count: none.
+/// Both have this part of the image; an empty size or count: none.
 FilmRegion intersection(FilmRegion const& a, FilmRegion const& b);
 
 struct PartialFilm {
@@ -38,16 +38,16 @@ struct PassPlan {
 PassPlan planOf(ReferenceSettings const& settings);
 
 /// If `progress` stops it, `region.passes` of the result are those that are done. `settings.relativeError` must be 0:
-/// only the whole picture has an error.
+/// only the whole image has an error.
 Result<PartialFilm> renderPart(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                                FilmRegion const& region, jobs::JobSystem& jobs, Progress const& progress = {});
 
 class FilmMerger {
 public:
     FilmMerger(uint2 size, PassPlan const& plan);
-    /// Parts must be in the picture, must not overlap, and must come in ascending order of `region.passes.first`.
+    /// Parts must be in the image, must not overlap, and must come in ascending order of `region.passes.first`.
     void add(PartialFilm const& part);
-    /// After parts that cover the picture. Seconds are the sum of all parts.
+    /// After parts that cover the image. Seconds are the sum of all parts.
     ReferenceImage finish();
 
 private:

@@ -57,7 +57,7 @@ public:
     SkyHarmonics() = default;
     explicit SkyHarmonics(assets::HdrImage const& image);
 
-    /// `normal` is a unit vector in the picture's space.
+    /// `normal` is a unit vector in the image's space.
     double3 irradiance(double3 normal) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Reference: the picture that the engine approximates, by Monte Carlo integration in double precision.
+/// Reference: the image that the engine approximates, by Monte Carlo integration in double precision.
 ///   In      models, lights and an environment in the engine's formats; a camera; settings.
 ///   Out     scene-linear Rec. 709 times exposure, on the scale of the engine's RGBA16F target, and the standard error
 ///           of the mean of every pixel. Nothing is clamped: the estimate is unbiased except for `maxBounces`.
@@ -45,10 +45,10 @@ struct ReferenceModel {
     SurfaceFinish finish{};
 };
 
-/// An equirectangular picture, oriented as in <filament/Environment.h>; interpolated bilinearly.
+/// An equirectangular image, oriented as in <filament/Environment.h>; interpolated bilinearly.
 struct ReferenceEnvironment {
     std::shared_ptr<const assets::HdrImage> image;
-    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the picture stands for
+    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the image stands for
     float rotationRadians = 0; ///< around +Y
     bool skybox = true;        ///< visible to the camera; it gives light in any case
 };
@@ -154,7 +154,7 @@ struct TracedSceneDeleter {
 };
 using TracedScenePtr = std::unique_ptr<TracedScene const, TracedSceneDeleter>;
 
-/// Fails: InvalidArgument for a missing model or picture, and for lights that are not finite.
+/// Fails: InvalidArgument for a missing model or image, and for lights that are not finite.
 Result<TracedScenePtr> prepare(ReferenceScene const& scene, jobs::JobSystem& jobs);
 /// One line each for objects that no ray can hit (lines, points) and for unsupported parts of materials.
 std::vector<std::string> const& warnings(TracedScene const& scene);
@@ -174,7 +174,7 @@ public:
     ~ProgressiveRender();
 
     /// False: `cancelled` was requested, which is asked before every pixel. What was done of the pass is then part of
-    /// no picture, and no pass may follow.
+    /// no image, and no pass may follow.
     bool runPass(jobs::JobSystem& jobs, jobs::Cancellation const* cancelled = nullptr);
     bool isFinished() const; ///< all samples are taken
     RenderProgress progress() const;

@@ -50,7 +50,7 @@ Result<void> check(ReferenceView const& view, ReferenceSettings const& settings)
     return {};
 }
 
-/// For a part of a picture, whose view and settings were checked.
+/// For a part of an image, whose view and settings were checked.
 Result<void> checkRegion(FilmRegion const& region, uint2 size, PassPlan const& plan) {
     const FilmRegion picture{ { 0, 0 }, size, { 0, plan.passes } };
     const bool isEmpty = region.size.x == 0 || region.size.y == 0 || region.passes.count == 0;
@@ -71,7 +71,7 @@ public:
               mSize(view.size), mNear(double(view.camera.lens.nearMeters)),
               mTangent(std::tan(glm::radians(double(view.camera.lens.verticalFovDegrees)) / 2)) {}
 
-    /// Pixel coordinates: (0, 0) is the upper left corner of the picture.
+    /// Pixel coordinates: (0, 0) is the upper left corner of the image.
     Ray rayThrough(double2 point) const {
         const double aspect = double(mSize.x) / mSize.y;
         const double3 view(mTangent * aspect * (2 * point.x / mSize.x - 1), mTangent * (1 - 2 * point.y / mSize.y), -1);
@@ -99,7 +99,7 @@ FogMedium fogOf(TracedScene const& scene, ReferenceView const& view) {
 
 bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// One picture while it is made.
+/// One image while it is made.
 class Rendering {
 public:
     /// All of it.
@@ -153,7 +153,7 @@ public:
     }
 
 private:
-    /// `index` is that of the film; the noise is that of the pixel in the picture.
+    /// `index` is that of the film; the noise is that of the pixel in the image.
     double3 meanOf(size_t index, uint64_t& rays, uint64_t& lost) const {
         const size_t x = mRegion.offset.x + index % mFilm.width(), y = mRegion.offset.y + index / mFilm.width();
         const uint64_t stream = hashOf(hashOf(mSettings.seed, mFilm.passes().end()), y * mWidth + x);
@@ -174,7 +174,7 @@ private:
     ReferenceSettings mSettings;
     PassPlan mPlan;
     FilmRegion mRegion;
-    size_t mWidth; // of the picture
+    size_t mWidth; // of the image
     Film mFilm;
     Lens mLens;
     PathTracer mTracer;

@@ -2,7 +2,7 @@
 /// StandardLobes: the base of the standard material: a diffuse lobe and an isotropic or anisotropic GGX lobe.
 ///   Value   f(view, light) * cos, in 1/sr: diffuse lobe, and D V F * energy compensation, from shaders/lib in double.
 ///   Sampler chooses a lobe in proportion to the lobes' albedos: visible half vectors, or cosine.
-///   Thread  a value. Memory: none, but for the look-ups of a split sum.
+///   Thread  a value. Memory: none, except for the tables of a split sum.
 #pragma once
 
 #include "tools/reference/Coupling.h"

@@ -103,7 +103,7 @@ struct SurfaceSample {
     std::optional<MixtureSample> mixture; ///< none: the members above are all there is
 
     double opacity = 1;          ///< covered fraction: all that this struct says is of that fraction
-    double3 emitted{ 0.0 };      ///< radiance as added to the picture: not exposed, see gltf/lit.glsl
+    double3 emitted{ 0.0 };      ///< radiance as added to the image: not exposed, see gltf/lit.glsl
     bool scatters = true;        ///< false: unlit; emits its colour and reflects nothing
     double selfAvoidance = 1e-6; ///< metres along the geometric normal that keep a new ray from hitting this surface
 

@@ -18,7 +18,7 @@ struct Options {
     std::filesystem::path folder;
     std::vector<Backend> backends;            ///< empty: every API that the folder has a trace of
     std::string requireDevice;                ///< part of the device's name
-    std::filesystem::path out;                ///< pictures go here; empty: none are written
+    std::filesystem::path out;                ///< images go here; empty: none are written
     std::filesystem::path step;               ///< what every draw left goes here; empty: no stepping
     std::optional<std::string> stopAfterPass; ///< number from 1, or name
     std::optional<uint32_t> stopAfterDraw;    ///< number within the frame, from 1

@@ -165,7 +165,7 @@ Result<void> compareAll(Work& work) {
     return {};
 }
 
-/// Without a device there is no picture; the validator still judges every command.
+/// Without a device there is no image; the validator still judges every command.
 Result<void> checkAll(Work& work) {
     for (Track const& track : work.tracks) {
         ReplayRequest request = track.request;

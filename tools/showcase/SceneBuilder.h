@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneBuilder: combines shapes, pictures and materials into a glTF scene, one mesh and one node per call.
+/// SceneBuilder: combines shapes, images and materials into a glTF scene, one mesh and one node per call.
 ///   Thread  one thread at a time.
 ///   Fails   only addPictures(), if the encoder does.
 #pragma once

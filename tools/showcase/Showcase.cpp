@@ -22,7 +22,7 @@ constexpr float3 kTowardsSun{ -0.55f, 0.62f, 0.56f }; // from the left, over the
 constexpr float kSkyUnit = 22;                        // klx: radiance 1 of the sky's file
 constexpr uint32_t kTextureSize = 256;                // an exhibit covers about 90 pixels of a 720p frame
 
-/// The pictures of all exhibits, in the order of `kTextureSets`.
+/// The images of all exhibits, in the order of `kTextureSets`.
 enum Set { Brick, Wood, Terrazzo, Checker, Dimple, Lattice, StainedGlass, Lava, Brushed, SetCount };
 
 struct NamedTextures {
@@ -63,7 +63,7 @@ MaterialData plain(std::string name, float3 color, float metallic, float roughne
              .roughnessFactor = roughness };
 }
 
-/// Factors of 1: the pictures contain everything.
+/// Factors of 1: the images contain everything.
 MaterialData pictured(std::string name, TextureSetImages const& images) {
     MaterialData material{ .name = std::move(name), .metallicFactor = images.surface == assets::kNone ? 0.0f : 1.0f };
     material.baseColor = textured(images.color);

@@ -36,7 +36,7 @@ Picture paintNormals(uint32_t size, Height const& height) {
     return paint(size, [&](float2 uv) {
         const float across = height(uv + float2(step, 0)) - height(uv - float2(step, 0));
         const float down = height(uv + float2(0, step)) - height(uv - float2(0, step));
-        const float3 normal = normalize(float3(-across, down, 2 * step)); // +Y of the picture is up, v is down
+        const float3 normal = normalize(float3(-across, down, 2 * step)); // +Y of the image is up, v is down
         return float4(normal * 0.5f + 0.5f, 1);
     });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Textures: the pictures of the showcase, generated from formulas. All of them tile.
-///   Out     RGBA8 pixels, row 0 at the top. Colours are sRGB codes; normals point along +Z, +Y up in the picture
+/// Textures: the images of the showcase, generated from formulas. All of them tile.
+///   Out     RGBA8 pixels, row 0 at the top. Colours are sRGB codes; normals point along +Z, +Y up in the image
 ///           (glTF's convention); surface maps hold roughness in G and metalness in B.
 ///   Thread  any; pure functions.  Cost: 20 to 60 ms for 512 x 512 texels on one core.
 #pragma once
@@ -18,7 +18,7 @@ struct Picture {
     std::vector<std::byte> pixels;
 };
 
-/// The appearance of a surface; pictures that it does not need are empty.
+/// The appearance of a surface; images that it does not need are empty.
 struct TextureSet {
     Picture color, normal, surface, emission;
 };

@@ -74,7 +74,7 @@ Json jsonOf(RowResult const& result) {
              { "alternatives", std::move(others) } };
 }
 
-/// Writes a picture into a folder beside the fragment, and returns an element that shows it.
+/// Writes an image into a folder beside the fragment, and returns an element that shows it.
 class Pictures {
 public:
     explicit Pictures(fs::path folder) : mFolder(std::move(folder)) {}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ComparisonPage: the results of comparePictures() as a section of the accuracy report and as JSON.
 ///   Out     OUT/comparison.json, OUT/comparison/ROW-*.png, OUT/comparison.fragment.html, which the report includes
-///           together with the pictures.
+///           together with the images.
 ///   Fails   Unreadable with the path.
 ///   Thread  one.
 #pragma once

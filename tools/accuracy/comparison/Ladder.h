@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ladder: leads from the engine's picture to the path tracer's, one named approximation at a time.
-///   Idea     the first rung is the engine's picture, the last one the exact light. Between two neighbours exactly one
+/// Ladder: leads from the engine's image to the path tracer's, one named approximation at a time.
+///   Idea     the first rung is the engine's image, the last one the exact light. Between two neighbours exactly one
 ///            approximation is made exact: first in the engine, then, once both compute the same thing, in the
 ///            reference. The differences between neighbours add up to the whole difference, pixel by pixel, and each
 ///            has a name, except one: there should be no difference between the engine at its finest and the reference
@@ -30,7 +30,7 @@ struct LadderScene {
     MaterialFeatures material{};
 };
 
-/// One picture of the ladder.
+/// One image of the ladder.
 struct Rung {
     RungKind kind = RungKind::Engine;
     // For the engine.

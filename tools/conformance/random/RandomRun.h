@@ -2,7 +2,7 @@
 /// runRandom: draws generated materials (--random N, seeds S to S + N - 1) on both backends and compares the bits. A
 /// failing material is reduced to a small one that fails in the same way.
 ///   Out     for each failing seed in `out`/random: the material and its scene as generated and as reduced (both can be
-///           copied to tests/conformance/scenes), and the reduced one's pictures and their difference.
+///           copied to tests/conformance/scenes), and the reduced one's images and their difference.
 ///   Fails   when a stage cannot be opened or a file not be written. A material that does not compile is a finding.
 ///   Thread  one at a time. Cost: about a second per material, most of it in compilers; a reduction takes minutes.
 #pragma once

@@ -15,7 +15,7 @@ Row frameRow(std::string_view part, Call call) {
              .limits = absolute(1e-6, 1e-2, "a unit vector: the error is relative to its length") };
 }
 
-/// Weights of what a ray of the picture hits.
+/// Weights of what a ray of the image hits.
 Row pictureRow(std::string_view function, Call call, std::array<Argument, 4> arguments, Monotone monotone,
                double highest, Limits const& limits) {
     return { .file = "reflection",

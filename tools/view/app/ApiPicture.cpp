@@ -38,7 +38,7 @@ void ApiPicture::follow(Document const& document, uint64_t number) {
         mChain = mStage->engine().own(
                 mStage->engine().create(SwapChainDesc{ .size = mSize, .imageCount = 1, .name = "other picture" }));
     }
-    mStage->forgetFrames(); // as the picture that it is compared with
+    mStage->forgetFrames(); // as the image that it is compared with
     mStage->render(mChain);
     mPending = mStage->renderer().readPixels(mChain);
     mPendingNumber = number;

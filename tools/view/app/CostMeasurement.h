@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CostMeasurement: draws a document with every setting of quality, beside the viewer, and times and compares its
-/// pictures step by step: see CostPlot.h.
+/// images step by step: see CostPlot.h.
 ///   Engine   its own, without a window, on a thread of its own. The document is as it was at start(); the viewer may
 ///            go on.
 ///   Picture  one of each setting, as a new stage draws it; of 16 frames, if the setting gathers them (TAA).
-///   Error    from the reference that start() was given (the path tracer's picture), else from the picture of the most
+///   Error    from the reference that start() was given (the path tracer's image), else from the image of the most
 ///            exact setting: QualityPreset::Reference, gathered over 16 frames (TAA), so that its edges are smooth.
-///   Steps    in the first round each setting's picture is compared and its first time taken, so points appear one by
+///   Steps    in the first round each setting's image is compared and its first time taken, so points appear one by
 ///            one.
 ///   Time     the second frame after each change of setting: programs, tables and shadow maps are then there. Settings
 ///            take turns: a round times each of them once, and begins with another one. The median of the rounds so far
@@ -30,7 +30,7 @@
 
 namespace filament::view {
 
-/// A picture of the document by other means. Of another size than the document: it is not used.
+/// An image of the document by other means. Of another size than the document: it is not used.
 struct CostReference {
     Image image{};
     std::string name{}; ///< "path tracer: 64 of 256 samples"

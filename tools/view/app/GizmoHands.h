@@ -2,8 +2,8 @@
 /// GizmoHands: the pointer on the handles of what is selected last, a node or a light. Drags edit the document and
 /// nothing else; while one lasts, History makes no step, so that all of it is one.
 ///   Mouse    left button on a handle; Control: whole steps (GizmoSteps). Escape: as before the drag.
-///   Draws    with ImGui, under the panels: pictures that are compared or saved have no handles.
-///   Places   events count pixels of the picture.
+///   Draws    with ImGui, under the panels: images that are compared or saved have no handles.
+///   Places   events count pixels of the image.
 ///   Thread   the main thread.
 #pragma once
 
@@ -34,7 +34,7 @@ public:
 
     /// True: the event was meant for a handle.
     bool handle(InputEvent const& event, GizmoScene const& scene);
-    /// Handles, and in a drag its numbers. `offset`: where the picture begins in the list's pixels. `isOverPanel`:
+    /// Handles, and in a drag its numbers. `offset`: where the image begins in the list's pixels. `isOverPanel`:
     /// nothing is hovered.
     void draw(GizmoScene const& scene, ImDrawList& list, uint2 offset, bool isOverPanel);
     bool isDragging() const { return mDrag.has_value(); }

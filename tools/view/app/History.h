@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// History: undo and redo of a Document. The camera, the playback and the size of the picture are not edits: they stay
+/// History: undo and redo of a Document. The camera, the playback and the size of the image are not edits: they stay
 /// as they are; the playback only while the model does.
 ///   Use      note() once a frame: an edit that is over becomes a step.
 ///   Memory   the last kSteps documents.   Thread: any; a plain value.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Instruments: what a viewer measures beside its picture, for its panels: the costs of settings, the jobs of the last
-/// frames; and the defect that a panel injects into the picture that is compared.
+/// Instruments: what a viewer measures beside its image, for its panels: the costs of settings, the jobs of the last
+/// frames; and the defect that a panel injects into the image that is compared.
 ///   Use      poll() in every step; beforePanels() and afterFrame() around the panels of a drawn frame.
 ///   Draws    poll() says when something is new to be seen, at most four times a second; frames that are drawn for
 ///            nothing else are not read again.

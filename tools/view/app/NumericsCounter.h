@@ -3,10 +3,10 @@
 /// colours.
 ///   Use      after each frame, before the interface is drawn over it: follow(); in every step: poll(); between ImGui's
 ///            NewFrame() and Render(): draw().
-///   Counts   the marks of the picture itself (<filament/DebugViews.h>), so that they agree with what is seen. They
-///            come a frame or two later; until they are those of the newest frame, the legend says so.
-///   Places   the picture is a part of the window, at `offset`.
-///   Waits    never.   Memory: a picture while it is read back.
+///   Counts   the marks of the image itself (<filament/DebugViews.h>), so that they agree with what is seen. They
+///            come a frame or two later; until they are those of the newest frame, the legend marks them.
+///   Places   the image is a part of the window, at `offset`.
+///   Waits    never.   Memory: an image while it is read back.
 ///   Thread   the main thread.
 #pragma once
 
@@ -21,15 +21,15 @@ namespace filament::view {
 
 class NumericsCounter {
 public:
-    /// Asks for the picture that was drawn, if its view is the one with marks and nothing else is on its way.
+    /// Requests the drawn image, if its view is the one with marks and no other request is pending.
     void follow(Stage& stage, SwapChain chain, uint2 offset);
-    /// True: the counts have changed, or a newer picture has to be read: draw again.
+    /// True: the counts have changed, or a newer image has to be read: draw again.
     bool poll(Stage& stage);
     void draw(uint2 offset, uint2 size) const;
-    void close() { *this = {}; } ///< before the renderer that reads pictures ends
+    void close() { *this = {}; } ///< before the renderer that reads images ends
 
     bool isWaiting() const { return static_cast<bool>(mPending); }
-    /// Of the last picture that was read; none: another view is shown.
+    /// Of the last image that was read; none: another view is shown.
     std::optional<NumericsCounts> const& counts() const { return mCounts; }
 
 private:
@@ -37,7 +37,7 @@ private:
     PixelTicket mPending{};
     uint64_t mFrame = 0, mPendingFrame = 0; ///< frames that were drawn, and the one that is being read
     Document mDocument{};                   ///< of mPendingFrame
-    uint2 mOffset{ 0 };                     ///< of its picture
+    uint2 mOffset{ 0 };                     ///< of its image
     uint64_t mGeneration = 0;
     bool mIsNewest = false;
 };

@@ -16,7 +16,7 @@
 namespace filament::view {
 namespace {
 
-constexpr size_t kEncoders = 2; // pictures at a time
+constexpr size_t kEncoders = 2; // images at a time
 
 Result<void> makeFolder(std::filesystem::path const& folder) {
     std::error_code error;
@@ -46,7 +46,7 @@ private:
     bool mIsOwn;
 };
 
-/// Encodes pictures on other threads, a few at a time.
+/// Encodes images on other threads, a few at a time.
 class Encoders {
 public:
     Result<void> add(std::filesystem::path file, Image image, OutputSpace space) {

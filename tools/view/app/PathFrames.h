@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PathFrames: draws a document along a camera path, at a fixed frame rate, to numbered pictures or to a video.
+/// PathFrames: draws a document along a camera path, at a fixed frame rate, to numbered images or to a video.
 ///   Frames   frame k shows the time k / framesPerSecond: the camera of the path, View::timeSeconds and a playing
-///            animation move by that, whatever the drawing takes. Effects that gather frames gather these. So the same
+///            animation move by that, whatever the drawing takes. Temporal effects accumulate these. So the same
 ///            document and path have the same bits on both APIs and on every run.
 ///   Out      frame-00000.png and so on, in a folder that is made if it is missing. Older files with such names are
 ///            replaced; others stay.
@@ -29,7 +29,7 @@ inline constexpr uint32_t kMostFrames = 100'000;
 inline constexpr double kLeastFrameRate = 0.01, kMostFrameRate = 1000;
 
 struct FrameSeries {
-    std::filesystem::path folder{}; ///< of the pictures; empty: only the video is kept
+    std::filesystem::path folder{}; ///< of the images; empty: only the video is kept
     std::filesystem::path video{};  ///< VideoFile.h; empty: none. It needs PNG
     PictureFormat format = PictureFormat::Png;
     double framesPerSecond = 30; ///< [kLeastFrameRate, kMostFrameRate]
@@ -42,7 +42,7 @@ struct PathRequest {
     EngineOptions engine{}; ///< without a display
 };
 
-/// Shared with whoever looks at it from another thread.
+/// Shared with readers on other threads.
 struct PathProgress {
     std::atomic<uint32_t> done{ 0 }, total{ 0 }; ///< frames; total 0: not known yet
     std::atomic<bool> isCancelled{ false };      ///< set: it ends with Cancelled

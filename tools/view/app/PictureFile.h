@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureFile: the formats that pictures of a viewer are saved in.
+/// PictureFile: the formats that images of a viewer are saved in.
 ///   Thread  any.   Fails: savePicture(): Unreadable with the path and the reason.
 #pragma once
 

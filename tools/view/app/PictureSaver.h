@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureSaver: pictures of what a viewer shows, without its panels, that nobody waits for: drawn into an image of
+/// PictureSaver: screenshots without panels, saved in the background: drawn into an image of
 /// their own, read back over the next frames, encoded on another thread.
 ///   Use      save() or read(), then poll() once a step; close() before the engine ends: what has not been read is
 ///            lost.
-///   Thread   the main thread.   Memory: the pictures on their way.
-///   Life     the destructor waits for pictures that are being encoded.
+///   Thread   the main thread.   Memory: the images on their way.
+///   Life     the destructor waits for images that are being encoded.
 ///   Fails    lines of poll().
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace filament::view {
 
-/// Which frame a picture is.
+/// Which frame an image is.
 enum class PictureFrame : uint8_t {
     Next, ///< the one that the stage would draw now: with what temporal effects have gathered
     New,  ///< as a new stage would draw it
@@ -29,12 +29,12 @@ enum class PictureFrame : uint8_t {
 class PictureSaver {
 public:
     void save(Stage& stage, std::filesystem::path file, PictureFormat format);
-    /// `then` gets the picture in a later poll().
+    /// `then` gets the image in a later poll().
     void read(Stage& stage, Format format, PictureFrame frame, std::function<void(Image)> then);
-    /// Whether the file will be written by a picture that is on its way.
+    /// Whether the file will be written by an image that is on its way.
     bool isWriting(std::filesystem::path const& file) const;
     bool isBusy() const { return !mPending.empty() || !mEncoding.empty(); }
-    /// Goes on with what has been read, and says what was saved and what failed.
+    /// Continues with what has been read, and reports what was saved and what failed.
     std::vector<std::string> poll(Stage& stage);
     void close();
 

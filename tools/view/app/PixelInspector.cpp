@@ -71,7 +71,7 @@ bool InspectedEngine::takePicture() {
     std::optional<Image> picture = mStage->renderer().takePixels(mPicture);
     if (!picture) return false;
     mPicture = {};
-    std::optional<backend::CapturedFrame> inside = mCapture->take(); // its answers came before those of the picture
+    std::optional<backend::CapturedFrame> inside = mCapture->take(); // its answers came before those of the image
     if (!inside || picture->pixels.empty()) return false;
     mNext = InspectedFrame{ .inside = std::move(*inside), .picture = std::move(*picture), .size = mSize };
     dropUnseen(*mNext);

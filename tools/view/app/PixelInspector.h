@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PixelInspector: what both APIs have for the pixel under the pointer: it draws the document on two engines of its
-/// own, which read back everything inside of a frame (backend/layers/Captured.h), and asks them what is seen there.
+/// own, which read back everything inside of a frame (backend/layers/Captured.h), and picks the pixel.
 ///   Use      every step: follow(). Off, it has no engines and costs nothing; it starts with the first follow() that is
 ///            on.
 ///   Draws    two frames on each engine for every document, one after the other; a pick for every pixel.
-///   Waits    never, but for the start of the engines.
-///   Memory   the pictures and those attachments of one frame of each API that have the pixels of the picture.
+///   Waits    never, except for the start of the engines.
+///   Memory   the images and those attachments of one frame of each API that have the pixels of the image.
 ///   Thread   the main thread.
 ///   Fails    takeMessages(), one line each; an API that has no driver leaves its column empty.
 #pragma once
@@ -27,7 +27,7 @@ class InspectedEngine {
 public:
     static Result<std::unique_ptr<InspectedEngine>> create(Backend backend, EngineOptions const& options);
 
-    /// Draws the document, unless it has, and asks for the pixel. True: there is something new.
+    /// Draws the document, unless it has, and requests the pixel. True: there is something new.
     bool follow(Document const& document, uint2 pixel);
     /// Null: not drawn yet.
     InspectedFrame const* frame() const { return mFrame ? &*mFrame : nullptr; }
@@ -61,7 +61,7 @@ private:
 
 class PixelInspector {
 public:
-    /// The last pixel of the picture under the pointer.
+    /// The last pixel of the image under the pointer.
     void point(uint2 pixel) { mPointer = pixel; }
     void toggleLock();
     std::optional<uint2> locked() const { return mLocked; }

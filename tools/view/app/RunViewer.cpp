@@ -72,7 +72,7 @@ int drawFrames(ViewerOptions const& options) {
                                            .validation = options.validation,
                                            .exactShaders = options.exactShaders } };
     const Result<PathResult> drawn = drawWithProgress(request);
-    if (!drawn && drawn.error().code == ErrorCode::Cancelled) { // by a signal: nobody else does
+    if (!drawn && drawn.error().code == ErrorCode::Cancelled) { // by a signal, the only source
         tools::printError(drawn.error().message);
         return tools::kInterruptedStatus;
     }

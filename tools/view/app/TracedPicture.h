@@ -3,7 +3,7 @@
 /// with every pass. Behind it the same tone mapper.
 ///   Shows    the file's own nodes, materials and lights, with the variant; the environment; lights that the document
 ///            adds. Edits of nodes, materials and the file's lights, animations, profiles of lights, the look and
-///            effects of the picture but fog are not traced: a message says so, once.
+///            post-processing and screen-space effects are not traced, except fog: reported once.
 ///   Thread   the main thread; rays are traced on one other thread of lower priority.
 #pragma once
 

@@ -2,7 +2,7 @@
 /// VideoFile: makes a video of numbered PNG frames with the ffmpeg command.
 ///   Words    are handed to ffmpeg without a shell, so names may have any characters; '%', which ffmpeg's patterns use,
 ///            is doubled.
-///   Colour   frames are sRGB; the video is BT.709 in limited range, 4:2:0, and says so. An odd side gets one more
+///   Colour   frames are sRGB; the video is BT.709 in limited range, 4:2:0, and marked so. An odd side gets one more
 ///            column or row of black.
 ///   Out      the file, replaced as a whole when it is complete.
 ///   Thread   any.
@@ -31,7 +31,7 @@ struct VideoRequest {
 Result<void> checkVideo(std::filesystem::path const& file);
 /// The command: program and arguments.
 std::vector<std::string> videoWords(VideoRequest const& request, std::filesystem::path const& output);
-/// Waits for ffmpeg, and asks `isCancelled` meanwhile.
+/// Waits for ffmpeg, and polls `isCancelled` meanwhile.
 Result<void> makeVideo(VideoRequest const& request, std::function<bool()> const& isCancelled = {});
 
 } // namespace filament::view

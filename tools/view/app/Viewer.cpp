@@ -17,7 +17,7 @@ namespace filament::view {
 namespace {
 
 constexpr uint32_t kFramesAfterChange = 3; ///< ImGui settles in two frames, picks and statistics arrive with the next
-constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has gathered its picture
+constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has gathered its image
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
 constexpr double kProgressSeconds = 0.25; ///< between frames that show only how far loading has come
 constexpr double kFovDegrees = 40;        ///< of a camera that was parallel
@@ -29,7 +29,7 @@ double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of the picture, which begins there.
+/// Of the image, which begins there.
 InputEvent inPicture(InputEvent event, uint2 offset) {
     if (auto* move = std::get_if<MouseMoveEvent>(&event)) move->pixel -= float2(offset);
     return event;
@@ -59,8 +59,7 @@ Viewer::Viewer(ViewerOptions const& options, Document document, ViewerTarget con
           mUi(target.scale), mInput(target.clipboard), mHistory(mDocument), mRecent(options.recentFiles) {
     mDocument.view.size = max(target.pixels, uint2(1));
     mSaved = mDocument;
-    if (!options.model.empty())
-        (void)mRecent.add(options.model); // a list that cannot be written is no reason to say so
+    if (!options.model.empty()) (void)mRecent.add(options.model); // an unwritable list is ignored
     mPanels.fileDialog.recent = mRecent.files();
     mPanels.state.showsPanels = options.panels;
     mCompared.mode = options.compare;
@@ -406,7 +405,7 @@ void Viewer::followActions() {
         if (mStage) perform(action);
 }
 
-/// The engine is opened again with a trace of its jobs, or without: what is compared goes on.
+/// The engine is opened again with a trace of its jobs, or without: comparisons continue.
 void Viewer::followRecording() {
     if (mRecordsJobs == mPanels.state.recordsJobs) return;
     mRecordsJobs = mPanels.state.recordsJobs;

@@ -3,7 +3,7 @@
 /// it.
 ///   In       events and time. Nothing here knows GLFW: without a native window it draws into a headless swap chain,
 ///            and tests act by events.
-///   Draws    only what has changed: step() does nothing while nobody acts and nothing moves or loads. While files load
+///   Draws    only what has changed: step() does nothing without input, motion or loading. While files load
 ///            and nothing else happens it draws their progress four times a second: the device may be the processor
 ///            that loads them.
 ///   Picture  Document::view.size is what the panels leave free of the window; events count pixels of the window.
@@ -60,7 +60,7 @@ public:
     /// Lets time pass, and draws a frame if something has changed. Whether it did.
     bool step(double seconds);
     StepTime const& lastStep() const { return mStepTime; }
-    /// How long nothing changes unless somebody acts: a caller may wait for events so long.
+    /// How long nothing changes without input: a caller may wait for events so long.
     double idleSeconds() const;
 
     void perform(Action action);
@@ -70,7 +70,7 @@ public:
     void setBackend(Backend backend);
     bool isClosed() const { return mIsClosed; }
     /// For the end of a window: a document with edits that no file has goes to last.json beside the recent files; a
-    /// message says so.
+    /// message reports it.
     void keepEdits();
     bool isLoading() const { return mStage && mStage->progress().isLoading; }
     bool wantsFullScreen() const { return mIsFullScreen; }
@@ -166,7 +166,7 @@ private:
     uint32_t mFramesToDraw = 0, mCompleteFrames = 0, mModelFrames = 0;
     double mNextProgress = 0; ///< when the progress of loads is drawn again, by secondsNow()
     StepTime mStepTime;
-    uint2 mOffset{ 0 };       ///< of the picture in the window
+    uint2 mOffset{ 0 };       ///< of the image in the window
     uint2 mChainPixels{ 0 };  ///< of the swap chain
     uint64_t mPresents = 0;   ///< asked for, of this engine
     bool mReadsFrame = false; ///< that is to be saved

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer reads and writes: files, the clipboard, pictures, recordings.
+// What a viewer reads and writes: files, the clipboard, images, recordings.
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/app/Viewer.h"
 #include "tools/view/panels/MaterialRows.h"

@@ -86,7 +86,7 @@ double timeToPole(double elevation, double rate, double seconds) {
     return std::clamp(left / rate, 0.0, seconds);
 }
 
-/// Tangents (perspective) or metres (parallel) of the edges of the picture.
+/// Tangents (perspective) or metres (parallel) of the edges of the image.
 struct Edges {
     double left, right, bottom, top;
 };
@@ -120,7 +120,7 @@ void forEachCorner(Box const& box, glm::dmat3 const& turn, Visit const& visit) {
     }
 }
 
-/// A point at depth e.z - z is in the picture between the slopes l and r if e.x + l (e.z - z) <= x <= e.x + r (e.z -
+/// A point at depth e.z - z is in the image between the slopes l and r if e.x + l (e.z - z) <= x <= e.x + r (e.z -
 /// z). All corners are if most(x + r z) - r e.z <= e.x <= least(x + l z) - l e.z, which leaves a place for e.x once
 /// e.z >= (most - least) / (r - l): there the box touches both edges.
 struct Axis {

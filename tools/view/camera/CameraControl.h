@@ -23,7 +23,7 @@ double2 pictureFromPixel(double2 pixel, uint2 size); ///< pixel (0, 0) begins at
 double distanceTo(Camera const& camera, double3 pointWorld, double leastMeters = 1e-3);
 double3 pointAt(Camera const& camera, double2 picture, double distanceMeters, double aspect); ///< in the world
 
-/// Turns around `targetWorld`, which keeps its place in the picture: by `yawRadians` about the up of the world
+/// Turns around `targetWorld`, which keeps its place in the image: by `yawRadians` about the up of the world
 /// (positive: to the right around it) and by `pitchRadians` (positive: upwards), up to the poles. A roll is kept if the
 /// camera has one.
 Camera orbited(Camera const& camera, double3 targetWorld, double yawRadians, double pitchRadians);
@@ -47,7 +47,7 @@ Camera flown(Camera const& camera, FlyKeys const& keys, FlySpeed const& speed, d
 /// Turns in place: the view follows the mouse, up to the poles.
 Camera turned(Camera const& camera, double rightRadians, double upRadians);
 
-/// Moves back or forth, and across, until the box just fits: it touches two opposite edges of the picture, less
+/// Moves back or forth, and across, until the box just fits: it touches two opposite edges of the image, less
 /// `margin` of their distance from its middle, [0, 1), or is a hundredth of its diagonal away (long boxes, wide
 /// lenses). The planes of the lens move if they would cut the box. An empty box: the same camera.
 Camera framed(Camera const& camera, Box const& box, double aspect, double margin = 0.05);

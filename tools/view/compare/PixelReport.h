@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PixelReport: what two engines have for one pixel of the same frame: what is displayed, what is seen there, and every
 /// attachment of the frame graph, as texts with a mark where bits differ.
-///   In       frames as FrameCapture reads them, with their pictures.
+///   In       frames as FrameCapture reads them, with their images.
 ///   Smaller  attachments are looked at where their texels cover the pixel. Those of other shapes (shadow maps, tables)
-///            have no pixel of the picture; they are counted.
+///            have no pixel of the image; they are counted.
 ///   Thread   any; pure functions.
 ///   Fails    never: what one of the two does not have is "-", and differs.
 #pragma once

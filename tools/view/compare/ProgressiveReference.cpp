@@ -38,7 +38,7 @@ using State = TracingStatus::State;
 struct ProgressiveReference::Impl {
     mutable std::mutex mutex;
     std::condition_variable changed;
-    Wish wish; // and all below: with the mutex
+    Wish wish; // and all below: guarded by mutex
     bool isWishNew = false;
     TracingStatus status;
     std::optional<TracedView> picture;
@@ -78,7 +78,7 @@ struct ProgressiveReference::Impl {
         return wish.isEnding ? std::nullopt : std::optional(wish);
     }
 
-    /// Only what belongs to the present wish is told.
+    /// Only results of the current request are reported.
     template <class Change>
     void tell(Wish const& of, Change const& apply) {
         const std::lock_guard lock(mutex);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ProgressiveReference: the path tracer on a thread of its own, while a viewer goes on drawing.
+/// ProgressiveReference: the path tracer on a thread of its own, while a viewer keeps drawing.
 ///   Use     setScene() once per document, setView() whenever camera, size or settings change; each frame
 ///           takePicture().
-///   Out     a picture after every pass, the newest one only. After the last pass its bits are those of
+///   Out     an image after every pass, the newest one only. After the last pass its bits are those of
 ///           filament-reference with the same settings, whatever was asked before.
 ///   Thread  all functions: one thread, which never waits: neither for a pass nor for the loading of a scene. Rays are
 ///           traced on one other thread, of lower priority.
 ///   Cancel  setView(), stop() and the destructor end a pass within the time of one pixel: tens of milliseconds. A
 ///           scene that is being loaded is loaded to its end first; the destructor waits for that.
-///   Memory  the scene (Reference.h), 216 bytes a pixel with 16 passes, and two finished pictures.
+///   Memory  the scene (Reference.h), 216 bytes a pixel with 16 passes, and two finished images.
 ///   Fails   status() says why: errors of the loader, of the scene, of the settings.
 #pragma once
 
@@ -58,7 +58,7 @@ public:
     void stop();
 
     TracingStatus status() const;
-    /// The newest picture of the last view; none: no pass was finished since the last call.
+    /// The newest image of the last view; none: no pass was finished since the last call.
     std::optional<TracedView> takePicture();
 
 private:

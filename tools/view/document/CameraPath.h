@@ -17,7 +17,7 @@ struct CameraKey {
 struct CameraPath {
     std::string name{};
     std::vector<CameraKey> keys{};
-    bool isClosed = false;     ///< goes on from the last key to the first one
+    bool isClosed = false;     ///< continues from the last key to the first one
     double closingSeconds = 1; ///< how long that takes, > 0, if it is closed
 };
 

@@ -59,7 +59,7 @@ struct MaterialEdit {
     ParameterValue value = 0.0f;
 };
 
-/// A picture in the place of a texture of all materials with this name, in this copy of the model. A glTF material
+/// An image in the place of a texture of all materials with this name, in this copy of the model. A glTF material
 /// reads the maps that its file has; others are set and not seen.
 struct TextureEdit {
     std::string material{}, parameter{};
@@ -116,7 +116,7 @@ struct Document {
     Playback playback{};
     std::vector<MorphEdit> morphs{}; ///< one of a target
     /// Without what is not a plain value: `look` and `dirt` below take the place of colorGrading.look and
-    /// effects.bloom.dirt, and whoever draws gives viewport and debugDraw.
+    /// effects.bloom.dirt, and the caller sets viewport and debugDraw.
     View view{};
     std::filesystem::path look{}; ///< a .cube file; empty: none
     std::filesystem::path dirt{}; ///< .png or .jpg, of the lens (Bloom::dirt); empty: none

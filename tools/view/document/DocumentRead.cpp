@@ -217,7 +217,7 @@ Result<void> checkAlone(Camera const& camera) {
     return check(document);
 }
 
-/// A value that the text is, or that is its only member but for the version.
+/// A value that is the whole text, or its only member except for the version.
 template <class T>
 Result<T> valueOf(Json const& json, const char* member, std::string_view name) {
     T value;

@@ -8,7 +8,7 @@ namespace {
 /// All fields of a part are the same.
 struct Same {
     bool operator()(Effects const& a, Effects const& b) const {
-        Effects withTextureOfB = a; // Document::dirt names the picture
+        Effects withTextureOfB = a; // Document::dirt names the image
         withTextureOfB.bloom.dirt = b.bloom.dirt;
         return withTextureOfB == b;
     }

@@ -3,7 +3,7 @@
 /// along.
 ///   Pixels   from the left and the top of the view; (0, 0) is the upper left corner of its first pixel.
 ///   Limits   what a ray meets is at most kFarthest times as far away as the line or plane is from the eye, or as a
-///            parallel picture is high. Beyond the vanishing point of a line or the horizon of a plane, where a ray
+///            parallel image is high. Beyond the vanishing point of a line or the horizon of a plane, where a ray
 ///            meets nothing, the answer is that limit: no drag jumps to the other side.
 ///   Thread   any; pure functions.   Fails: never, for finite arguments.
 #pragma once
@@ -26,12 +26,12 @@ struct PictureView {
 struct PictureRay {
     double3 originWorld{ 0 };
     double3 direction{ 0, 0, -1 }; ///< of length 1
-    double heightMeters = 0;       ///< of a parallel picture, whose rays have no beginning; 0: from an eye
+    double heightMeters = 0;       ///< of a parallel image, whose rays have no beginning; 0: from an eye
 };
 
 /// From the eye through a pixel; of a parallel lens along the view.
 PictureRay rayThrough(PictureView const& view, double2 pixel);
-/// Where a point is seen, in the picture or outside of it. None: it is not in front of the eye.
+/// Where a point is seen, in the image or outside of it. None: it is not in front of the eye.
 std::optional<double2> pixelOf(PictureView const& view, double3 pointWorld);
 double depthOf(PictureView const& view, double3 pointWorld); ///< along the view, metres
 /// The height of a pixel at the depth of the point.

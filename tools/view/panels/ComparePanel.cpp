@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the picture is compared with, and defects that may be injected into the other API's commands.
+// What the image is compared with, and defects that may be injected into the other API's commands.
 #include "tools/view/panels/PanelFrame.h"
 #include "tools/view/panels/PanelText.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CostPlot: what settings of quality cost in one scene: the time of a frame and the error of its picture, a point for
+/// CostPlot: what settings of quality cost in one scene: the time of a frame and the error of its image, a point for
 /// each; and the geometry of the plot that a panel draws.
 ///   Points   a point has the whole quality that was measured, so that a click makes exactly that the document's
 ///            setting.

@@ -28,7 +28,7 @@ std::vector<EffectDecision const*> demandRows(std::vector<EffectDecision> const&
 struct DemandTotals {
     uint32_t needed = 0, effects = 0, ran = 0, passes = 0;
     double milliseconds = 0;
-    uint64_t attachmentBytes = 0; ///< passes that draw to the same picture count it each
+    uint64_t attachmentBytes = 0; ///< passes that draw to the same image count it each
 };
 DemandTotals totalsOf(std::vector<EffectDecision> const& decisions);
 

@@ -53,7 +53,7 @@ bool drawComponents(ParameterRow const& row, ParameterValue& value) {
     return isChanged;
 }
 
-/// The file of a picture; pictures that are dropped on the window go to the row that is chosen.
+/// The file of an image; images that are dropped on the window go to the row that is chosen.
 void drawPicture(PanelFrame& frame, MaterialRow const& material, ParameterRow const& row) {
     std::string const& parameter = row.description.name;
     const TextureTarget target{ material.name, parameter };

@@ -20,9 +20,9 @@ class Stage;
 
 enum class ParameterKind : uint8_t {
     Number,  ///< of any type of numbers and of 1 to 4 components
-    Color,   ///< three or four floats whose name says so
+    Color,   ///< three or four floats whose name implies colour
     Switch,  ///< bools
-    Texture, ///< a picture file can take its place: takesPicture()
+    Texture, ///< an image file can take its place: takesPicture()
     Other,   ///< matrices and arrays: shown by their type
 };
 
@@ -37,7 +37,7 @@ struct ParameterRow {
 ParameterKind parameterKind(ParameterDescription const& description);
 /// Two-dimensional and of floats.
 bool takesPicture(ParameterDescription const& description);
-/// Whether the name says that its pictures are no colours: "normalMap", "roughnessMap".
+/// Whether the name says that its images are no colours: "normalMap", "roughnessMap".
 bool holdsData(std::string_view parameter);
 
 struct MaterialRow {

@@ -35,7 +35,7 @@ struct MeasuredChange {
 };
 
 /// Sees every frame's time and every change of an option. Changes that follow each other before enough frames were
-/// drawn are not measured: nobody could tell them apart.
+/// drawn are not measured: they are indistinguishable.
 ///   Memory  the last frames, and one result of each option.
 class ChangeMeter {
 public:

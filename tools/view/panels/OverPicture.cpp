@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies over the picture: how far loading is, and the list of shortcuts.
+// What lies over the image: how far loading is, and the list of shortcuts.
 #include "tools/view/panels/PanelFrame.h"
 #include "tools/view/panels/Shortcuts.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PanelLayout: where the columns of panels are, and the part of the picture between them.
+/// PanelLayout: where the columns of panels are, and the part of the image between them.
 ///   In      the size of the interface and its scale; sizes below are pixels at scale 1.
 ///   Limits  on narrow windows both columns shrink alike, so that a third of the width stays free; below kLeastColumn
 ///           pixels each, only one column is left, then none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Panels: two columns of Dear ImGui windows around a picture, in which a Document is edited and what a Stage draws is
+/// Panels: two columns of Dear ImGui windows around an image, in which a Document is edited and what a Stage draws is
 /// looked into. Left: scene, materials, lights, environment, animation, camera paths. Right: camera, options, costs,
 /// comparison, demand, graph, timeline, statistics, pixel, log. Every panel is a thin function over a model of plain
 /// functions; the models have tests of their own.
@@ -53,19 +53,19 @@ struct TextureTarget {
     friend bool operator==(TextureTarget const&, TextureTarget const&) = default;
 };
 
-/// What the panels remember: a plain value, which programs may read and set (a click into the picture selects a node).
+/// What the panels remember: a plain value, which programs may read and set (a click into the image selects a node).
 struct PanelState {
     std::optional<uint32_t> selectedNode{};
     std::string selectedMaterial{};
     std::optional<LightSelection> selectedLight{};
-    std::optional<TextureTarget> textureTarget{}; ///< of pictures that are dropped on the window
+    std::optional<TextureTarget> textureTarget{}; ///< of images that are dropped on the window
     TreeState tree{};
     std::string treeFilter{}, materialFilter{}, optionFilter{}, demandFilter{};
     bool onlyChangedOptions = false, onlyActiveDemand = false, onlyPasses = false;
     bool showsPanels = true, showsShortcuts = false;
     PathState path{};
     RecordingSettings recording{};
-    FrameKind pictureKind = FrameKind::Png;       ///< of saved pictures; not Video
+    FrameKind pictureKind = FrameKind::Png;       ///< of saved images; not Video
     std::string injectedDefect{}, defectFilter{}; ///< of PanelInputs::defects, into the other API; empty: none
     std::optional<TimeWindow> jobWindow{};        ///< of the timeline that is looked at; none: the newest frames
     bool recordsJobs = false, holdsJobs = false;  ///< the timeline shows jobs, and stays as it is
@@ -103,7 +103,7 @@ struct PanelInputs {
     RecordingProgress recording{};
     std::vector<OfferedDefect> defects{};
     std::string compareMode{}, comparedWith{}, identical{}; ///< "wipe", "gles: llvmpipe", "100.0000 %"; empty: none
-    bool isDefectActive = false;                            ///< the picture that is compared has it
+    bool isDefectActive = false;                            ///< the image that is compared has it
 };
 
 class Panels {

@@ -28,7 +28,7 @@ struct PathState {
 /// What frames of a path are recorded to.
 enum class FrameKind : uint8_t { Png, Exr, Video };
 
-/// What the panel asks for.
+/// Requests of the panel.
 struct RecordingSettings {
     FrameKind kind = FrameKind::Png;
     int framesPerSecond = 30; ///< [1, 240]
@@ -62,7 +62,7 @@ void retimeKey(CameraPath& path, size_t key, double seconds);
 void scrubPath(Document& document, PathState& state, double seconds);
 void selectKey(Document& document, PathState& state, size_t key); ///< and looks through it
 void togglePathPlaying(Document& document, PathState& state);     ///< from the start if it is at its end
-/// Time goes on, if it plays: an open path ends there, a closed one goes round. False: nothing moves.
+/// Time advances, if it plays: an open path stops at its end, a closed one loops. False: nothing moves.
 bool playPath(Document& document, PathState& state, double elapsedSeconds);
 
 } // namespace filament::view

@@ -2,7 +2,7 @@
 /// Manifest: frame.json, the table of contents of a saved frame (docs/saved-frames.md).
 ///   In      JSON of any origin.   Out: a checked value; writing what was read gives the same text.
 ///   Limits  16 MiB; the counts and lengths below. File names are not in it: they follow from the names of APIs and
-///           pictures, so that no folder names a file outside of itself.
+///           images, so that no folder names a file outside of itself.
 ///   Thread  any; plain values.
 ///   Fails   NotFound, Corrupt or Unreadable in one line: the file, the field, what was expected.
 #pragma once
@@ -27,7 +27,7 @@ inline constexpr size_t kMaxManifestBytes = size_t{ 16 } << 20, kMaxSettingsByte
 inline constexpr uint32_t kMaxPictures = 8, kMaxHashedFrames = 8, kMaxPasses = 4096, kMaxAttachments = 16,
                           kMaxPictureSide = 16384;
 
-/// A picture of the frame as it was shown: what every replay must draw.
+/// An image of the frame as it was shown: what every replay must draw.
 struct PictureRecord {
     std::string name = "picture";  ///< 1 to 32 of a-z, 0-9 and '-'
     Format format = Format::RGBA8; ///< RGBA8, RGBA8Srgb, RGB10A2 (NAME.png) or RGBA16F (NAME.exr)
@@ -56,7 +56,7 @@ struct FrameRecord {
     std::vector<PassRecord> passes;
 };
 
-/// A picture as this trace draws it.
+/// An image as this trace draws it.
 struct DrawnPicture {
     uint64_t ticket = 0; ///< of the read-back that answers with its pixels; 0: the trace has none
     uint64_t hash = 0;
@@ -68,7 +68,7 @@ struct TraceRecord {
     std::string device, driver;
     uint64_t textBytes = 0, textHash = 0;       ///< of BACKEND.trace
     uint64_t payloadBytes = 0, payloadHash = 0; ///< of BACKEND.trace.bin
-    std::string problem;                        ///< why it does not draw the pictures that were shown; empty: it does
+    std::string problem;                        ///< why it does not draw the images that were shown; empty: it does
     std::vector<DrawnPicture> pictures;
     std::vector<FrameRecord> frames; ///< the last ones of the trace
 };

@@ -77,7 +77,7 @@ Result<void> clearFolder(std::filesystem::path const& folder) {
     return {};
 }
 
-/// How a picture differs from the one that was shown; empty if it does not.
+/// How an image differs from the one that was shown; empty if it does not.
 std::string differenceOf(FramePicture const& shown, FramePicture const& drawn) {
     if (shown.name != drawn.name) return fmt::format("it draws '{}' where '{}' was shown", drawn.name, shown.name);
     Image const &a = shown.image, &b = drawn.image;
@@ -139,7 +139,7 @@ std::vector<FrameCut> lastFrames(Trace const& trace) {
     return cuts;
 }
 
-/// The read-back that answered with the picture: the last one with its bits, or else with as many bytes.
+/// The read-back that answered with the image: the last one with its bits, or else with as many bytes.
 DrawnPicture findPicture(Replayed const& replayed, Image const& image, std::set<uint64_t>& used) {
     const uint64_t hash = hashBytes(image.pixels);
     for (const bool needsBits : { true, false }) {
@@ -184,7 +184,7 @@ Result<void> savePicture(std::filesystem::path const& folder, FramePicture const
                                                    : savePng(path, picture.image, picture.space);
 }
 
-/// Draws on every API that there is; completes what is expected with the pictures of the first one.
+/// Draws on every API that there is; completes what is expected with the images of the first one.
 Result<std::vector<Drawn>> drawAll(SaveRequest const& request, std::vector<FramePicture>& shown, Manifest& manifest) {
     std::vector<Drawn> all;
     for (const Backend backend : request.backends) {

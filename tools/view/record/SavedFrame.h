@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SavedFrame: a folder with everything that draws one frame again. The format of bug reports (docs/saved-frames.md).
-///   Files   frame.json (Manifest.h); NAME.png or NAME.exr of every picture as it was shown; BACKEND.trace and
+///   Files   frame.json (Manifest.h); NAME.png or NAME.exr of every image as it was shown; BACKEND.trace and
 ///           BACKEND.trace.bin with every command and its data for each API of the machine.
 ///   Save    a trace has the shaders of one API, so the caller's recipe draws the frame on each API, on a fresh engine.
-///           Then every trace is replayed. A trace that does not draw the pictures that were shown is kept, and says
-///           so: TraceRecord::problem.
+///           Then every trace is replayed. A trace that does not draw the shown images is kept, and marked:
+///           TraceRecord::problem.
 ///   Thread  saveFrame(): one at a time; the engines that it makes live on the calling thread. It takes seconds, so a
 ///           viewer calls it on a thread of its own, with a recipe that loads what it draws.
 ///   Fails   Unreadable for the folder; InvalidArgument for the request; errors of the recipe; DeviceUnavailable if no
@@ -27,7 +27,7 @@ struct FramePicture {
     OutputSpace space = OutputSpace::Srgb; ///< of its codes
 };
 
-/// Draws the frame on a fresh engine, with a renderer and targets of its own, and returns its pictures. It may be
+/// Draws the frame on a fresh engine, with a renderer and targets of its own, and returns its images. It may be
 /// called several times, and must draw the same each time.
 using FrameRecipe = std::function<Result<std::vector<FramePicture>>(Engine&)>;
 
@@ -55,7 +55,7 @@ struct Verdict {
     std::vector<std::string> errors;    ///< of the device
 };
 
-/// Replays a trace on its own API and compares the pictures with those that were shown.
+/// Replays a trace on its own API and compares the images with those that were shown.
 Result<Verdict> compareReplay(Manifest const& manifest, Trace const& trace, ReplayRequest const& request = {});
 
 /// Where the replay first differs from the attachments that were recorded: "frame 1, pass 3 'color', attachment 'hdr'";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Background: a function on a thread of its own, whose result is asked for once a frame.
 ///   Thread  all calls belong to one thread; the function runs on another one.
-///   Wait    take() before isFinished(), and the end of the last owner. Whoever must not wait keeps it in Abandoned.
+///   Wait    take() before isFinished(), and the end of the last owner. Code that must not wait keeps it in Abandoned.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::optional<T> takeFinished(std::optional<Background<T>>& work) {
     return result;
 }
 
-/// Functions that nobody waits for any more, until they are finished. Its own end waits for them.
+/// Abandoned functions, until they are finished. Its own end waits for them.
 class Abandoned {
 public:
     template <class T>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LoadedTextures: the pictures of a document's texture edits on one engine.
+/// LoadedTextures: the images of a document's texture edits on one engine.
 ///   Loads    in the background, each file once; what was there stays until another one has come.
 ///   Life     a texture that is no longer wanted lives until dropRetired(): materials may still show it.
 ///   Thread   the app thread of the engine.

@@ -54,7 +54,7 @@ void copyModelPart(Document const& from, Document& to) {
 } // namespace
 
 struct Stage::Impl {
-    /// `created`: none, if the engine is somebody else's.
+    /// `created`: none, if the engine is the caller's.
     Impl(std::optional<Engine> created, Engine* others, StageOptions const& given)
             : options(given), own(std::move(created)), engine(own ? *own : *others),
               renderer(std::in_place, engine, given.renderer) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Stage: draws a Document on one engine. Two stages given the same Document draw the same bits, whatever they drew
-/// before and whichever backend they use; what gathers frames (temporal anti-aliasing, exposure, the places of shadow
-/// maps) does after forgetFrames().
+/// before and whichever backend they use; with history (temporal anti-aliasing, exposure, the shadow
+/// maps) after forgetFrames().
 ///   Use     apply(document); poll(); render(target);  once a frame.
 ///   Loads   apply() starts them and poll() continues them: neither waits, and both stay below 16 ms of their thread
 ///           (tests/tools/view/app/ResponsivenessTest.cpp). What was there stays until what is new is complete, and for
@@ -70,7 +70,7 @@ public:
     /// Continues loads, and puts what is complete in the place of what was there. Never waits for a device or a worker.
     void poll();
     StageProgress progress() const;
-    /// Waits for all loads, or until `isCancelled` says so, which is asked about once a millisecond.
+    /// Waits for all loads, or until `isCancelled` is true, which is polled once a millisecond.
     void finishLoading(std::function<bool()> const& isCancelled = {});
     /// Stops loads; what is there stays, until the document names other files or reload().
     void cancel();
@@ -95,7 +95,7 @@ public:
     Engine& engine();
     Scene& scene();
     Renderer& renderer();
-    View const& view() const; ///< as render() draws it, but for FrameExtras
+    View const& view() const; ///< as render() draws it, except for FrameExtras
 
     std::filesystem::path const& shownFile() const; ///< of the model that is drawn; empty: none
     Model const* model() const;                     ///< null: none, or a .mat file

@@ -4,7 +4,7 @@
 ///   Scale    sizes and fonts are multiplied by it, and positions count pixels of the target (DisplayFramebufferScale
 ///            is 1): glyphs lie on whole pixels at every scale, 1.25 as well as 2. Scale mouse positions to pixels,
 ///            too.
-///   Fonts    ImGui's own, so that pictures are the same on every machine; rasterised at the scale. A larger one is
+///   Fonts    ImGui's own, so that images are the same on every machine; rasterised at the scale. A larger one is
 ///            made only when asked for: give it to UiRenderer::uploadFonts() after setScale().
 ///   Thread   one; ImGui has one current context.
 #pragma once

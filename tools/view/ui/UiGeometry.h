@@ -6,10 +6,10 @@
 ///            rectangle. Callbacks are not called.
 ///   Clipping each vertex carries the rectangle of its command, so that commands with different rectangles share a
 ///            draw. Rectangles are rounded to whole pixels: a pixel is inside if its centre is.
-///   Memory   grows to the largest picture, and is kept. A vertex is stored once for each command that uses it: at most
+///   Memory   grows to the largest image, and is kept. A vertex is stored once for each command that uses it: at most
 ///            one for each index.
 ///   Thread   any; a plain value.   Cost: proportional to the indices.
-///   Limits   65536 runs; pictures up to 65535 pixels a side. What goes beyond is not drawn.
+///   Limits   65536 runs; images up to 65535 pixels a side. What goes beyond is not drawn.
 #pragma once
 
 #include <filament/Math.h>
@@ -39,7 +39,7 @@ struct UiRun {
     friend bool operator==(UiRun const&, UiRun const&) = default;
 };
 
-/// The pixels of a picture of this interface; 0 if its size is not a number, or nothing.
+/// The pixels of an image of this interface; 0 if its size is not a number, or nothing.
 uint2 uiPixels(ImDrawData const& drawData);
 
 class UiGeometry {
@@ -78,7 +78,7 @@ private:
     std::vector<Stored> mStored;
     uint32_t mCommand = 0; ///< counts commands since the object was made; 0 is none
     uint32_t mSkipped = 0;
-    float2 mOrigin{ 0 }, mScale{ 1 }, mSize{ 1 }; ///< of the picture: pixels = (position - origin) * scale
+    float2 mOrigin{ 0 }, mScale{ 1 }, mSize{ 1 }; ///< of the image: pixels = (position - origin) * scale
 };
 
 } // namespace filament::view

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// UiRenderer: draws what Dear ImGui 1.86 describes, by this engine and through its public headers alone: a scene of
 /// its own in a translucent view over the last image of a swap chain.
-///   Colours  what ImGui calls a colour are codes of sRGB, and codes they stay: what is opaque has exactly those bytes,
-///            in any target of display values, and what is not is mixed as codes, as by other renderers of ImGui. So
+///   Colours  colours of ImGui are sRGB codes, which are not converted: opaque items have exactly those bytes
+///            in any display target, and others are blended as codes, as by other renderers of ImGui. So
 ///            white text on black is the font atlas, byte by byte. Targets of light (RGBA16F) would take them for
 ///            light.
 ///   Clipping by the fragments: ui.mat drops those whose pixel lies outside of the rectangle, which every vertex
@@ -43,7 +43,7 @@ class UiRenderer {
 public:
     static Result<UiRenderer> create(Engine& engine);
 
-    /// Uploads the atlas, building it if nobody has, and gives it its ImTextureID. Again after fonts change.
+    /// Uploads the atlas, building it if needed, and gives it its ImTextureID. Again after fonts change.
     void uploadFonts(ImFontAtlas& fonts);
 
     /// A texture for ImGui::Image(): 2D, of display values (RGBA8; RGBA8Srgb would be decoded to light and be too
