@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNearer = 1.0 / 2048;
 
-/// A point of the picture: pixels, and its depth.
+/// A point on screen: pixels, and its depth.
 struct ScreenPoint {
     double2 pixel{ 0.0 };
     double depth = 0;
@@ -49,7 +49,7 @@ public:
             at = screenOf(clip);
         }
         at.pixel = glm::floor(at.pixel + 0.5);
-        const double most = 1e6; // pixels; beyond, nothing is in the picture
+        const double most = 1e6; // pixels; beyond, nothing is on screen
         if (std::abs(at.pixel.x) > most || std::abs(at.pixel.y) > most) return;
         const double side = text.style.pixels;
         ScreenPoint pen = at;

@@ -161,7 +161,7 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
-    // The first item after the sky or the picture starts a draw, because items of one material share its place.
+    // The first item after the sky or the copied colour starts a draw, because items of one material share its place.
     const size_t early = drawsBefore(draws, itemsBefore(items, kLateKey).size());
     return { draws.first(early), draws.subspan(early) };
 }

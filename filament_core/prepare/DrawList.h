@@ -17,11 +17,11 @@ namespace filament::prepare {
 /// Items that one job merges at a time: whole windows, so that every range begins a draw call.
 inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
 
-/// When what refracts the picture is drawn.
+/// When refractive objects are drawn.
 enum class RefractionOrder : uint8_t {
-    Any,         ///< like anything opaque: no picture is refracted
-    FrontToBack, ///< after what is in the picture
-    BackToFront, ///< the same; each sees those behind it
+    Any,         ///< like anything opaque: there is no refraction
+    FrontToBack, ///< after the copy of the scene colour
+    BackToFront, ///< after the copy; each shows those behind it
 };
 
 /// What is visible and may be composed in any order: it has the default place, and blendsInAnyOrder().

@@ -34,7 +34,7 @@ DepthSlice roundedOut(DepthSlice range) {
     return range;
 }
 
-/// The corner of the picture that lies farthest from its centre, at a depth: x and y of view space.
+/// The corner of the screen that lies farthest from its centre, at a depth: x and y of view space.
 double2 cornerAt(float4x4 const& clipFromView, double depth) {
     const double w = -static_cast<double>(clipFromView[2][3]) * depth + static_cast<double>(clipFromView[3][3]);
     const auto at = [&](int axis) {
@@ -46,7 +46,7 @@ double2 cornerAt(float4x4 const& clipFromView, double depth) {
 }
 
 struct Sphere {
-    double depth = 0, radius = 0; // its centre is in the middle of the picture
+    double depth = 0, radius = 0; // its centre is at the image centre
 };
 
 /// The smallest with its centre on the axis of the view that contains a slice of the frustum.

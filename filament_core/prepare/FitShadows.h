@@ -68,7 +68,7 @@ bool shinesThrough(scene::LightRecord const& light, uint32_t face);
 /// `face`: 0 for a spot that takes no cube; else +x, -x, +y, -y, +z, -z.
 FittedShadow fitPunctual(scene::LightRecord const& light, uint32_t face);
 
-/// The radius of a penumbra, as a part of the map's width, for each unit of depth between what casts and what receives.
+/// The radius of a penumbra, as a fraction of the map's width, per unit of depth between caster and receiver.
 /// `sourceRadius`: LightRecord's. By similar triangles (Fernando 2005, "Percentage-Closer Soft Shadows"); the depths of
 /// perspective maps are reciprocals, in which it is linear, too.
 float penumbraOfDepth(FittedShadow const& fitted, float sourceRadius);

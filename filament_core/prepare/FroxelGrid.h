@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FroxelGrid: the cells (froxels: frustum voxels) into which a view's volume is cut, and where a point is in them.
-///   Columns and rows  cut the picture into equal tiles.
+///   Columns and rows  cut the screen into equal tiles.
 ///   Slices            cut the view depth exponentially: their borders are floats whose low bits are zero, so that a
 ///                     shift of the depth's bits names the slice, in the same way on all devices.
-///   Coverage          a point with a depth beyond the grid belongs to the nearest slice; one outside of the picture or
+///   Coverage          a point with a depth beyond the grid belongs to the nearest slice; one off-screen or
 ///                     not in front of the camera belongs to no froxel, and the shader gives it all lights.
 ///   Thread  any; pure. Memory: none. Fails: never; a projection that is neither perspective nor parallel has no grid.
 #pragma once
@@ -28,13 +28,13 @@ struct FroxelGrid {
 };
 
 inline constexpr uint32_t kMaxSlices = 32;
-/// Of a slice; a multiple of those of 16:9 pictures. bench/README.md compares others.
+/// Of a slice; a multiple of those of 16:9 images. bench/README.md compares others.
 inline constexpr uint32_t kTiles = 144;
 
 /// A grid for depths from `nearest` to `farthest` metres, > 0 and finite; nearer than farthest / 256 is one slice.
 FroxelGrid makeFroxelGrid(uint2 size, float nearest, float farthest);
 
-/// Tiles along one axis of the picture: of a point (x, depth) in view space,
+/// Tiles along one axis of the screen: of a point (x, depth) in view space,
 /// tile = (scale * x + skew * depth + offset) / (slope * depth + constant) + tiles / 2.
 struct TileAxis {
     float scale = 1, skew = 0, offset = 0;
@@ -56,7 +56,7 @@ struct TileAxes {
     TileAxis x, y;
 };
 
-/// None for a projection whose picture coordinates mix x and y, or whose w is neither constant nor a multiple of depth
+/// None for a projection whose screen coordinates mix x and y, or whose w is neither constant nor a multiple of depth
 /// plus a constant.
 std::optional<TileAxes> tileAxes(FroxelGrid const& grid, float4x4 const& clipFromView);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Froxels: which of a view's punctual lights may reach which froxel. A fragment shades with the list of its froxel, in
-/// the order of all lights; the lights that it does not find there are those whose attenuation is zero. So the picture
+/// the order of all lights; the lights that it does not find there are those whose attenuation is zero. So the image
 /// has the bits of one in which every fragment tries every light.
 ///   In      the selected lights as the shaders read them, and the view.
 ///   Out     the words of shader::FroxelBuffer, and FrameUniforms::froxelGrid and froxelPlaces.x; counts.

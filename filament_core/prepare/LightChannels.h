@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightChannels: which lights of a view shine on which of its draws (<filament/Light.h>).
-///   How     shaders know nothing of channels. Draws with equal channels share a light list; where that is not the list
+///   How     shaders do not read channels. Draws with equal channels share a light list; where that is not the list
 ///           of the view, they bind a second copy of its uniforms and are drawn with the variant that their lights
 ///           select.
 ///   Demand  if every light shares a channel with every lit draw, as by default, nothing is done: prepareView()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureCopy: which part of the picture is copied for what refracts it, and with how many blurred levels.
+/// PictureCopy: the part of the scene colour that is copied for refraction, and its number of blurred levels.
 ///   In      the boxes of the refracting objects, as the camera sees them.
 ///   Out     a rectangle of pixels that holds what a refracted ray is expected to meet: the objects' own pixels and a
 ///           margin. Beyond it, shaders fade to the environment.

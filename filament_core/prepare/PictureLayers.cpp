@@ -18,7 +18,7 @@ bool seesPicture(scene::Renderables const& renderables, SortItem const& item) {
     return drawable.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
 }
 
-/// What those of `items` cover that see the picture.
+/// The area of the refractive `items`.
 PixelBox boxOf(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
                uint2 view) {
     PixelBox box{ float2(view), float2(0.0f) };
@@ -37,7 +37,7 @@ float mostRoughness(scene::MaterialInstance const& instance) {
     return roughness >= 0 ? roughness : roughness < 0 ? 0.0f : 1.0f; // NaN is rough
 }
 
-/// Levels that those of `items` read that see the picture.
+/// Levels that the refractive `items` read.
 uint8_t levelsFor(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
                   uint2 view) {
     if (space.clipFromView[3].w != 0) return kMostPictureLevels; // parallel: blur grows with the distance behind

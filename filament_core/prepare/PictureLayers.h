@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// pictureLayers: how often the picture is copied for what refracts it, and what is drawn over each copy.
+/// pictureLayers: the copies of the scene colour for refraction, and the draws over each copy.
 ///   Thread  any; pure.   Memory: the arena.   Fails: never.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace filament::prepare {
 
 /// In the order of drawing: as many as Quality::refractionLayers says, or as objects refract, if these are fewer. Over
-/// the first lie all objects that have none of their own, over the last what blends as well.
+/// the first lie all objects that have none of their own, over the last also transparent ones.
 ///   order    all that is drawn, in order: refracting objects from back to front if there may be several copies
 ///   blended  ViewPacket::blended, made from `order`
 std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables const& renderables,

@@ -25,7 +25,7 @@ public:
     PixelGrid() = default;
     PixelGrid(float4x4 const& clipFromWorld, uint2 size);
 
-    /// Bit i: box i is at most about two pixels large, so that missesAll() may be true. Others are never asked.
+    /// Bit i: box i is at most about two pixels large, so that missesAll() may be true. Others are never tested.
     uint32_t mayMiss8(std::array<simd::Float8, 3> const& center, std::array<simd::Float8, 3> const& halfExtent) const;
     bool missesAll(float3 center, float3 halfExtent) const;
 

@@ -107,7 +107,7 @@ PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapWish> wi
     shrinkToFit(sizes, largestAtlas);
     const auto tiles = arena.array<ShadowTile>(wishes.size());
     const auto kept = arena.array<ShadowTile>(wishes.size());
-    // An atlas that has room stays: to make another one is to draw all maps again.
+    // An atlas with room is kept: another one would redraw all maps.
     const bool hasRoom = held.size <= largestAtlas && texelsOf(sizes) <= uint64_t{ held.size } * held.size &&
                          std::ranges::max(sizes) <= held.size;
     if (hasRoom) {

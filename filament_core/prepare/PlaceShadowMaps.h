@@ -19,7 +19,7 @@ struct ShadowMapWish {
 
 struct PlacedShadowMaps {
     uint32_t atlasSize = 0; ///< the smallest power of two that has room; not below that of `held`, if that has room
-    std::span<const ShadowTile> tiles; ///< parallel to the wishes; size 0: left out
+    std::span<const ShadowTile> tiles; ///< parallel to the requests; size 0: left out
 };
 
 /// `largestAtlas`: a power of two, at least kSmallestShadowMap.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// prepareFrame: scene and views -> FramePacket, on the job system. The table of contents of this room.
 ///   In      the scene as it is now; the views, the main one first, one at least; what the atlas of shadow maps holds;
-///           the last frame of the same renderer.
+///           the previous frame of the same renderer.
 ///   Out     one FramePacket in `arena`: its views in the same order, then those of the shadow maps that are drawn,
-///           then that of what moved, if an effect asks for it.
+///           then that of moving objects, if an effect needs it.
 ///   Thread  the app thread, which takes part in the work until all is done.
 ///   Memory  the arena only.
 ///   Bits    the packet is the same for any number of workers, and a view's part of it does not depend on other views;

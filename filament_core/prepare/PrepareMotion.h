@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// prepareMotion: which opaque objects in view did not stay where they were, so that the motion of the camera alone
-/// does not tell where the last picture shows them.
-///   In      the main view, and the last frame.
-///   Out     a view of kind Motion: a draw for each of these objects, with two records: now, and in the last frame. And
+/// does not give their motion vectors.
+///   In      the main view, and the previous frame.
+///   Out     a view of kind Motion: a draw for each of these objects, with two records: now, and the frame before. And
 ///           what moves them: transform, skin, morph targets, a vertex block that reads the time, a place in the view
 ///           of a camera that moved.
 ///   Thread  the app thread.   Memory: the arena.   Bits: the order of the main view.   Fails: std::bad_alloc.
@@ -21,7 +21,7 @@ struct PreparedMotion {
 PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPacket const& main, LastFrame const& last,
                              LastView const& seen);
 
-/// Appends what `slots` were like in the last frame to `list`.
+/// Appends the state of `slots` in the previous frame to `list`.
 void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::span<const uint32_t> slots,
                            LastFrame const& last, DeformationList& list);
 

@@ -9,7 +9,7 @@
 namespace filament::prepare {
 
 CoverageLens coverageLens(double3 const& cameraWorld, float4x4 const& clipFromView) {
-    // The picture is 2 / scale wide and high: at distance 1, or anywhere if w is 1.
+    // The screen is 2 / scale wide and high: at distance 1, or anywhere if w is 1.
     const double scales = std::abs(static_cast<double>(clipFromView[0][0]) * static_cast<double>(clipFromView[1][1]));
     return { cameraWorld, std::numbers::pi * scales / 4, clipFromView[2][3] == 0 };
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ScreenCoverage: how much of a picture an object covers, and which of its levels of detail that asks for.
-///   Units   a share of the picture's area: 1 covers all of it. Babylon.js compares `MSFT_screencoverage` with the
+/// ScreenCoverage: the screen coverage of an object, and the level of detail for it.
+///   Units   a fraction of the screen's area: 1 covers all of it. Babylon.js compares `MSFT_screencoverage` with the
 ///           same.
 ///   In      the sphere around the bounds that all levels share, and the lens without jitter and band, so that neither
 ///           temporal anti-aliasing nor the size that is drawn changes a level.
-///   Out     pi R^2 / (A d^2) for a perspective lens, where A is the area of the picture at distance 1 and d the
+///   Out     pi R^2 / (A d^2) for a perspective lens, where A is the area of the screen at distance 1 and d the
 ///           distance of the sphere's centre from the camera; pi R^2 / A for a parallel one. Turning the camera changes
 ///           nothing, and neither does what is out of view. A camera in the sphere, and a sphere that is not a number:
 ///           infinity, so that nothing goes missing. Radius 0: 0.

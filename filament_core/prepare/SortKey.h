@@ -48,11 +48,10 @@ struct SortItem {
 };
 static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
 
-inline constexpr uint64_t kLateKey = 1ull << 63; ///< from here on: drawn after the sky
-inline constexpr uint64_t kPictureEndKey =
-        kLateKey | 1ull << 60; ///< from here on: not in the picture that is refracted
+inline constexpr uint64_t kLateKey = 1ull << 63;                  ///< from here on: drawn after the sky
+inline constexpr uint64_t kPictureEndKey = kLateKey | 1ull << 60; ///< from here on: not in the copy of the scene colour
 inline constexpr uint64_t kRefractingEndKey =
-        kLateKey | 2ull << 60; ///< from here on: neither in the picture, nor opaque and refracting it
+        kLateKey | 2ull << 60; ///< from here on: neither in the copy, nor opaque and refractive
 inline constexpr uint64_t kBlendedKey = 3ull << 62;
 
 /// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
@@ -106,7 +105,7 @@ constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint
 /// `depth`: depthBits(), whose highest bit is 0.
 constexpr uint64_t backToFront(uint32_t depth) { return uint64_t{ ~depth & 0x7FFF'FFFFu } << 10; }
 
-/// When Quality::transparency draws what blends.
+/// When Quality::transparency draws transparent objects.
 enum class Composed : uint8_t { Behind, InAnyOrder, InOrder };
 
 inline constexpr uint32_t kDefaultPlace = scene::placeOrder({});
@@ -120,12 +119,12 @@ constexpr uint64_t blendedKey(uint32_t depth, uint32_t place = kDefaultPlace, Co
 inline constexpr uint64_t kAnyOrderKey = kBlendedKey | uint64_t{ kDefaultPlace } << 43 | 1ull << 41;
 inline constexpr uint64_t kAnyOrderEndKey = kAnyOrderKey + (1ull << 41);
 
-/// What is opaque, but has to be drawn after the sky.
+/// Opaque objects that have to be drawn after the sky.
 constexpr uint64_t lateKey(uint32_t depth, bool onTop, uint32_t place = kDefaultPlace) {
     return kLateKey | static_cast<uint64_t>(onTop) << 61 | uint64_t{ place } << 41 | backToFront(depth);
 }
 
-/// What is opaque, but shows the picture behind it.
+/// Opaque objects that refract the scene colour.
 constexpr uint64_t refractingKey(uint32_t depth) { return kPictureEndKey | static_cast<uint64_t>(depth) << 29; }
 
 /// The same, back to front: it may show others of its kind.

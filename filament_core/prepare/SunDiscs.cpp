@@ -14,7 +14,7 @@ namespace {
 using scene::LightRecord;
 
 constexpr double kSmallestRadius = 1.745329252e-5; // tangent of 0.001 degrees
-constexpr double kMostPixels = 1e6;                // from the picture to a sun that pixels are counted from
+constexpr double kMostPixels = 1e6;                // from the screen to a sun that pixels are counted from
 constexpr float kBrightestDisc = 1e30f;            // a finite number, whatever the light
 
 bool hasDisc(LightRecord const& light) {
@@ -40,7 +40,7 @@ bool mayBeSeen(ViewSpace const& space, float3 axis, double radius) {
                                [&](float4 const& plane) { return glm::dot(float3(plane), axis) >= -reach; });
 }
 
-/// Where a camera looks through the picture, in view space: first + x right + y down, in pixels.
+/// View rays of a camera, in view space: first + x right + y down, in pixels.
 struct PixelRays {
     double3 first, right, down;
     double2 size;
@@ -54,7 +54,7 @@ struct PixelRays {
 
     double3 at(double2 pixel) const { return first + right * pixel.x + down * pixel.y; }
 
-    /// The pixel nearest to a direction that floats can count from: the middle of the picture if it is far away.
+    /// The pixel nearest to a direction that floats can count from: the image centre if it is far away.
     float2 pixelOf(double3 direction) const {
         const double2 middle = size * 0.5;
         if (!(direction.z < 0)) return float2(middle);

@@ -4,7 +4,7 @@
 ///   Out: a SunDisc for each sun whose disc or halo the view may contain.
 ///   Disc    the luminance E / (pi sin^2 r) of a sun that gives E lux with the angular radius r; 0.001 degrees at
 ///           least.
-///   Exact   in double precision. Pixels are counted from where the sun is in the picture, so that floats resolve the
+///   Exact   in double precision. Pixels are counted from the position of the sun on screen, so that floats resolve the
 ///           smallest disc.
 ///   Thread  any; pure. Memory: the arena. Fails: std::bad_alloc.
 #pragma once

@@ -26,7 +26,7 @@ float4x4 withOrdinaryDepth(float4x4 clip) {
     return clip;
 }
 
-/// Moves the picture by pixels: row 0 is at y = -1.
+/// Moves the image by pixels: row 0 is at y = -1.
 float4x4 withJitter(float4x4 clip, float2 pixels, uint2 size) {
     const float2 moved = 2.0f * pixels / float2(size);
     for (int column = 0; column < 4; ++column) {

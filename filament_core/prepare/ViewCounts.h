@@ -32,11 +32,11 @@ struct ViewCounts {
     uint32_t suns = 0;
     uint32_t sunsOfOtherChannels = 0;        ///< the brightest, if it is on no channel of a lit surface in view
     uint32_t litDraws = 0, blendedDraws = 0; ///< shaded views: draws whose material is lit; those behind the sky
-    uint32_t anyOrderObjects = 0;            ///< that may be composed in any order; 0 where nobody asks
+    uint32_t anyOrderObjects = 0;            ///< that may be composed in any order; 0 if unused
     uint32_t opaqueDraws = 0;                ///< shaded views: those before the sky
     uint32_t opaqueLitDraws = 0;             ///< of these: whose material is lit
-    uint32_t refractiveDraws = 0;            ///< through which the picture is seen: `refractionMode : screenspace`
-    uint32_t reflectiveDraws = 0;            ///< in which it is: `reflections : screenspace`
+    uint32_t refractiveDraws = 0;            ///< refractive: `refractionMode : screenspace`
+    uint32_t reflectiveDraws = 0;            ///< reflective: `reflections : screenspace`
     uint32_t stencilDraws = 0;               ///< that test or change stencil values
     uint32_t contactLights = 0;              ///< of the lights in view, the sun among them: those with contact shadows
     uint64_t triangles = 0;
