@@ -60,7 +60,7 @@ struct AllocatorOptions {
 };
 
 struct AllocatorStatistics {
-    uint64_t usedBytes = 0;     ///< asked for
+    uint64_t usedBytes = 0;     ///< requested
     uint64_t reservedBytes = 0; ///< taken from the source
     uint32_t blocks = 0;
     uint32_t dedicated = 0; ///< allocations with memory of their own
