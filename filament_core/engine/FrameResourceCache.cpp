@@ -2,6 +2,7 @@
 #include "filament_core/engine/FrameResourceCache.h"
 
 #include "filament_core/passes/DebugDrawPass.h"
+#include "filament_core/prepare/DebugViews.h"
 
 #include <filament/DebugDraw.h>
 

@@ -2,6 +2,7 @@
 #include "filament_core/passes/DebugSurfacePass.h"
 
 #include "filament_core/passes/ChosenDraws.h"
+#include "filament_core/prepare/DebugViews.h"
 
 namespace filament::passes {
 namespace {

@@ -20,9 +20,7 @@
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/TargetMips.h"
 #include "filament_core/passes/TemporalPass.h"
-
-#include <algorithm>
-#include <array>
+#include "filament_core/prepare/DebugViews.h"
 
 namespace filament::passes {
 namespace {
@@ -77,23 +75,12 @@ PassSettings settingsOf(View const& view, FrameResources const& resources, prepa
 
 bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }
 
-/// Whether an effect takes the picture of the colour pass and makes another one of it.
-bool changesPicture(FrameContext const& context) {
-    using prepare::Effect;
-    constexpr std::array kEffectsOfPicture{ Effect::Taa,          Effect::Bloom,        Effect::ChromaticAberration,
-                                            Effect::Vignette,     Effect::Grading,      Effect::Fxaa,
-                                            Effect::DepthOfField, Effect::AutoExposure, Effect::Upscaling,
-                                            Effect::Sharpening,   Effect::MotionBlur,   Effect::LensFlare,
-                                            Effect::GuardBand };
-    return std::ranges::any_of(kEffectsOfPicture, [&](Effect effect) { return context.packet.demand.needs(effect); });
-}
-
 FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     const uint2 size = context.settings.size;
     FrameTargets targets;
     beginPlace(graph, context, output, targets);
     const bool isFull = context.view->debugView == DebugView::Numerics; // what half floats do not hold is to be seen
-    const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !changesPicture(context);
+    const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.changesColor();
     targets.color = isFinished ? targets.output
                                : graph.createTexture({ .width = size.x,
                                                        .height = size.y,

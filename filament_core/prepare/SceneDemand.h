@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SceneDemand: which effects a frame needs, and why. What is visible decides, not what the scene contains: lights
 /// that reach no lit surface of the view are neither uploaded nor part of any shader (PrepareView.cpp applies the same
-/// counts to each view). The colour pass draws the sky by it. Every effect that is added to the engine gets a line
-/// here.
+/// counts to each view). The colour pass draws the sky by it. Every effect has a row in EffectTable.cpp, which says how
+/// its demand follows.
 ///   In      what preparing the frame has found out.   Out: a plain value.
 ///   Thread  any; pure.   Memory: none; the words of describe() are on the heap.   Fails: never.
 #pragma once
 
+#include "filament_core/prepare/DemandReason.h"
 #include "filament_core/prepare/ShadowCounts.h"
 #include "filament_core/prepare/ViewCounts.h"
 
@@ -57,64 +58,9 @@ enum class Effect : uint8_t {
     MipBias,     ///< of materials' textures
     GuardBand,   ///< pixels around the picture
     DebugView,   ///< instead of the picture
+    Count,       ///< no effect: how many there are
 };
-inline constexpr size_t kEffects = 37;
-
-/// Why an effect is needed (the first group), or not.
-enum class DemandReason : uint8_t {
-    ReachesLitSurfaces, ///< `count` lights shine on lit surfaces in view; `others` do not
-    IsVisible,          ///< `count` draws of it are in view
-    FillsBackground,
-    DarkensWhatIsVisible, ///< `count` maps are read; `others` of them are drawn in this frame
-    TintsShadows,         ///< in `count` maps something transmits light, in `others` nothing does
-    ShowsInSky,           ///< `count` discs or halos are in view, `others` are not
-    ShowsCascades,        ///< `count`; 0: the sun has no maps
-    ShowsAtlas,           ///< `count` maps in `others` texels a side; 0: there is no atlas
-    ShowsFroxels,         ///< `others`, the longest list of which has `count` lights; 0: there is one list of `count`
-    ShowsLights,          ///< `count` are in the list
-    ShowsEffect,          ///< `others`, a DebugView, whose effect runs, or (`count` is 0) does not
-    DepthIsRead,          ///< by `count` effects
-    SwitchedOn,           ///< by Quality
-    DarkensIndirectLight, ///< on `count` lit draws
-    SeesPicture,          ///< `count` draws do; `others` pixels of it are copied
-    LightsAskForIt,       ///< `count` lights
-    LiesInBetween,        ///< between the camera and what is visible
-    MovesInView,          ///< `count` opaque objects do
-    CameraMoves,          ///< and nothing else
-    SpreadsLight,         ///< of what is visible; `count`: by dirt on the lens as well
-    ReflectsLight,        ///< between the surfaces of the lens: `count` ghosts, and a halo if `others` is not 0
-    SmoothsEdges,         ///< of what is visible
-    ChangesPicture,       ///< as a whole
-    IsOutOfFocus,         ///< something visible is, by `count` pixels at most
-    MeasuresPicture,
-    EnlargesPicture,  ///< of `count` by `others` pixels
-    MayOverlap,       ///< `count` objects do; `others`: layers that are peeled, 0: none are
-    ResolvesSamples,  ///< `count` a pixel
-    SharpensTextures, ///< by `count` hundredths of a mip level
-    SurroundsPicture, ///< by `count` pixels on each side
-
-    NotInScene,
-    OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
-    OutOfView,         ///< none of `others` lights reaches into the view, or none of `others` discs is in it
-    NothingLitVisible, ///< there is such light, but no lit surface in view
-    SwitchedOff,       ///< by Quality
-    NothingReceives,   ///< there is such light, but no surface in view on which shadows fall
-    NothingCasts,      ///< nothing that casts lies in any of `count` maps
-    NothingTransmits,  ///< no light passes through what lies in any of `count` maps
-    DepthIsUnread,     ///< no effect needs it
-    NothingIndirect,   ///< no indirect light is seen
-    NothingOpaque,     ///< in view
-    NothingAsks,       ///< no light in view, or no surface
-    HasNoDensity,      ///< or no opacity
-    HasNoIntensity,    ///< it would change nothing
-    IsNeutral,         ///< the same, by all of its values
-    NothingMoves,      ///< by itself, in view
-    NothingShines,     ///< nothing is in view, not even a sky
-    NothingHasEdges,   ///< no surface is in view
-    IsInFocus,         ///< everything that is visible
-    NothingOverlaps,   ///< `count` objects, 0 or 1, need no order
-    NothingIsLit,      ///< a debug view shows something else
-};
+inline constexpr size_t kEffects = static_cast<size_t>(Effect::Count);
 
 struct EffectDemand {
     bool isNeeded = false;
@@ -129,6 +75,8 @@ struct SceneDemand {
 
     EffectDemand const& of(Effect effect) const { return effects[static_cast<size_t>(effect)]; }
     bool needs(Effect effect) const { return of(effect).isNeeded; }
+    /// Whether an effect takes the image of the colour pass and makes another one of it.
+    bool changesColor() const;
     friend bool operator==(SceneDemand const&, SceneDemand const&) = default;
 };
 
@@ -158,29 +106,6 @@ SceneDemand findDemand(DemandInput const& input);
 inline bool gathersFrames(Quality const& quality, DebugView debugView) {
     return quality.antiAliasing == AntiAliasing::Taa &&
            (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
-}
-
-/// Whether passes::DebugEffectPass draws a debug view; the others are the business of passes::DebugViewPass.
-inline bool isOfEffectPass(DebugView debugView) { return debugView > DebugView::Motion; }
-
-/// Whether a debug view counts fragments.
-inline bool countsSurfaces(DebugView debugView) {
-    return debugView == DebugView::Overdraw || debugView == DebugView::TransparentLayers;
-}
-
-/// Whether a debug view shows what the code of materials gives, or how often it runs, so that nothing is lit.
-inline bool showsMaterials(DebugView debugView) {
-    return debugView >= DebugView::BaseColor && debugView <= DebugView::TransparentLayers;
-}
-
-/// Whether a debug view shows the edges of triangles.
-inline bool showsEdges(DebugView debugView) {
-    return debugView == DebugView::Wireframe || debugView == DebugView::WireframeAlone;
-}
-
-/// Whether surfaces are lit.
-inline bool showsLight(DebugView debugView) {
-    return !showsMaterials(debugView) && debugView != DebugView::WireframeAlone;
 }
 
 /// Without the choices that only matter where surfaces are lit, if they are not.

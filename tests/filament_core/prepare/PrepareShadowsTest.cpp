@@ -99,14 +99,14 @@ TEST_F(PrepareShadowsTest, SwitchedOffThereIsNone) {
 
 TEST_F(PrepareShadowsTest, WithoutALightThatCastsThereIsNone) {
     removeLight(scene, sun);
-    expectNone(DemandReason::NotInScene);
+    expectNone(DemandReason::NoLightCasts);
     addLight(scene, { .type = LightRecord::Type::Sun, .intensity = 1000, .castsShadows = false });
-    expectNone(DemandReason::NotInScene);
+    expectNone(DemandReason::NoLightCasts);
 }
 
 TEST_F(PrepareShadowsTest, WithoutACasterThereIsNone) {
     leaveOneBox(false, true);
-    expectNone(DemandReason::NothingCasts);
+    expectNone(DemandReason::NoCaster);
 }
 
 TEST_F(PrepareShadowsTest, BlendedAndCameraBoundMaterialsCastNone) {
@@ -116,19 +116,19 @@ TEST_F(PrepareShadowsTest, BlendedAndCameraBoundMaterialsCastNone) {
     scene::MaterialInstance* device = material();
     device->material->package.vertexDomain = shader::VertexDomain::Device;
     const Renderable changing = add({ 0, 0, 0 }, device);
-    expectNone(DemandReason::NothingCasts);
+    expectNone(DemandReason::NoCaster);
     setMaterial(scene.renderables, changing, *lit);
     EXPECT_EQ(frame().shadows.maps.size(), 1u) << "the flag follows the material";
 }
 
 TEST_F(PrepareShadowsTest, WithoutAReceiverInViewThereIsNone) {
     view.camera = Camera::lookAt({ 0, 4, 20 }, { 0, 4, 40 });
-    expectNone(DemandReason::NothingReceives);
+    expectNone(DemandReason::NoReceiver);
 }
 
 TEST_F(PrepareShadowsTest, UnlitSurfacesReceiveNoneUnlessTheyCatchShadows) {
     lit->material->package.shading = shader::ShadingModel::Unlit;
-    expectNone(DemandReason::NothingReceives);
+    expectNone(DemandReason::NoReceiver);
     lit->material->package.shadowMultiplier = true;
     addLight(scene, lamp({ 0, 6, 0 }, 20));
     EXPECT_EQ(frame().shadows.maps.size(), 1u) << "catchers catch the shadows of the sun alone";
@@ -136,7 +136,7 @@ TEST_F(PrepareShadowsTest, UnlitSurfacesReceiveNoneUnlessTheyCatchShadows) {
 
 TEST_F(PrepareShadowsTest, RenderablesThatReceiveNoneAreNoReason) {
     leaveOneBox(true, false);
-    expectNone(DemandReason::NothingReceives);
+    expectNone(DemandReason::NoReceiver);
 }
 
 TEST_F(PrepareShadowsTest, OnlyMomentsAreBlurred) {
@@ -261,7 +261,7 @@ TEST_F(PrepareShadowsTest, MapsInWhichSomethingTransmitsHaveThreeChannelsInATile
     const FramePacket plain = frame();
     EXPECT_EQ(plain.shadows.maps[0].channels, 1u) << "nothing transmits";
     EXPECT_EQ(plain.shadows.maps[0].held.tile.size, 512);
-    EXPECT_EQ(plain.demand.of(Effect::ColoredShadows).reason, DemandReason::NothingTransmits);
+    EXPECT_EQ(plain.demand.of(Effect::ColoredShadows).reason, DemandReason::NoTransmission);
 }
 
 TEST_F(PrepareShadowsTest, LampsTakeTheFacesInWhichSomethingCasts) {
@@ -322,7 +322,7 @@ TEST_F(PrepareShadowsTest, AreasTakeTheFacesThatTheyShineThrough) {
     scene.lights.records[0].type = LightRecord::Type::Tube;
     EXPECT_EQ(faces() & (kUp | kDown | kCube), kUp | kDown | kCube);
     scene.lights.records[0].castsShadows = false;
-    expectNone(DemandReason::NotInScene);
+    expectNone(DemandReason::NoLightCasts);
 }
 
 TEST_F(PrepareShadowsTest, LightsOutOfReachOfWhatIsSeenTakeNone) {
@@ -330,7 +330,7 @@ TEST_F(PrepareShadowsTest, LightsOutOfReachOfWhatIsSeenTakeNone) {
     addLight(scene, lamp({ 0, 8, 0 }, 30));
     scene.lights.records[0].positionWorld = { 0, 20, 0 };
     scene.lights.records[0].rangeMeters = 10;
-    expectNone(DemandReason::NotInScene);
+    expectNone(DemandReason::NoLightCasts);
 }
 
 TEST_F(PrepareShadowsTest, TheBudgetHoldsForSixtyFourSpotsAndTheNearestHaveTheMostTexels) {

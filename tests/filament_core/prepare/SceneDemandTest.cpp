@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace filament::prepare {
 namespace {
 
@@ -19,9 +21,11 @@ TEST(SceneDemand, OfAnEmptySceneIsNothing) {
     for (const Effect option : { Effect::Shadows, Effect::ColoredShadows, Effect::AmbientOcclusion, Effect::Fog })
         EXPECT_EQ(demand.of(option).reason, DemandReason::SwitchedOff) << nameOf(option);
     for (const Effect asked : { Effect::Refraction, Effect::Reflections, Effect::ContactShadows })
-        EXPECT_EQ(demand.of(asked).reason, DemandReason::NothingAsks) << nameOf(asked);
-    for (const Effect there : { Effect::Sun, Effect::LightList, Effect::IndirectLight, Effect::Sky, Effect::Blending })
+        EXPECT_EQ(demand.of(asked).reason, DemandReason::Unrequested) << nameOf(asked);
+    for (const Effect there : { Effect::Sun, Effect::LightList, Effect::IndirectLight, Effect::Sky })
         EXPECT_EQ(demand.of(there).reason, DemandReason::NotInScene) << nameOf(there);
+    for (const Effect there : { Effect::Blending, Effect::Deformation })
+        EXPECT_EQ(demand.of(there).reason, DemandReason::NotInView) << nameOf(there);
 }
 
 TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
@@ -62,13 +66,13 @@ TEST(SceneDemand, NeedsContactShadowsOnlyForLightsThatAskOverSurfacesThatReceive
     EXPECT_TRUE(demand(Effect::DepthPrepass).isNeeded) << "they read depths";
     counts.opaqueDraws = 0;
     EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
-    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingOpaque);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NoOpaqueSurface);
     counts = { .opaqueDraws = 1, .contactLights = 2 };
     EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
-    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingLitVisible);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NoLitSurface);
     counts = { .litDraws = 1, .opaqueDraws = 1 };
     EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
-    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingAsks);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::Unrequested);
     EXPECT_FALSE(demand(Effect::DepthPrepass).isNeeded);
 }
 
@@ -106,14 +110,14 @@ TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     demand = findDemand({ .counts = counts, .hasIndirectLight = true });
     for (const Effect effect : lights) {
         EXPECT_FALSE(demand.needs(effect)) << nameOf(effect);
-        EXPECT_EQ(demand.of(effect).reason, DemandReason::NothingLitVisible) << nameOf(effect);
+        EXPECT_EQ(demand.of(effect).reason, DemandReason::NoLitSurface) << nameOf(effect);
     }
 }
 
 TEST(SceneDemand, TellsLightsOutOfViewFromNone) {
     EXPECT_EQ(demandOf({ .litDraws = 1 }).of(Effect::LightList).reason, DemandReason::NotInScene);
     const SceneDemand demand = demandOf({ .lightsOutOfView = 3, .litDraws = 1 });
-    EXPECT_EQ(demand.of(Effect::LightList), (EffectDemand{ false, DemandReason::OutOfView, 0, 3 }));
+    EXPECT_EQ(demand.of(Effect::LightList), (EffectDemand{ false, DemandReason::LightsOutOfView, 0, 3 }));
     EXPECT_EQ(describe(Effect::LightList, demand.of(Effect::LightList)), "none of 3 reaches into the view");
 }
 
@@ -493,16 +497,23 @@ TEST(SceneDemand, CountsTheDiscsOfSuns) {
     EXPECT_EQ(words(Effect::SunDisc, { .discsInView = 1, .discsOutOfView = 2 }), "1 of 3 in view");
 }
 
-TEST(SceneDemand, HasWordsForEveryReasonOfEveryEffect) {
-    for (size_t i = 0; i < kEffects; ++i) {
-        for (const auto reason :
-             { DemandReason::ReachesLitSurfaces, DemandReason::IsVisible, DemandReason::FillsBackground,
-               DemandReason::NotInScene, DemandReason::OutOfView, DemandReason::NothingLitVisible }) {
-            const auto effect = static_cast<Effect>(i);
-            EXPECT_FALSE(describe(effect, { .reason = reason, .count = 1, .others = 1 }).empty());
-            EXPECT_NE(std::string(nameOf(effect)), "");
+TEST(SceneDemand, HasWordsForEveryReason) {
+    for (size_t i = 0; i < static_cast<size_t>(DemandReason::Count); ++i) {
+        for (const uint32_t count : { 0u, 1u, 2u }) {
+            const EffectDemand demand{
+                .reason = static_cast<DemandReason>(i), .count = count, .others = count, .leftOut = count
+            };
+            const std::string text = describe(Effect::MipBias, demand); // has all words of its own
+            EXPECT_FALSE(text.empty()) << i;
+            EXPECT_EQ(text.find_first_of("{}"), std::string::npos) << text;
         }
     }
+}
+
+TEST(SceneDemand, NamesEveryEffectOnce) {
+    std::set<std::string> names;
+    for (size_t i = 0; i < kEffects; ++i) EXPECT_TRUE(names.insert(nameOf(static_cast<Effect>(i))).second);
+    EXPECT_EQ(names.count(""), 0u);
 }
 
 } // namespace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DebugViews: what each DebugView shows, one row a view. What a frame does for a debug view follows from its row.
+///   Thread  any; constant data.   Memory: none.   Fails: never.
+#pragma once
+
+#include "filament_core/prepare/SceneDemand.h"
+
+namespace filament::prepare {
+
+enum class DebugContent : uint8_t {
+    Image,    ///< the image itself: DebugView::None
+    Shadows,  ///< shadow maps of the lit image
+    Lights,   ///< light lists of the lit image
+    Effect,   ///< what an effect computes
+    Numbers,  ///< of the lit image
+    Material, ///< values that the code of materials gives
+    Count,    ///< of fragments
+    Edges,    ///< of triangles
+};
+
+struct DebugViewRow {
+    DebugView view = DebugView::None;
+    DebugContent content = DebugContent::Image;
+    Effect effect = Effect::Count; ///< of DebugContent::Effect
+    bool isLit = true;             ///< surfaces are lit, and the sky is drawn
+    /// passes::DebugEffectPass draws it, with a material of its own; otherwise passes::DebugViewPass.
+    bool isOfEffectPass = true;
+};
+
+DebugViewRow const& rowOf(DebugView view);
+
+inline bool isOfEffectPass(DebugView view) { return rowOf(view).isOfEffectPass; }
+inline bool countsSurfaces(DebugView view) { return rowOf(view).content == DebugContent::Count; }
+/// Whether it draws materials' values, or how often their code runs, instead of light.
+inline bool showsMaterials(DebugView view) {
+    return rowOf(view).content == DebugContent::Material || countsSurfaces(view);
+}
+inline bool showsEdges(DebugView view) { return rowOf(view).content == DebugContent::Edges; }
+inline bool showsLight(DebugView view) { return rowOf(view).isLit; }
+
+} // namespace filament::prepare
