@@ -113,7 +113,7 @@ scene::Material const* FrameResourceCache::debugView(DebugView debugView, bool i
 }
 
 passes::DirtTexture FrameResourceCache::dirt(prepare::FramePacket const& packet) {
-    Bloom const& bloom = packet.effects.bloom;
+    Bloom const& bloom = packet.settings.effects.bloom;
     if (!packet.demand.needs(prepare::Effect::Bloom) || !bloom.dirt || bloom.dirtStrength == 0) return {};
     TextureState const& state = mEngine.textures.get(bloom.dirt);
     backend::DeviceTextureDesc const& desc = state.desc;
@@ -134,7 +134,7 @@ backend::TextureHandle FrameResourceCache::toneTable(View const& view, prepare::
     return mEngine.textureHandle(
             mEngine.toneTable({ .colorGrading = keyOf(view.colorGrading),
                                 .size = toneTableSize(mapping),
-                                .grading = isGraded ? std::optional(packet.effects.grading) : std::nullopt }));
+                                .grading = isGraded ? std::optional(packet.settings.effects.grading) : std::nullopt }));
 }
 
 } // namespace filament::engine

@@ -49,7 +49,7 @@ std::string table(std::vector<EffectDecision> const& decisions) {
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan) {
     FrameSummary summary{ .counts = packet.mainView().counts,
                           .demand = packet.demand,
-                          .size = packet.size,
+                          .size = packet.settings.size,
                           .covered = { packet.covered.width, packet.covered.height } };
     add(summary.main, packet.mainView());
     summary.main.draws += summary.demand.needs(prepare::Effect::Sky) ? 1 : 0;

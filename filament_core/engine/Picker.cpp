@@ -101,7 +101,7 @@ void Picker::record(View const& view, prepare::PreparedPick const& pick, FrameRe
     makeDepths();
     passes::FrameResources found = resources.find(view, pick.packet, passes::PipelineSource(mEngine.pipelines), false);
     found.motion = mEngine.motionInstance();
-    passes::FrameContext& context = *passes::makeFrameContext(mArena, pick.packet, found, view);
+    passes::FrameContext& context = *passes::makeFrameContext(mArena, pick.packet, found);
     mBlocks.begin();
     context.blocks = &mBlocks;
     constexpr uint32_t kSide = passes::kPickSide;
@@ -111,7 +111,7 @@ void Picker::record(View const& view, prepare::PreparedPick const& pick, FrameRe
     passes::addPickPass(mGraph, context, depths, view.size, pixel);
     const framegraph::CompiledGraph plan = framegraph::compile(mGraph, mTransients);
     FrameCommands commands(*mEngine.stream); // submits when it ends
-    mEngine.useTextureFilter(context.settings.textureFilter);
+    mEngine.useTextureFilter(context.settings().quality.textureFilter);
     mEngine.drainPending(*commands);
     mData.upload(mEngine.jobs, *commands, context.packet);
     mBlocks.upload(*commands);

@@ -37,30 +37,12 @@ using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
 
-/// `contents`: see ViewInput. `effects`: those of the view, within their ranges.
-prepare::ViewInput inputOf(View const& view, Effects const& effects, uint64_t contents) {
-    const uint2 drawn = prepare::drawnSize(view.size, effects.resolution, view.quality, view.debugView);
-    const uint32_t band = prepare::guardBand(drawn, view.size, effects, view.quality, view.debugView);
-    return { .camera = view.camera,
-             .size = drawn + 2u * band,
-             .shownSize = view.size,
-             .band = band,
-             .samples = view.samples,
-             .timeSeconds = view.timeSeconds,
-             .materialGlobals = view.materialGlobals,
-             .quality = prepare::drawnQuality(view.quality, view.debugView),
-             .effects = prepare::drawnEffects(effects, view.debugView),
-             .debugView = view.debugView,
-             .visibleLayers = view.visibleLayers,
-             .contents = contents };
-}
-
 /// As if all of the view's pixels were drawn, and no others.
 prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
     Effects effects = clamped(view.effects);
     effects.resolution.scale = float2(1);
     effects.guardBand.enabled = false;
-    return inputOf(view, effects, contents);
+    return prepare::viewInput(view, effects, contents);
 }
 
 /// The target of a frame. `depth`: null: unused.
@@ -163,7 +145,7 @@ struct Renderer::Impl final : engine::Dependent {
     prepare::ViewInput inputFor(Scene const& scene, View const& view, bool hasDepthTarget) const {
         Effects effects = clamped(view.effects);
         effects.resolution.scale = shares.scale(effects.resolution);
-        prepare::ViewInput input = inputOf(view, effects, contentsOf(scene));
+        prepare::ViewInput input = prepare::viewInput(view, effects, contentsOf(scene));
         const auto looksBeside = [&] {
             return prepare::looksBesidePicture(scene.impl().upToDate(), input.quality, effects);
         };
@@ -174,7 +156,7 @@ struct Renderer::Impl final : engine::Dependent {
     /// The state of earlier frames, from the TAA history to the shadow atlas, belongs to their scene and
     /// view: another scene or view resets it.
     void beginAnewWithAnother(Scene const& scene, View const& view, Target const& target) {
-        if (last.isFollowedBy(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr))) return;
+        if (last.isFollowedBy(scene.impl().upToDate(), resolve(inputFor(scene, view, target.depth != nullptr)))) return;
         shadows.beginAnew();
         shares.forget();
         timings.skip();
@@ -200,7 +182,7 @@ struct Renderer::Impl final : engine::Dependent {
         const prepare::FramePacket packet =
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
-                arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
+                arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
         addDebugQuads(context, view, output);
         useShadows(context, pipelines);
         blocks.begin();
@@ -221,7 +203,7 @@ struct Renderer::Impl final : engine::Dependent {
     void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
         if (view.debugDraw && !view.debugDraw->empty())
             context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, wholeInputOf(view, 0));
-        context.settings.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
+        context.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
     }
 
     /// Out of memory: the next frame starts without history.
@@ -239,7 +221,7 @@ struct Renderer::Impl final : engine::Dependent {
         stamps.acquired = clock();
         commands->record(CmdBeginFrame{ ++frame });
         const InReserve<CmdEndFrame> end{ *commands, { frame } };
-        engine.useTextureFilter(context.settings.textureFilter);
+        engine.useTextureFilter(context.settings().quality.textureFilter);
         engine.drainPending(*commands);
         engine.recordCompilations(*commands);
         data.upload(engine.jobs, *commands, context.packet);

@@ -89,7 +89,7 @@ struct OcclusionSource {
     Format resultFormat() const { return hasBentNormals ? Format::RGBA8 : Format::R8; }
     float4x4 const& clip() const { return context.packet.mainView().uniforms.clipFromView; }
     /// Of a parallel projection.
-    float pixelMeters() const { return 2 / (std::abs(clip()[1].y) * static_cast<float>(context.settings.size.y)); }
+    float pixelMeters() const { return 2 / (std::abs(clip()[1].y) * static_cast<float>(context.settings().size.y)); }
     float emptyDepth() const { return clip()[2].z < 0 ? 1.0f : 0.0f; } // with the ordinary range, depths grow
     /// shaders/post/occlusion_places.glsl
     float2 inverse() const {
@@ -137,8 +137,8 @@ void addCoveredPass(FrameGraph& graph, OcclusionSource const& from, Rect const& 
 
 TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResult) {
     FrameContext const& context = from.context;
-    AmbientOcclusion const& occlusion = context.packet.effects.ambientOcclusion;
-    const uint2 size = context.settings.size;
+    AmbientOcclusion const& occlusion = context.settings().effects.ambientOcclusion;
+    const uint2 size = context.settings().size;
     const float4 rays = raysOf(context.packet.mainView().uniforms.clipFromView, size);
     const float radius = occlusion.radiusMeters;
     const std::array constants{
@@ -174,9 +174,9 @@ TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occl
                                 EffectConstant{ "fromDepth", from.isFromDepth() },
                                 EffectConstant{ "isParallel", isParallel(from.clip()) } };
     const float unit = isParallel(from.clip()) ? from.pixelMeters() : 1.0f;
-    const float radius = context.packet.effects.ambientOcclusion.radiusMeters;
+    const float radius = context.settings().effects.ambientOcclusion.radiusMeters;
     const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
-                             FullScreenValue{ "last", lastOf(context.settings.size) },
+                             FullScreenValue{ "last", lastOf(context.settings().size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) },
                              FullScreenValue{ "axis", alongX ? float2(1, 0) : float2(0, 1) },
                              FullScreenValue{ "stride",
@@ -201,11 +201,11 @@ TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId 
                                 EffectConstant{ "fromDepth", from.isFromDepth() },
                                 EffectConstant{ "isParallel", isParallel(from.clip()) } };
     const std::array values{ FullScreenValue{ "inverseOfDepth", from.inverse() },
-                             FullScreenValue{ "last", lastOf(context.settings.size) },
+                             FullScreenValue{ "last", lastOf(context.settings().size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) } };
     const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
                              FullScreenInput{ .name = "depth", .texture = from.depth } };
-    const uint2 size = context.settings.size;
+    const uint2 size = context.settings().size;
     const TextureId target = graph.createTexture(
             { .width = size.x, .height = size.y, .format = from.resultFormat(), .name = "occlusion" });
     addCoveredPass(graph, from, from.covered({ 1, 1 }),
@@ -222,8 +222,8 @@ TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId 
 void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::AmbientOcclusion)) return;
     FILAMENT_ASSERT(targets.prepassDepth, "a frame with ambient occlusion has depths");
-    AmbientOcclusion const& occlusion = context.packet.effects.ambientOcclusion;
-    const OcclusionSource from{ context, targets.prepassDepth, gridOf(occlusion.resolution, context.settings.size),
+    AmbientOcclusion const& occlusion = context.settings().effects.ambientOcclusion;
+    const OcclusionSource from{ context, targets.prepassDepth, gridOf(occlusion.resolution, context.settings().size),
                                 occlusion.bentNormals };
     const bool isUpsampled = from.grid.code != 0;
     targets.occlusion = addPoints(graph, from, !occlusion.blur && !isUpsampled);

@@ -43,8 +43,8 @@ void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, Te
                                               .sampler = context.resources.samplers.bilinear,
                                               .range = backend::oneLevel(fromLevel) } };
     const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, from, fromLevel) },
-                             FullScreenValue{ "threshold", context.packet.effects.bloom.threshold } };
-    const bool isQuarter = isFirst && context.packet.effects.bloom.resolution == BloomResolution::Quarter;
+                             FullScreenValue{ "threshold", context.settings().effects.bloom.threshold } };
+    const bool isQuarter = isFirst && context.settings().effects.bloom.resolution == BloomResolution::Quarter;
     const EffectConstant constants[] = { { "isFirst", isFirst }, { "isQuarter", isQuarter } };
     addFullScreenPass(graph, context,
                       { .name = "bloom down",
@@ -87,9 +87,9 @@ uint8_t bloomLevels(uint2 view, float radiusPixels, BloomResolution resolution) 
 void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Bloom)) return;
     const uint2 size = sizeOf(graph, targets.color);
-    const uint2 inside = size - 2u * context.packet.band;
-    const BloomResolution resolution = context.packet.effects.bloom.resolution;
-    const float radiusPixels = context.packet.effects.bloom.radius * static_cast<float>(inside.y);
+    const uint2 inside = size - 2u * context.settings().band;
+    const BloomResolution resolution = context.settings().effects.bloom.resolution;
+    const float radiusPixels = context.settings().effects.bloom.radius * static_cast<float>(inside.y);
     const uint8_t levels = bloomLevels(inside, radiusPixels, resolution);
     const TextureId spread = graph.createTexture({ .width = std::max(1u, size.x >> firstLevel(resolution)),
                                                    .height = std::max(1u, size.y >> firstLevel(resolution)),

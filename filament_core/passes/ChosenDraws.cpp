@@ -17,7 +17,7 @@ DrawContext shadedDraws(FrameContext const& context,
              passGroups,
              context.resources.instanceIds,
              context.deformations,
-             context.settings.textureFilter,
+             context.settings().quality.textureFilter,
              view.packet.channels };
 }
 

@@ -74,9 +74,9 @@ BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
 }
 
 /// What the occlusion of the surfaces behind does not apply to.
-uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSource const& pipelines,
+uint32_t blendedSlot(PassContext& pass, FrameContext const& context, PipelineSource const& pipelines,
                      shader::TransparencyTerm transparency) {
-    PassSlot slot = slotOf(settings, pass.passLayout(), pass.subpass());
+    PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.shading = withoutOcclusion(slot.shading);
     slot.transparency = transparency;
     return pipelines.slot(slot);
@@ -106,8 +106,7 @@ void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlock
 Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
-    PassSettings const& settings = context.settings;
-    const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
+    const uint32_t slot = pipelines.slot(slotOf(context, pass.passLayout(), pass.subpass()));
     Chosen chosen;
     chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
     chosen.blendedDraws = blocks.part.blended;
@@ -117,7 +116,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
                 choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
         chooseBackground(pass, context, blocks, slot, chosen);
     }
-    const uint32_t blendedAt = blendedSlot(pass, settings, pipelines, blocks.part.transparency);
+    const uint32_t blendedAt = blendedSlot(pass, context, pipelines, blocks.part.transparency);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedAt, chosen.blendedDraws, view.variant,
                                      view.channels);
     return chosen;
@@ -142,35 +141,35 @@ struct ColorAttachments {
 };
 
 ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
-    const uint8_t samples = context.settings.samples;
+    const uint8_t samples = context.settings().samples;
     ColorAttachments made{ .color = targets.color,
                            .isWeighted = context.packet.demand.needs(prepare::Effect::MsaaResolve) };
     const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
     const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
     made.hasDepth =
-            targets.depth && samples == 1 && !hasStencil && context.view->quality.depthPrepass != DepthPrepass::Off;
+            targets.depth && samples == 1 && !hasStencil && context.settings().quality.depthPrepass != DepthPrepass::Off;
     made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, depth, samples, "depth");
     made.samples = samples == 1
                            ? made.color
                            : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
     const bool isPeeled = !context.packet.mainView().anyOrder.empty() &&
-                          context.view->quality.transparency == TransparencyOrder::Peeled;
-    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.settings.keepsDepth || isPeeled)
+                          context.settings().quality.transparency == TransparencyOrder::Peeled;
+    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.keepsDepth || isPeeled)
         made.depthOfPicture =
                 samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
     return made;
 }
 
 void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachments const& to, ColorPart const& part) {
-    PassSettings const& settings = context.settings;
+    prepare::FrameSettings const& settings = context.settings();
     const bool isResolved = settings.samples > 1 && !(part.isLast && to.isWeighted);
     framegraph::ColorTarget color{ .resolve = isResolved ? to.color : TextureId{} };
     const float4 clear = settings.clearColor;
     if (part.isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
     pass.writeColor(0, to.samples, color);
     framegraph::DepthTarget depth;
-    if (part.isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-    const bool isRead = !part.isLast || settings.keepsDepth;
+    if (part.isFirst && !to.hasDepth) depth.clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+    const bool isRead = !part.isLast || context.keepsDepth;
     if (isRead && settings.samples > 1) depth.resolve = to.depthOfPicture;
     pass.writeDepth(to.depth, depth);
 }
@@ -197,7 +196,7 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
 
 void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target,
                  prepare::PictureCopy const& copy, TextureId texture, ColorBlocks& blocks) {
-    blocks.target = declareTargetBeforePicture(context, target, context.settings.samples, copy);
+    blocks.target = declareTargetBeforePicture(context, target, context.settings().samples, copy);
     blocks.textures.picture = texture;
     blocks.textures.pictureLevels = copy.levels;
 }
@@ -224,7 +223,7 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
                                        .solidDepth = to.depthOfPicture,
                                        .target = blocks.target,
                                        .textures = blocks.textures };
-    if (context.view->quality.transparency == TransparencyOrder::Weighted) {
+    if (context.settings().quality.transparency == TransparencyOrder::Weighted) {
         addWeightedPasses(graph, context, targets);
     } else {
         const PeeledLayers layers = addPeelPasses(graph, context, targets);
@@ -245,7 +244,7 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
 
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     const framegraph::GraphTextureDesc like = graph.texture(targets.color).desc;
-    const uint8_t samples = context.settings.samples;
+    const uint8_t samples = context.settings().samples;
     ColorBlocks blocks{ .textures = texturesOf(context, targets) };
     blocks.target = declareTarget(context, like, 0, samples);
     if (targets.picture) showPicture(context, like, wholePicture(context), targets.picture, blocks);

@@ -51,7 +51,7 @@ PassSlot debugSlot(PassContext& pass, DepthRange range) {
 void recordDebugDraw(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{
-        view.group, chosen.passGroups, context.resources.instanceIds, {}, context.settings.textureFilter
+        view.group, chosen.passGroups, context.resources.instanceIds, {}, context.settings().quality.textureFilter
     };
     recordDraws(pass.commands(), draws, chosen.draws, chosen.pipelines);
 }
@@ -83,7 +83,7 @@ void addDebugDrawPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 if (isTested) pass.testDepth(targets.solidDepth);
             },
             [of = &context, target](PassContext& pass) {
-                return chooseDraws(pass, *of, debugSlot(pass, of->settings.depthRange), target, debugDraws(*of));
+                return chooseDraws(pass, *of, debugSlot(pass, of->settings().quality.depthRange), target, debugDraws(*of));
             },
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDebugDraw(pass, *of, chosen); });
 }

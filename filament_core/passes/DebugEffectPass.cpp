@@ -82,7 +82,7 @@ TextureId addHistogramSum(FrameGraph& graph, FrameContext const& context, Textur
 void addHistogramView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
     TextureId counts;
     if (targets.histogram) counts = addHistogramSum(graph, context, targets.histogram);
-    AutoExposure const& exposure = context.packet.effects.autoExposure;
+    AutoExposure const& exposure = context.settings().effects.autoExposure;
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
                              FullScreenInput{ .name = "counts", .texture = counts },
                              FullScreenInput{ .name = "exposure", .texture = targets.exposure } };
@@ -127,7 +127,7 @@ void addNumericsView(FrameGraph& graph, FrameContext const& context, FrameTarget
 
 void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
     const std::array inputs{ FullScreenInput{ .name = "value", .texture = targets.color } };
-    const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(context.view->debugView) },
+    const std::array constants{ EffectConstant{ "view", static_cast<int32_t>(context.settings().debugView) },
                                 EffectConstant{ "isEncoded", isEncoded } };
     addFullScreenPass(graph, context,
                       { .name = "debug view",
@@ -137,7 +137,7 @@ void addMaterialView(FrameGraph& graph, FrameContext const& context, FrameTarget
 }
 
 void addWireframeView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
-    const bool hasPicture = context.view->debugView == DebugView::Wireframe;
+    const bool hasPicture = context.settings().debugView == DebugView::Wireframe;
     const std::array inputs{ FullScreenInput{ .name = "triangles", .texture = targets.triangles },
                              FullScreenInput{ .name = "color", .texture = hasPicture ? targets.color : TextureId{} } };
     const std::array constants{ EffectConstant{ "hasPicture", hasPicture }, EffectConstant{ "isEncoded", isEncoded } };
@@ -153,7 +153,7 @@ void addWireframeView(FrameGraph& graph, FrameContext const& context, FrameTarge
 void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
                         bool isSceneLinear) {
     const bool isEncoded = !isSceneLinear;
-    switch (context.view->debugView) {
+    switch (context.settings().debugView) {
     case DebugView::CircleOfConfusion:
         return addFocusView(graph, context, targets, isEncoded);
     case DebugView::HistoryWeight:

@@ -18,7 +18,7 @@ struct ChosenSurfaces {
 };
 
 ChosenSurfaces chooseSurfaces(PassContext& pass, FrameContext const& context, DebugSlot debug, PassBlock target) {
-    PassSlot slot = slotOf(context.settings, pass.passLayout(), pass.subpass());
+    PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.debug = debug;
     slot.edges = context.resources.edges;
     prepare::ViewPacket const& view = context.packet.mainView();
@@ -30,7 +30,7 @@ void recordSurfaces(PassContext& pass, FrameContext const& context, ChosenSurfac
     const FrameView view = viewOf(context, 0);
     for (ChosenDraws const* list : { &chosen.opaque, &chosen.blended }) {
         const DrawContext draws{ view.group, list->passGroups, context.resources.instanceIds, context.deformations,
-                                 context.settings.textureFilter };
+                                 context.settings().quality.textureFilter };
         recordDrawRanges(pass, draws, list->draws, list->pipelines);
     }
 }
@@ -44,13 +44,13 @@ struct DebugSurfaces {
 };
 
 void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces const& to) {
-    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, context.view->debugView);
+    const PassBlock target = declareDebugTarget(context, graph.texture(to.color).desc, context.settings().debugView);
     graph.addPass(
             to.name,
             [&](PassBuilder& pass) {
                 pass.writeColor(0, to.color, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
                 framegraph::DepthTarget depth;
-                if (!to.keepsDepth) depth.clear = context.settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+                if (!to.keepsDepth) depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
                 pass.writeDepth(to.depth, depth);
             },
             [of = &context, debug = to.debug, target](PassContext& pass) {
@@ -67,7 +67,7 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
     if (!hasDepth)
         targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
     targets.solidDepth = targets.depth;
-    const bool counts = prepare::countsSurfaces(context.view->debugView);
+    const bool counts = prepare::countsSurfaces(context.settings().debugView);
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
                   .debug = counts ? DebugSlot::Counts : DebugSlot::Values,
@@ -78,7 +78,7 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
 
 void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.resources.edges) { // the depths alone, for who reads them
-        if (!targets.solidDepth && context.settings.keepsDepth) addDebugSurfacePass(graph, context, targets);
+        if (!targets.solidDepth && context.keepsDepth) addDebugSurfacePass(graph, context, targets);
         return;
     }
     targets.triangles = createLike(graph, targets.color, Format::RGBA16F, 1, "triangles");

@@ -18,7 +18,7 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 
 ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
-    const PassSlot at = depthSlot(context.settings.depthRange, depthOfViewKey(context.settings.shading));
+    const PassSlot at = depthSlot(context.settings().quality.depthRange, depthOfViewKey(context.shading));
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
     return chooseDraws(pass, context, at, target, context.packet.mainView().opaque);
 }
@@ -26,7 +26,7 @@ ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlo
 void recordDepths(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
-                             context.settings.textureFilter };
+                             context.settings().quality.textureFilter };
     recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
 }
 
@@ -53,7 +53,7 @@ void addPyramidLevel(FrameGraph& graph, FrameContext const& context, uint8_t lev
 }
 
 void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    const uint2 size = context.settings.size;
+    const uint2 size = context.settings().size;
     const bool isMarched = context.packet.demand.needs(prepare::Effect::Reflections);
     const uint8_t levels = isMarched ? pyramidLevels(size) : uint8_t{ 1 };
     targets.distances = graph.createTexture(
@@ -84,7 +84,7 @@ PassSlot depthSlot(DepthRange range, ShadingKey shading) {
 
 void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::DepthPrepass)) return;
-    PassSettings const& settings = context.settings;
+    prepare::FrameSettings const& settings = context.settings();
     const framegraph::GraphTextureDesc desc{
         .width = settings.size.x, .height = settings.size.y, .format = Format::D32F, .name = "depth"
     };
@@ -92,7 +92,7 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     graph.addPass(
             "depth",
             [&](PassBuilder& pass) {
-                pass.writeDepth(targets.depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
+                pass.writeDepth(targets.depth, { .clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
                 return chooseDepths(pass, *of, target);

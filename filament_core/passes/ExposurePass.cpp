@@ -69,7 +69,7 @@ TextureId addHistogram(FrameGraph& graph, FrameContext const& context, TextureId
 void addExposurePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::AutoExposure)) return;
     targets.histogram = addHistogram(graph, context, addSamples(graph, context, targets.color));
-    AutoExposure const& options = context.packet.effects.autoExposure;
+    AutoExposure const& options = context.settings().effects.autoExposure;
     prepare::LastView const& last = context.packet.last;
     const framegraph::History history =
             graph.history({ .width = 1, .height = 1, .format = Format::R32F, .name = "exposure" }, {}, !last.isExposed);

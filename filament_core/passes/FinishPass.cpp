@@ -67,10 +67,6 @@ struct Finish {
     }
 };
 
-bool needsValues(ColorGrading const& grading) {
-    return grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb;
-}
-
 /// Steps of ten bits need no dither.
 Finish finishOf(FrameContext const& context, Format target, bool isSceneLinear, bool enlarges) {
     prepare::SceneDemand const& demand = context.packet.demand;
@@ -85,14 +81,14 @@ Finish finishOf(FrameContext const& context, Format target, bool isSceneLinear, 
              .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
              .hasVignette = demand.needs(Effect::Vignette),
              .hasFringes = demand.needs(Effect::ChromaticAberration),
-             .hasToneValues = !isSceneLinear && !context.resources.toneTable && needsValues(context.view->colorGrading),
+             .hasToneValues = !isSceneLinear && !context.resources.toneTable && context.settings().display.hasNumbers,
              .hasGrain = demand.needs(Effect::Grain) && !isSceneLinear,
              .hasTenBits = target == Format::RGB10A2,
-             .dithers = context.view->colorGrading.dither && target == Format::RGBA8 };
+             .dithers = context.settings().display.dithers && target == Format::RGBA8 };
 }
 
 int32_t toneMapperOf(FrameContext const& context) {
-    return context.resources.toneTable ? 0 : shaderToneMapper(context.view->colorGrading);
+    return context.resources.toneTable ? 0 : context.settings().display.toneMapper;
 }
 
 void addToneMapPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId color,
@@ -127,12 +123,12 @@ float3 dirtLevelsOf(FrameContext const& context, uint2 size) {
     DirtTexture const& dirt = context.resources.dirt;
     const float2 texels = float2(dirt.size) / float2(size);
     const float level = std::max(elementary::log2(std::max(texels.x, texels.y)), 0.0f);
-    return { context.packet.effects.bloom.dirtStrength, level, static_cast<float>(dirt.levels - 1) };
+    return { context.settings().effects.bloom.dirtStrength, level, static_cast<float>(dirt.levels - 1) };
 }
 
 /// Threshold, the share of light that is taken, and the coordinates of the flare's texture by those of the picture.
 float4 flareShareOf(FrameContext const& context, uint2 size) {
-    LensFlare const& flare = context.packet.effects.lensFlare;
+    LensFlare const& flare = context.settings().effects.lensFlare;
     const uint32_t block = flareBlock(size.y);
     const float2 covered = float2((size + block - 1u) / block * block);
     return { flare.threshold, flareShare(flare), float2(size) / covered };
@@ -140,16 +136,16 @@ float4 flareShareOf(FrameContext const& context, uint2 size) {
 
 /// Where the picture lies in what is drawn around it, by factor (xy) and offset (zw).
 float4 placeInBand(prepare::FramePacket const& packet) {
-    const float2 whole(packet.size);
-    return { float2(packet.insideSize()) / whole, static_cast<float>(packet.band) / whole };
+    const float2 whole(packet.settings.size);
+    return { float2(packet.settings.insideSize()) / whole, static_cast<float>(packet.settings.band) / whole };
 }
 
 auto valuesOf(FrameContext const& context, uint2 drawn) {
-    Effects const& effects = context.packet.effects;
+    Effects const& effects = context.settings().effects;
     Grading const& grading = effects.grading;
     const double3x3 mix = matrixAfterNight(grading);
-    const ColorGrading tone = clamped(context.view->colorGrading);
-    const uint2 size = context.packet.shownSize;
+    prepare::DisplaySettings const& display = context.settings().display;
+    const uint2 size = context.settings().shownSize;
     return std::array{
         FullScreenValue{ "bloomStrength", effects.bloom.strength },
         FullScreenValue{ "bloomThreshold", effects.bloom.threshold },
@@ -175,8 +171,8 @@ auto valuesOf(FrameContext const& context, uint2 drawn) {
         FullScreenValue{ "midPoint", grading.midPoint },
         FullScreenValue{ "highlightScale", grading.highlightScale },
         FullScreenValue{ "night", float2(grading.nightAdaptation, exposureBeforeNight(grading)) },
-        FullScreenValue{ "toneCurve", shaderToneCurve(tone.toneCurve) },
-        FullScreenValue{ "whiteShare", whiteShareOf(tone) },
+        FullScreenValue{ "toneCurve", display.toneCurve },
+        FullScreenValue{ "whiteShare", display.whiteShare },
         FullScreenValue{ "spreadPlace", placeInBand(context.packet) },
     };
 }
@@ -194,12 +190,12 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const&
         EffectConstant{ "isDirty", finish.isDirty },
         EffectConstant{ "hasFlare", finish.hasFlare },
         EffectConstant{ "graded", finish.isGraded },
-        EffectConstant{ "mapsGamut", finish.isGraded && context.packet.effects.grading.gamutMapping },
+        EffectConstant{ "mapsGamut", finish.isGraded && context.settings().effects.grading.gamutMapping },
         EffectConstant{ "aberration", finish.hasFringes },
         EffectConstant{ "hasVignette", finish.hasVignette },
         EffectConstant{ "grain", finish.hasGrain && !finish.goesOn() },
-        EffectConstant{ "outputSpace", hasTable ? 0 : shaderOutputSpace(context.view->colorGrading) },
-        EffectConstant{ "adaptsToNight", finish.isGraded && context.packet.effects.grading.nightAdaptation > 0 },
+        EffectConstant{ "outputSpace", hasTable ? 0 : context.settings().display.outputSpace },
+        EffectConstant{ "adaptsToNight", finish.isGraded && context.settings().effects.grading.nightAdaptation > 0 },
     };
     const std::array inputs{
         FullScreenInput{ .name = "color", .texture = targets.color },
@@ -237,7 +233,7 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
 
 /// Where objects have edges: beside them only the sky is, unless the picture shows them elsewhere.
 Rect pixelsWithEdges(prepare::FramePacket const& packet, Finish const& finish, uint2 size) {
-    const bool isKnown = size == packet.size && !finish.hasFringes && packet.discs.empty();
+    const bool isKnown = size == packet.settings.size && !finish.hasFringes && packet.discs.empty();
     return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };
 }
 
@@ -261,7 +257,7 @@ scene::Material const& fxaaMaterial(FrameContext const& context, Finish const& f
 void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
                  TextureId target) {
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
-    Grain const& grain = context.packet.effects.grain;
+    Grain const& grain = context.settings().effects.grain;
     const std::array values{ FullScreenValue{ "grainStrength", grain.strength },
                              FullScreenValue{ "grainSize", grain.size } };
     const uint2 size = sizeOf(graph, target);
@@ -334,7 +330,7 @@ void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, Finis
 void addPictureOfView(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
                       TextureId target) {
     const bool isLight = finish.isSceneLinear && !finish.hasLens();
-    if (isTranslucent(*context.view) && !isLight)
+    if (context.settings().isTranslucent() && !isLight)
         addTranslucentPicture(graph, context, finish, targets, target);
     else
         addPicture(graph, context, finish, targets, target);

@@ -55,7 +55,7 @@ EffectConstant blockConstant(uint2 size) { return { "block", static_cast<int32_t
 
 void addFlareLight(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId bright) {
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = color } };
-    const std::array values{ FullScreenValue{ "threshold", context.packet.effects.lensFlare.threshold } };
+    const std::array values{ FullScreenValue{ "threshold", context.settings().effects.lensFlare.threshold } };
     const EffectConstant constants[] = { blockConstant(sizeOf(graph, color)) };
     addFullScreenPass(graph, context,
                       { .name = "flare light",
@@ -87,7 +87,7 @@ void addFlareHalf(FrameGraph& graph, FrameContext const& context, TextureId brig
 
 void addGhostsAndHalo(FrameGraph& graph, FrameContext const& context, uint2 size, TextureId bright, TextureId flare) {
     framegraph::GraphTextureDesc const& desc = graph.texture(bright).desc;
-    LensFlare const& options = context.packet.effects.lensFlare;
+    LensFlare const& options = context.settings().effects.lensFlare;
     const std::array ghosts = flareGhosts(options, size.y);
     const std::array inputs{ FullScreenInput{
             .name = "light", .texture = bright, .sampler = context.resources.samplers.bilinearOfLevels } };

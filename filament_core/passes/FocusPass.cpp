@@ -37,7 +37,7 @@ class FocusPasses {
 public:
     FocusPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets)
             : mGraph(graph), mContext(context), mColor(targets.color), mDepth(targets.prepassDepth),
-              mSize(context.settings.size),
+              mSize(context.settings().size),
               // Blur reaches into the next tile, never beyond.
               mTile(std::max(8, static_cast<int>(std::ceil(context.packet.focus.mostPixels / 2)))) {}
 
@@ -92,7 +92,7 @@ private:
     void addBlur(TextureId half, TextureId tiles, TextureId blurred) {
         const std::array inputs{ FullScreenInput{ .name = "blurs", .texture = half },
                                  FullScreenInput{ .name = "tiles", .texture = tiles } };
-        const float blades = static_cast<float>(mContext.packet.effects.depthOfField.blades);
+        const float blades = static_cast<float>(mContext.settings().effects.depthOfField.blades);
         const std::array values{ FullScreenValue{ "blades", blades } };
         const std::array constants{ EffectConstant{ "tile", mTile } };
         addFullScreenPass(mGraph, mContext,

@@ -37,7 +37,7 @@ ShadedLights lightsOf(prepare::FramePacket const& packet) {
 
 /// What there is to compute: the colour of an environment, and light of a sun, if there is one.
 uint8_t fogTermsOf(prepare::FramePacket const& packet) {
-    Fog const& fog = packet.effects.fog;
+    Fog const& fog = packet.settings.effects.fog;
     if (!packet.demand.needs(prepare::Effect::Fog)) return 0;
     uint32_t terms = shader::kFogOn;
     if (fog.colorFromEnvironment && packet.environment.specular) {
@@ -48,38 +48,27 @@ uint8_t fogTermsOf(prepare::FramePacket const& packet) {
     return static_cast<uint8_t>(terms);
 }
 
-ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
+ShadedScreen screenOf(prepare::FramePacket const& packet) {
     prepare::SceneDemand const& demand = packet.demand;
     const bool hasOcclusion = demand.needs(prepare::Effect::AmbientOcclusion);
     return { .hasOcclusion = hasOcclusion,
-             .hasBentNormals = hasOcclusion && packet.effects.ambientOcclusion.bentNormals,
+             .hasBentNormals = hasOcclusion && packet.settings.effects.ambientOcclusion.bentNormals,
              .hasRefraction = demand.needs(prepare::Effect::Refraction),
              .hasReflections = demand.needs(prepare::Effect::Reflections),
-             .showsLevels = view.debugView == DebugView::Refraction,
-             .showsHits = view.debugView == DebugView::Reflections,
+             .showsLevels = packet.settings.debugView == DebugView::Refraction,
+             .showsHits = packet.settings.debugView == DebugView::Reflections,
              .fogTerms = fogTermsOf(packet),
              .hasMipBias = demand.needs(prepare::Effect::MipBias) };
-}
-
-PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
-    FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-    return { .size = packet.size,
-             .samples = view.debugView == DebugView::None ? view.samples : uint8_t{ 1 }, // its depths are read
-             .clearColor = view.clearColor,
-             .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet), screenOf(view, packet)),
-             .depthRange = view.quality.depthRange,
-             .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
-             .textureFilter = view.quality.textureFilter,
-             .mipBias = prepare::mipBias(packet.insideSize(), packet.shownSize, view.quality, view.debugView) };
 }
 
 bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }
 
 FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
-    const uint2 size = context.settings.size;
+    const uint2 size = context.settings().size;
     FrameTargets targets;
     beginPlace(graph, context, output, targets);
-    const bool isFull = context.view->debugView == DebugView::Numerics; // what half floats do not hold is to be seen
+    const bool isFull =
+            context.settings().debugView == DebugView::Numerics; // what half floats do not hold is to be seen
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.changesColor();
     targets.color = isFinished ? targets.output
                                : graph.createTexture({ .width = size.x,
@@ -91,7 +80,7 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
 
 /// What is seen of the scene, lit or not.
 void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    const DebugView shown = context.view->debugView;
+    const DebugView shown = context.settings().debugView;
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
     if (prepare::showsMaterials(shown)) return addDebugSurfacePass(graph, context, targets);
@@ -106,13 +95,13 @@ void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTarge
 
 } // namespace
 
-FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources,
-                               View const& view) {
+FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources) {
     FrameContext* context = arena.make<FrameContext>();
     context->packet = packet;
     context->resources = resources;
-    context->settings = settingsOf(view, resources, packet);
-    context->view = &view;
+    Quality const& quality = packet.settings.quality;
+    context->shading = shadingKey(quality, packet.environment.storage, lightsOf(packet), screenOf(packet));
+    if (resources.hasHalfFloats) context->precision = quality.shadingPrecision;
     context->arena = &arena;
     return context;
 }
@@ -120,20 +109,21 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
     addSurfacePasses(graph, context, targets);
-    const bool isEnlarged = gathersLarger(context); // depth of field and reflections have as many pixels as the depths
+    const bool isEnlarged =
+            isEnlargedByGathering(context); // depth of field and reflections have as many pixels as the depths
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;
     addFocusPasses(graph, context, targets);
     addMotionBlurPasses(graph, context, targets);
     if (isEnlarged) addTemporalPass(graph, context, targets);
-    if (context.packet.band > 0) {
+    if (context.settings().band > 0) {
         addBloomPasses(graph, context, targets); // of what lies beside the picture, too
         addCutPass(graph, context, targets);
     }
     addExposurePasses(graph, context, targets);
-    if (context.packet.band == 0) addBloomPasses(graph, context, targets);
+    if (context.settings().band == 0) addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);
-    if (showsDecisions(context) && prepare::isOfEffectPass(context.view->debugView))
+    if (showsDecisions(context) && prepare::isOfEffectPass(context.settings().debugView))
         addDebugEffectPass(graph, context, targets, output.isSceneLinear());
     else if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// describeFrame: the passes of a frame and their order, one line per pass. The table of contents of this room.
-///   In      the packet, the view's settings and the engine's resources, as a FrameContext; where the picture goes.
+///   In      the packet and the engine's resources, as a FrameContext; where the picture goes.
 ///   Out     declarations in the graph. No GPU work: framegraph::record() draws them, framegraph::rehearse() only asks
 ///           them what they need.
 ///   Thread  the app thread.   Memory: the arena of the graph, and of the context.   Fails: std::bad_alloc.
@@ -8,8 +8,6 @@
 
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
-
-#include <filament/View.h>
 
 namespace filament::passes {
 
@@ -27,10 +25,9 @@ struct FrameOutput {
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
 };
 
-/// In the arena: passes keep a pointer to it, and it keeps one to the view. Results of uploads (FrameContext::views and
+/// In the arena: passes keep a pointer to it. Results of uploads (FrameContext::views and
 /// the members after it) are set later, before the graph is recorded.
-FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources,
-                               View const& view);
+FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources);
 
 FrameTargets describeFrame(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output);
 

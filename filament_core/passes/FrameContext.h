@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameContext: what every pass may read: the packet, the settings of the view, the engine's resources, and where
+/// FrameContext: what every pass may read: the packet with the settings of the view, the engine's resources, and where
 /// things are on the device.
 ///   Life    in the frame arena, together with the packet: passes keep a pointer to it until the graph is recorded.
 ///   A pass is one function: it declares itself into the graph, and says what to do before and inside of its backend
@@ -12,21 +12,7 @@
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
-#include <filament/View.h>
-
 namespace filament::passes {
-
-struct PassSettings {
-    uint2 size{ 1, 1 };
-    uint8_t samples = 1;
-    float4 clearColor{ 0, 0, 0, 1 };
-    ShadingKey shading = 0;
-    DepthRange depthRange = DepthRange::Reversed;
-    ShadingPrecision precision = ShadingPrecision::Full;
-    TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the materials' textures
-    float mipBias = 0;                                       ///< of these textures, in levels
-    bool keepsDepth = false;                                 ///< somebody reads FrameTargets::solidDepth
-};
 
 /// Of a picture of the graph.
 inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId texture) {
@@ -52,19 +38,12 @@ struct FrameDebugDraw {
     DebugDrawBuffers buffers{}; ///< where they are on the device
 };
 
-/// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
-inline PassSlot slotOf(PassSettings const& settings, backend::PassLayout const& layout, uint8_t subpass) {
-    return { layout, subpass, settings.shading, settings.depthRange, settings.precision };
-}
-inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpass) {
-    return { .layout = layout, .subpass = subpass, .isFullScreen = true };
-}
-
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
-    PassSettings settings{};    ///< of the main view
-    View const* view = nullptr; ///< the app's; until the graph is recorded
+    ShadingKey shading = 0; ///< of what is lit in the main view
+    ShadingPrecision precision = ShadingPrecision::Full;
+    bool keepsDepth = false; ///< somebody reads FrameTargets::solidDepth
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
@@ -73,8 +52,18 @@ struct FrameContext {
     // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views;                        ///< by view of the packet
     std::span<const backend::CmdBindGroup> deformations;     ///< by DrawCall::deformation
-    std::span<const backend::CmdBindGroup> lastDeformations; ///< the same, with those of the last frame: of what moved
+    std::span<const backend::CmdBindGroup> lastDeformations; ///< with those of the last frame: of what moved
+
+    prepare::FrameSettings const& settings() const { return packet.settings; }
 };
+
+/// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
+inline PassSlot slotOf(FrameContext const& context, backend::PassLayout const& layout, uint8_t subpass) {
+    return { layout, subpass, context.shading, context.settings().quality.depthRange, context.precision };
+}
+inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpass) {
+    return { .layout = layout, .subpass = subpass, .isFullScreen = true };
+}
 
 /// One view of a frame, for passes that draw its surfaces.
 struct FrameView {

@@ -30,8 +30,8 @@ constexpr FullScreenInterface kMotionBlur{ .pass = "motion blur", .inputs = kMot
 class MotionBlurPasses {
 public:
     MotionBlurPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets)
-            : mGraph(graph), mContext(context), mTargets(targets), mSize(context.settings.size),
-              mMost(std::max(1.0f, effect().maxRadius * static_cast<float>(context.packet.insideSize().y))),
+            : mGraph(graph), mContext(context), mTargets(targets), mSize(context.settings().size),
+              mMost(std::max(1.0f, effect().maxRadius * static_cast<float>(context.settings().insideSize().y))),
               // Blur reaches into the next tile, never beyond.
               mTile(std::max(8, static_cast<int32_t>(std::ceil(mMost)))) {}
 
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    MotionBlur const& effect() const { return mContext.packet.effects.motionBlur; }
+    MotionBlur const& effect() const { return mContext.settings().effects.motionBlur; }
     TextureId create(int32_t pixels, std::string_view name) {
         const auto divided = [pixels = static_cast<uint32_t>(pixels)](uint32_t size) {
             return (size + pixels - 1) / pixels;

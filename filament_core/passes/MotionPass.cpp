@@ -29,7 +29,7 @@ std::span<const DrawCall> drawsOf(FrameContext const& context) {
 void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {
     const FrameView view = viewOf(context, context.packet.motionView);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.lastDeformations,
-                             context.settings.textureFilter };
+                             context.settings().quality.textureFilter };
     recordDrawRanges(pass, draws, chosen.draws, chosen.pipelines);
 }
 
@@ -37,7 +37,7 @@ void recordMotion(PassContext& pass, FrameContext const& context, ChosenDraws co
 
 void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Motion)) return;
-    const uint2 size = context.settings.size;
+    const uint2 size = context.settings().size;
     const framegraph::GraphTextureDesc desc{
         .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "motion"
     };
@@ -49,7 +49,7 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
                 pass.writeDepth(targets.prepassDepth, {});
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
-                return chooseDraws(pass, *of, slotOf(pass, of->settings.depthRange), target, drawsOf(*of));
+                return chooseDraws(pass, *of, slotOf(pass, of->settings().quality.depthRange), target, drawsOf(*of));
             },
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordMotion(pass, *of, chosen); });
 }

@@ -31,7 +31,7 @@ shader::PassUniforms uniformsOf(FrameContext const& context, framegraph::GraphTe
     const auto height = static_cast<float>(std::max(1u, texture.height >> level));
     shader::PassUniforms block = uniformsOf(context, float2(width, height));
     block.raster.x = samples;
-    block.raster.w = context.settings.mipBias;
+    block.raster.w = context.settings().mipBias;
     return block;
 }
 
@@ -49,9 +49,9 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
     shader::PassUniforms block = uniformsOf(context, texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
-    const ScreenSpaceReflections reflections = context.packet.effects.screenSpaceReflections;
+    const ScreenSpaceReflections reflections = context.settings().effects.screenSpaceReflections;
     block.reflection = { reflections.steps, reflections.distanceMeters, reflections.thicknessMeters,
-                         pyramidLevels(context.settings.size) - 1 };
+                         pyramidLevels(context.settings().size) - 1 };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

@@ -28,7 +28,7 @@ std::span<const DrawCall> pickDraws(FrameContext const& context) {
 void recordPick(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen, uint2 size, uint2 pixel) {
     const FrameView view = viewOf(context, 0);
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
-                             context.settings.textureFilter };
+                             context.settings().quality.textureFilter };
     for (size_t i = 0; i < chosen.draws.size(); ++i) {
         const auto x = static_cast<int32_t>(i % kPickSide), y = static_cast<int32_t>(i / kPickSide);
         pass.commands().record(CmdSetViewport{ { static_cast<float>(x) - static_cast<float>(pixel.x),

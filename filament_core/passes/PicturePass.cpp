@@ -61,7 +61,7 @@ void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets
     prepare::LastView const& last = context.packet.last;
     float4x4 const& view = context.packet.mainView().uniforms.viewFromWorld;
     const framegraph::GraphTextureDesc desc = graph.texture(picture).desc;
-    const double2 perTexel = 1.0 / double2(desc.width, desc.height), end = double2(context.settings.size) * perTexel;
+    const double2 perTexel = 1.0 / double2(desc.width, desc.height), end = double2(context.settings().size) * perTexel;
     const double4x4 world = worldFromPixel(context);
     const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, end) },
                              FullScreenValue{ "lastAlong", float4(double4(last.alongView) * world) },
@@ -107,12 +107,12 @@ void addBlurred(FrameGraph& graph, FrameContext const& context, PictureCopy cons
 }
 
 framegraph::GraphTextureDesc pictureDesc(FrameContext const& context, uint8_t levels, std::string_view name) {
-    const uint2 size = prepare::pictureTextureSize(context.settings.size);
+    const uint2 size = prepare::pictureTextureSize(context.settings().size);
     return { .width = size.x, .height = size.y, .format = Format::RGBA16F, .levels = levels, .name = name };
 }
 
 TextureId createPicture(FrameGraph& graph, FrameContext const& context) {
-    return graph.createTexture(pictureDesc(context, prepare::pictureLevels(context.settings.size), "picture"));
+    return graph.createTexture(pictureDesc(context, prepare::pictureLevels(context.settings().size), "picture"));
 }
 
 void addBlurredLevels(FrameGraph& graph, FrameContext const& context, PictureCopy const& copy, TextureId picture) {
@@ -122,7 +122,7 @@ void addBlurredLevels(FrameGraph& graph, FrameContext const& context, PictureCop
 } // namespace
 
 PictureCopy wholePicture(FrameContext const& context) {
-    const uint2 size = context.settings.size;
+    const uint2 size = context.settings().size;
     return prepare::copyAround({ float2(0.0f), float2(size) }, size);
 }
 

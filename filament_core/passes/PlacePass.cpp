@@ -11,6 +11,7 @@ namespace {
 using backend::Format;
 using framegraph::FrameGraph;
 using framegraph::InitialContents;
+using prepare::FrameSettings;
 
 constexpr std::string_view kPlaceInputs[] = { "picture" };
 constexpr FullScreenParameter kPlaceValues[] = { { "offset", ParameterType::Int2 } };
@@ -28,7 +29,7 @@ struct Clearing {
 
 void place(FrameGraph& graph, FrameContext const& context, std::string_view material, framegraph::TextureId picture,
            framegraph::TextureId target, Clearing const& clearing) {
-    const uint2 offset = context.view->viewport->offset, size = context.view->size;
+    const uint2 offset = context.settings().viewport->offset, size = context.settings().shownSize;
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
     const std::array values{ FullScreenValue{ "offset", int2(offset) } };
     const std::array tiles{ FullScreenTile{
@@ -44,8 +45,8 @@ void place(FrameGraph& graph, FrameContext const& context, std::string_view mate
                         .clearColor = clearing.color });
 }
 
-bool fillsTarget(View const& view, FrameOutput const& output) {
-    return !view.viewport || (view.size == uint2(output.width, output.height) && !isTranslucent(view));
+bool fillsTarget(FrameSettings const& settings, FrameOutput const& output) {
+    return !settings.viewport || (settings.shownSize == uint2(output.width, output.height) && !settings.isTranslucent());
 }
 
 bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
@@ -53,18 +54,16 @@ bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
 }
 
 /// Of a view in a part of its target. Two bits are not enough for the alpha of one that is translucent.
-Format formatOfView(View const& view, Format target) {
-    return target == Format::RGB10A2 && isTranslucent(view) ? Format::RGBA16F : target;
+Format formatOfView(FrameSettings const& settings, Format target) {
+    return target == Format::RGB10A2 && settings.isTranslucent() ? Format::RGBA16F : target;
 }
 
 } // namespace
 
-bool isTranslucent(View const& view) { return view.viewport && view.viewport->blending == ViewBlending::Translucent; }
-
 void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput const& output, FrameTargets& targets) {
-    View const& view = *context.view;
-    const bool fills = fillsTarget(view, output);
-    const bool isKept = !fills && !isCleared(*view.viewport, output);
+    FrameSettings const& settings = context.settings();
+    const bool fills = fillsTarget(settings, output);
+    const bool isKept = !fills && !isCleared(*settings.viewport, output);
     targets.target = graph.importTexture(output.texture,
                                          { .width = output.width,
                                            .height = output.height,
@@ -73,26 +72,26 @@ void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput cons
                                            .name = "output" },
                                          isKept ? InitialContents::Keep : InitialContents::Undefined);
     targets.output = fills ? targets.target
-                           : graph.createTexture({ .width = view.size.x,
-                                                   .height = view.size.y,
-                                                   .format = formatOfView(view, output.format),
+                           : graph.createTexture({ .width = settings.shownSize.x,
+                                                   .height = settings.shownSize.y,
+                                                   .format = formatOfView(settings, output.format),
                                                    .name = "view" });
 }
 
 void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                   FrameTargets const& targets) {
     if (targets.output == targets.target) return;
-    View const& view = *context.view;
-    place(graph, context, isTranslucent(view) ? "place_over" : "place", targets.output, targets.target,
-          { isCleared(*view.viewport, output), view.viewport->clearColor });
+    FrameSettings const& settings = context.settings();
+    place(graph, context, settings.isTranslucent() ? "place_over" : "place", targets.output, targets.target,
+          { isCleared(*settings.viewport, output), settings.viewport->clearColor });
 }
 
 void addCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    const uint2 size = context.packet.insideSize();
+    const uint2 size = context.settings().insideSize();
     const framegraph::TextureId inside = graph.createTexture(
             { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "without its band" });
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = targets.color } };
-    const std::array values{ FullScreenValue{ "offset", -int2(static_cast<int32_t>(context.packet.band)) } };
+    const std::array values{ FullScreenValue{ "offset", -int2(static_cast<int32_t>(context.settings().band)) } };
     addFullScreenPass(graph, context,
                       { .name = "guard band",
                         .material = context.resources.effects->get("place", {}, kPlace),
@@ -105,18 +104,18 @@ void addCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& ta
 void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets) {
     if (!output.depth) return;
-    View const& view = *context.view;
-    const bool fills = !view.viewport || view.size == uint2(output.width, output.height);
-    const bool isCleared = !fills && (view.viewport->contents == TargetContents::Clear || !output.hasDepths);
+    FrameSettings const& settings = context.settings();
+    const bool fills = !settings.viewport || settings.shownSize == uint2(output.width, output.height);
+    const bool isCleared = !fills && (settings.viewport->contents == TargetContents::Clear || !output.hasDepths);
     const framegraph::TextureId whole = graph.importTexture(
             output.depth, { .width = output.width, .height = output.height, .format = Format::R32F, .name = "depths" },
             fills || isCleared ? InitialContents::Undefined : InitialContents::Keep);
     const framegraph::TextureId drawn = fills ? whole
-                                              : graph.createTexture({ .width = view.size.x,
-                                                                      .height = view.size.y,
+                                              : graph.createTexture({ .width = settings.shownSize.x,
+                                                                      .height = settings.shownSize.y,
                                                                       .format = Format::R32F,
                                                                       .name = "view depths" });
-    const bool isScaled = sizeOf(graph, targets.solidDepth) != view.size;
+    const bool isScaled = sizeOf(graph, targets.solidDepth) != settings.shownSize;
     const std::array constants{ EffectConstant{ "isScaled", isScaled } };
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.solidDepth } };
     addFullScreenPass(graph, context,

@@ -23,7 +23,4 @@ void addCutPass(framegraph::FrameGraph& graph, FrameContext const& context, Fram
 void addTargetDepth(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets);
 
-/// Whether the picture needs its alpha.
-bool isTranslucent(View const& view);
-
 } // namespace filament::passes

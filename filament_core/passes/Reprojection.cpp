@@ -17,7 +17,7 @@ double4x4 textureFromClip(double2 end) {
 } // namespace
 
 double4x4 worldFromPixel(FrameContext const& context) {
-    const double2 size(context.settings.size);
+    const double2 size(context.settings().size);
     double4x4 clipFromPixel(1.0);
     clipFromPixel[0][0] = 2 / size.x, clipFromPixel[1][1] = 2 / size.y;
     clipFromPixel[3] = double4(-1, -1, 0, 1);

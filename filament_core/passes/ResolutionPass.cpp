@@ -29,12 +29,12 @@ constexpr FullScreenInterface kSharpening{ .pass = "sharpening",
 
 void addUpscalingPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
     const auto filter =
-            static_cast<int32_t>(std::max(context.packet.effects.resolution.upscaling, Upscaling::Bilinear));
+            static_cast<int32_t>(std::max(context.settings().effects.resolution.upscaling, Upscaling::Bilinear));
     const std::array constants{ EffectConstant{ "filterKind", filter },
                                 EffectConstant{ "isSceneLinear", last.isSceneLinear },
                                 EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = step.picture } };
-    Grain const& grain = context.packet.effects.grain;
+    Grain const& grain = context.settings().effects.grain;
     const float2 ratio = float2(sizeOf(graph, step.picture)) / float2(sizeOf(graph, step.target));
     const std::array values{ FullScreenValue{ "texelsPerPixel", ratio },
                              FullScreenValue{ "grainStrength", grain.strength },
@@ -51,7 +51,7 @@ void addSharpeningPass(FrameGraph& graph, FrameContext const& context, PictureSt
     const std::array constants{ EffectConstant{ "isSceneLinear", last.isSceneLinear },
                                 EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = step.picture } };
-    Effects const& effects = context.packet.effects;
+    Effects const& effects = context.settings().effects;
     const std::array values{ FullScreenValue{ "strength", effects.sharpening.strength },
                              FullScreenValue{ "grainStrength", effects.grain.strength },
                              FullScreenValue{ "grainSize", effects.grain.size } };

@@ -3,11 +3,8 @@
 
 #include "base/math/Elementary.h"
 #include "filament_core/passes/FullScreenPass.h"
-#include "filament_core/passes/PlacePass.h"
-#include "filament_core/values/ToneShader.h"
 
 #include <array>
-#include <cmath>
 
 namespace filament::passes {
 namespace {
@@ -18,17 +15,17 @@ constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResol
 
 /// Of the light before the grading, which scales it. What auto exposure will make of it is not known yet.
 float halfWhiteOf(FrameContext const& context) {
-    const float half = halfWhiteLight(clamped(context.view->colorGrading));
+    const float half = context.settings().display.halfWhiteLight;
     const bool isGraded = context.packet.demand.needs(prepare::Effect::Grading);
-    return isGraded ? half * elementary::exp2(-context.packet.effects.grading.exposure) : half;
+    return isGraded ? half * elementary::exp2(-context.settings().effects.grading.exposure) : half;
 }
 
 } // namespace
 
 void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId samples,
                     framegraph::TextureId color) {
-    const std::array constants{ EffectConstant{ "sampleCount", int32_t{ context.settings.samples } },
-                                EffectConstant{ "isTranslucent", isTranslucent(*context.view) } };
+    const std::array constants{ EffectConstant{ "sampleCount", int32_t{ context.settings().samples } },
+                                EffectConstant{ "isTranslucent", context.settings().isTranslucent() } };
     const std::array inputs{ FullScreenInput{ .name = "samples", .texture = samples } };
     const std::array values{ FullScreenValue{ "perHalfWhite", 1 / halfWhiteOf(context) } };
     addFullScreenPass(graph, context,

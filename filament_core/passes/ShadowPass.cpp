@@ -47,7 +47,7 @@ std::span<DrawnMap> drawnMaps(FrameContext const& context) {
 
 ChosenShadow choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap> maps) {
     PipelineSource const& pipelines = context.resources.pipelines;
-    const PassSlot at = shadowSlot(context.view->quality);
+    const PassSlot at = shadowSlot(context.settings().quality);
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "shadow maps are a pass of their own");
     const uint32_t slot = pipelines.slot(at);
     for (DrawnMap& map : maps) {
@@ -76,7 +76,7 @@ void recordMaps(PassContext& pass, FrameContext const& context, std::span<const 
             recordFullScreen(pass.commands(), chosen.farDepth, view.group,
                              map.passGroups[static_cast<size_t>(shader::PassKind::Unlit)]);
         const DrawContext draws{ view.group, map.passGroups, context.resources.instanceIds, context.deformations,
-                                 context.settings.textureFilter };
+                                 context.settings().quality.textureFilter };
         recordDrawRanges(pass, draws, view.packet.opaque, map.pipelines);
     }
 }

@@ -20,17 +20,14 @@ constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .val
 
 } // namespace
 
-bool gathersLarger(FrameContext const& context) {
-    prepare::FramePacket const& packet = context.packet;
-    return packet.demand.needs(prepare::Effect::Taa) && packet.insideSize() != packet.shownSize &&
-           prepare::gathersLarger(context.view->quality, context.packet.effects.resolution.upscaling,
-                                  context.view->debugView);
+bool isEnlargedByGathering(FrameContext const& context) {
+    return context.packet.demand.needs(prepare::Effect::Taa) && context.settings().isEnlargedByGathering();
 }
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Taa)) return;
-    const bool isEnlarged = gathersLarger(context);
-    const uint2 size = isEnlarged ? context.packet.shownSize : context.packet.size;
+    const bool isEnlarged = isEnlargedByGathering(context);
+    const uint2 size = isEnlarged ? context.settings().shownSize : context.settings().size;
     const framegraph::History history = graph.history(
             { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" }, {},
             context.packet.gathering.weight == 1);
@@ -45,7 +42,7 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                              FullScreenValue{ "jitter", context.packet.gathering.jitterPixels },
                              FullScreenValue{ "weight", context.packet.gathering.weight },
                              FullScreenValue{ "ramp", context.packet.gathering.ramp },
-                             FullScreenValue{ "perSample", 1.0f / float2(context.packet.size) } };
+                             FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) } };
     const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motion);
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
     const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
@@ -65,7 +62,7 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                             .target = target });
     };
     add("taa", false, history.current);
-    if (context.view->debugView == DebugView::HistoryWeight) {
+    if (context.settings().debugView == DebugView::HistoryWeight) {
         targets.historyShare = graph.createTexture(
                 { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "history share" });
         add("taa shares", true, targets.historyShare);

@@ -16,6 +16,6 @@ namespace filament::passes {
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 /// Whether the picture is as large as the output afterwards, and was not before.
-bool gathersLarger(FrameContext const& context);
+bool isEnlargedByGathering(FrameContext const& context);
 
 } // namespace filament::passes

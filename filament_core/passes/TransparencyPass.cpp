@@ -35,7 +35,7 @@ ChosenDraws chooseSurfaces(PassContext& pass, FrameContext const& context, Trans
                            shader::TransparencyTerm term) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
-    PassSlot slot = slotOf(context.settings, pass.passLayout(), pass.subpass());
+    PassSlot slot = slotOf(context, pass.passLayout(), pass.subpass());
     slot.shading = withoutOcclusion(slot.shading);
     slot.transparency = term;
     const std::span<const prepare::DrawCall> draws = anyOrderDraws(context, term);
@@ -65,7 +65,7 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, std::string_vie
 /// Drawn with the samples of the view, before the depth of what is opaque. Returns their mean.
 TextureId addSums(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets, Format format,
                   std::string_view name, shader::TransparencyTerm term) {
-    const uint8_t samples = context.settings.samples;
+    const uint8_t samples = context.settings().samples;
     const TextureId mean = createLike(graph, targets.color, format, 1, name);
     const TextureId drawn = samples == 1 ? mean : createLike(graph, targets.color, format, samples, name);
     addSurfaces(graph, context, name, targets, term, [&](PassBuilder& pass) {
@@ -99,9 +99,9 @@ void addWeightedPasses(FrameGraph& graph, FrameContext const& context, Transpare
 }
 
 PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets) {
-    const float farthest = context.settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+    const float farthest = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
     PeeledLayers layers{ .light = createLike(graph, targets.color, Format::RGBA16F, 1, "layers") };
-    const uint32_t count = context.view->quality.transparencyLayers - 1u;
+    const uint32_t count = context.settings().quality.transparencyLayers - 1u;
     TransparencyTargets with = targets;
     for (uint32_t i = 0; i < count; ++i) {
         const framegraph::ColorTarget light =

@@ -81,8 +81,8 @@ EffectDemand demandOfDiscs(DemandInput const& input) {
 }
 
 EffectDemand demandOfOcclusion(DemandInput const& input) {
-    if (!input.effects.ambientOcclusion.enabled) return { .reason = R::SwitchedOff };
-    if (input.effects.ambientOcclusion.intensity == 0) return { .reason = R::ZeroIntensity };
+    if (!input.settings.effects.ambientOcclusion.enabled) return { .reason = R::SwitchedOff };
+    if (input.settings.effects.ambientOcclusion.intensity == 0) return { .reason = R::ZeroIntensity };
     if (input.counts.opaqueDraws == 0) return { .reason = R::NoOpaqueSurface };
     if (!input.hasIndirectLight || input.counts.opaqueLitDraws == 0) return { .reason = R::NoIndirectLight };
     return { true, R::OccludesIndirect, input.counts.opaqueLitDraws };
@@ -96,16 +96,16 @@ EffectDemand demandOfSceneColor(uint32_t draws, bool isOn, uint32_t copiedPixels
 }
 
 EffectDemand demandOfRefraction(DemandInput const& input) {
-    return demandOfSceneColor(input.counts.refractiveDraws, input.quality.refraction == RefractionSource::Screen,
-                              input.copiedPixels);
+    return demandOfSceneColor(input.counts.refractiveDraws,
+                              input.settings.quality.refraction == RefractionSource::Screen, input.copiedPixels);
 }
 
 EffectDemand demandOfReflections(DemandInput const& input) {
-    return demandOfSceneColor(input.counts.reflectiveDraws, input.effects.screenSpaceReflections.enabled);
+    return demandOfSceneColor(input.counts.reflectiveDraws, input.settings.effects.screenSpaceReflections.enabled);
 }
 
 EffectDemand demandOfMotion(DemandInput const& input) {
-    if (!readsMotion(input.counts, input.quality, input.effects, input.debugView)) return { .reason = R::Unrequested };
+    if (!input.settings.readsMotion(input.counts)) return { .reason = R::Unrequested };
     if (input.moved == 0) return { .reason = R::NothingMoves };
     return { true, R::ObjectsMove, input.moved };
 }
@@ -119,8 +119,9 @@ EffectDemand demandOfContactShadows(DemandInput const& input) {
 }
 
 EffectDemand demandOfFog(DemandInput const& input) {
-    if (!input.effects.fog.enabled) return { .reason = R::SwitchedOff };
-    if (input.effects.fog.density == 0 || input.effects.fog.maximumOpacity == 0) return { .reason = R::ZeroDensity };
+    if (!input.settings.effects.fog.enabled) return { .reason = R::SwitchedOff };
+    if (input.settings.effects.fog.density == 0 || input.settings.effects.fog.maximumOpacity == 0)
+        return { .reason = R::ZeroDensity };
     return { true, R::CameraInFog };
 }
 
@@ -143,9 +144,9 @@ EffectDemand demandOfStencil(DemandInput const& input) {
 }
 
 EffectDemand demandOfTransparency(DemandInput const& input) {
-    Quality const& quality = input.quality;
-    if (!asksForAnyOrder(quality, DebugView::None)) return { .reason = R::SwitchedOff };
-    if (!asksForAnyOrder(quality, input.debugView)) return { .reason = R::HiddenByDebugView };
+    Quality const& quality = input.settings.quality;
+    if (quality.transparency == TransparencyOrder::Sorted) return { .reason = R::SwitchedOff };
+    if (!input.settings.composesAnyOrder) return { .reason = R::HiddenByDebugView };
     const uint32_t objects = input.counts.anyOrderObjects;
     if (!overlaps(objects)) return { false, R::NoOverlap, objects };
     const bool isPeeled = quality.transparency == TransparencyOrder::Peeled;
@@ -158,22 +159,22 @@ EffectDemand demandOfPrepass(DemandInput const& input, SceneDemand const& demand
     auto readers = static_cast<uint32_t>(std::ranges::count_if(kEffectTable, readsDepth));
     if (demand.needs(Effect::Taa) && input.cameraMoved) ++readers; // reprojects what stays where it is by its depth
     if (readers) return { true, R::DepthRead, readers };
-    if (input.quality.depthPrepass == DepthPrepass::On) return { true, R::PrepassEnabled };
+    if (input.settings.quality.depthPrepass == DepthPrepass::On) return { true, R::PrepassEnabled };
     return { .reason = R::DepthUnread };
 }
 
 EffectDemand demandOfMipBias(DemandInput const& input) {
-    const float bias = mipBias(input.size, input.shownSize, input.quality, input.debugView);
-    if (input.quality.mipBias == MipBias::Off) return { .reason = R::SwitchedOff };
+    const float bias = input.settings.mipBias;
+    if (input.settings.quality.mipBias == MipBias::Off) return { .reason = R::SwitchedOff };
     if (bias == 0) return { .reason = R::Unrequested };
     return { true, R::SharpensTextures, static_cast<uint32_t>(std::lround(-100 * bias)) };
 }
 
 EffectDemand demandOfBand(DemandInput const& input) {
-    if (!input.effects.guardBand.enabled) return { .reason = R::SwitchedOff };
-    if (input.effects.guardBand.width == 0) return { .reason = R::ZeroWidth };
-    if (input.band == 0) return { .reason = R::Unrequested };
-    return { true, R::GuardsImage, input.band };
+    if (!input.settings.effects.guardBand.enabled) return { .reason = R::SwitchedOff };
+    if (input.settings.effects.guardBand.width == 0) return { .reason = R::ZeroWidth };
+    if (input.settings.band == 0) return { .reason = R::Unrequested };
+    return { true, R::GuardsImage, input.settings.band };
 }
 
 // ------------------------------------------------------------------------------------------------ post-processing
@@ -182,19 +183,20 @@ EffectDemand demandOfBand(DemandInput const& input) {
 EffectDemand demandOfImageEffect(DemandInput const& input, bool isOn, DemandReason reason,
                                  DebugView shown = DebugView::None) {
     if (!isOn) return { .reason = R::SwitchedOff };
-    if (input.debugView != DebugView::None && input.debugView != shown) return { .reason = R::HiddenByDebugView };
+    if (input.settings.debugView != DebugView::None && input.settings.debugView != shown)
+        return { .reason = R::HiddenByDebugView };
     const bool isAnythingVisible = input.counts.visible > 0 || input.hasSky || input.discsInView > 0;
     if (!isAnythingVisible) return { .reason = R::NothingVisible };
     return { true, reason };
 }
 
 EffectDemand demandOfTaa(DemandInput const& input) {
-    return demandOfImageEffect(input, input.quality.antiAliasing == AntiAliasing::Taa, R::SmoothsEdges,
+    return demandOfImageEffect(input, input.settings.quality.antiAliasing == AntiAliasing::Taa, R::SmoothsEdges,
                                DebugView::HistoryWeight);
 }
 
 EffectDemand demandOfFxaa(DemandInput const& input) {
-    const bool isOn = input.quality.antiAliasing == AntiAliasing::Fxaa;
+    const bool isOn = input.settings.quality.antiAliasing == AntiAliasing::Fxaa;
     const EffectDemand demand = demandOfImageEffect(input, isOn, R::SmoothsEdges);
     if (demand.isNeeded && input.counts.visible == 0) return { .reason = R::NoSurface };
     return demand;
@@ -202,15 +204,15 @@ EffectDemand demandOfFxaa(DemandInput const& input) {
 
 EffectDemand demandOfDepthOfField(DemandInput const& input) {
     constexpr float kSharp = 0.5f; // pixels
-    const EffectDemand demand =
-            demandOfImageEffect(input, input.effects.depthOfField.enabled, R::OutOfFocus, DebugView::CircleOfConfusion);
+    const EffectDemand demand = demandOfImageEffect(input, input.settings.effects.depthOfField.enabled, R::OutOfFocus,
+                                                    DebugView::CircleOfConfusion);
     if (!demand.isNeeded) return demand;
     if (!(input.blurRadius > kSharp)) return { .reason = R::InFocus };
     return { true, demand.reason, static_cast<uint32_t>(std::ceil(input.blurRadius)) };
 }
 
 EffectDemand demandOfMotionBlur(DemandInput const& input) {
-    MotionBlur const& blur = input.effects.motionBlur;
+    MotionBlur const& blur = input.settings.effects.motionBlur;
     const bool isNeutral = blur.shutterDegrees == 0 || blur.maxRadius == 0;
     if (blur.enabled && isNeutral) return { .reason = R::ZeroIntensity };
     const EffectDemand demand = demandOfImageEffect(input, blur.enabled, R::ObjectsMove);
@@ -220,18 +222,19 @@ EffectDemand demandOfMotionBlur(DemandInput const& input) {
 }
 
 EffectDemand demandOfAutoExposure(DemandInput const& input) {
-    return demandOfImageEffect(input, input.effects.autoExposure.enabled, R::MeasuresLuminance, DebugView::Histogram);
+    return demandOfImageEffect(input, input.settings.effects.autoExposure.enabled, R::MeasuresLuminance,
+                               DebugView::Histogram);
 }
 
 EffectDemand demandOfBloom(DemandInput const& input) {
-    Bloom const& bloom = input.effects.bloom;
+    Bloom const& bloom = input.settings.effects.bloom;
     if (bloom.enabled && bloom.strength == 0) return { .reason = R::ZeroIntensity };
     const bool hasDirt = bloom.dirt && bloom.dirtStrength > 0;
     return demandOfImageEffect(input, bloom.enabled, hasDirt ? R::ScattersLightByDirt : R::ScattersLight);
 }
 
 EffectDemand demandOfFlare(DemandInput const& input) {
-    LensFlare const& flare = input.effects.lensFlare;
+    LensFlare const& flare = input.settings.effects.lensFlare;
     const bool hasGhosts = flare.ghostStrength > 0 && flare.ghostCount >= 1, hasHalo = flare.haloStrength > 0;
     if (flare.enabled && !hasGhosts && !hasHalo) return { .reason = R::ZeroIntensity };
     EffectDemand demand = demandOfImageEffect(input, flare.enabled,
@@ -246,22 +249,22 @@ EffectDemand demandOfFlare(DemandInput const& input) {
 EffectDemand demandOfGrade(DemandInput const& input, bool isOn, bool isNeutral, DemandReason neutral) {
     if (!isOn) return { .reason = R::SwitchedOff };
     if (isNeutral) return { .reason = neutral };
-    if (input.debugView != DebugView::None) return { .reason = R::HiddenByDebugView };
+    if (input.settings.debugView != DebugView::None) return { .reason = R::HiddenByDebugView };
     return { true, R::ChangesImage };
 }
 
 EffectDemand demandOfAberration(DemandInput const& input) {
-    ChromaticAberration const& aberration = input.effects.chromaticAberration;
+    ChromaticAberration const& aberration = input.settings.effects.chromaticAberration;
     return demandOfGrade(input, aberration.enabled, aberration.strength == 0, R::ZeroIntensity);
 }
 
 EffectDemand demandOfVignette(DemandInput const& input) {
-    Vignette const& vignette = input.effects.vignette;
+    Vignette const& vignette = input.settings.effects.vignette;
     return demandOfGrade(input, vignette.enabled, vignette.color == float3(1), R::Neutral);
 }
 
 EffectDemand demandOfGrading(DemandInput const& input) {
-    Grading const& grading = input.effects.grading;
+    Grading const& grading = input.settings.effects.grading;
     const Grading neutral{ .enabled = grading.enabled,
                            .tonalRanges = grading.tonalRanges, // of equal factors
                            .midPoint = grading.midPoint };     // of straight curves
@@ -269,35 +272,37 @@ EffectDemand demandOfGrading(DemandInput const& input) {
 }
 
 EffectDemand demandOfGrain(DemandInput const& input) {
-    return demandOfGrade(input, input.effects.grain.enabled, input.effects.grain.strength == 0, R::ZeroIntensity);
+    return demandOfGrade(input, input.settings.effects.grain.enabled, input.settings.effects.grain.strength == 0,
+                         R::ZeroIntensity);
 }
 
 EffectDemand demandOfUpscaling(DemandInput const& input) {
-    const bool isOn =
-            input.effects.resolution.upscaling != Upscaling::Off || input.quality.antiAliasing == AntiAliasing::Taa;
+    const bool isOn = input.settings.effects.resolution.upscaling != Upscaling::Off ||
+                      input.settings.quality.antiAliasing == AntiAliasing::Taa;
     if (!isOn) return { .reason = R::SwitchedOff };
-    if (input.debugView != DebugView::None) return { .reason = R::HiddenByDebugView };
-    if (input.size == input.shownSize) return { .reason = R::Neutral };
-    return { true, R::UpscalesImage, input.size.x, input.size.y };
+    if (input.settings.debugView != DebugView::None) return { .reason = R::HiddenByDebugView };
+    const uint2 drawn = input.settings.insideSize();
+    if (drawn == input.settings.shownSize) return { .reason = R::Neutral };
+    return { true, R::UpscalesImage, drawn.x, drawn.y };
 }
 
 EffectDemand demandOfSharpening(DemandInput const& input) {
-    Sharpening const& sharpening = input.effects.sharpening;
+    Sharpening const& sharpening = input.settings.effects.sharpening;
     if (sharpening.enabled && sharpening.strength == 0) return { .reason = R::ZeroIntensity };
     return demandOfImageEffect(input, sharpening.enabled, R::ChangesImage);
 }
 
 EffectDemand demandOfResolve(DemandInput const& input) {
-    if (input.quality.msaaResolve == MsaaResolve::Average) return { .reason = R::SwitchedOff };
-    if (input.samples == 1 || input.debugView != DebugView::None) return { .reason = R::Unrequested };
+    if (input.settings.quality.msaaResolve == MsaaResolve::Average) return { .reason = R::SwitchedOff };
+    if (input.settings.samples == 1 || input.settings.debugView != DebugView::None) return { .reason = R::Unrequested };
     if (input.counts.visible == 0) return { .reason = R::NoSurface };
-    return { true, R::ResolvesSamples, input.samples };
+    return { true, R::ResolvesSamples, input.settings.samples };
 }
 
 EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& demand) {
     ViewCounts const& counts = input.counts;
     const uint32_t lights = counts.litDraws ? counts.lights : 0; // otherwise no list is made
-    switch (input.debugView) {
+    switch (input.settings.debugView) {
     case DebugView::None:
         return {};
     case DebugView::Cascades:
@@ -310,9 +315,10 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
     case DebugView::Lights:
         return { true, R::DebugLights, lights };
     default:
-        DebugViewRow const& row = rowOf(input.debugView);
+        DebugViewRow const& row = rowOf(input.settings.debugView);
         const bool isIdle = row.content == DebugContent::Effect && !demand.needs(row.effect);
-        return { true, isIdle ? R::DebugEffectIdle : R::DebugViewShown, 0, static_cast<uint32_t>(input.debugView) };
+        return { true, isIdle ? R::DebugEffectIdle : R::DebugViewShown, 0,
+                 static_cast<uint32_t>(input.settings.debugView) };
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "backend/api/Descriptions.h"
 #include "backend/api/Handles.h"
+#include "filament_core/prepare/FrameSettings.h"
 #include "filament_core/prepare/PictureCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/ShadowMaps.h"
@@ -181,24 +182,20 @@ struct Gathering {
 
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
-    uint2 size{ 1, 1 };                ///< pixels that the main view draws
-    uint2 shownSize{ 1, 1 };           ///< of the picture that is made of them
-    uint32_t band = 0;                 ///< of `size`, on each side, that the picture does not show
+    FrameSettings settings;            ///< of the main view
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
-    Gathering gathering;               ///< the same
-    Focus focus;                       ///< the same
+    Gathering gathering;               ///< of the main view
+    Focus focus;                       ///< of the main view
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;
-    /// Pixels of `size`: objects of the main view cover no others (CoveredPixels.h), if an effect asks; otherwise all.
+    /// Pixels of `settings.size`: objects of the main view cover no others (CoveredPixels.h), if an effect asks; otherwise all.
     backend::Rect covered{ 0, 0, 1, 1 };
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;
     SceneDemand demand; ///< of the main view
-    Effects effects;    ///< of the main view
 
-    uint2 insideSize() const { return size - 2u * band; } ///< pixels of the picture that are drawn
     /// Of the picture that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }
 };

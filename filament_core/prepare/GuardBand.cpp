@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/GuardBand.h"
 
-#include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace filament::prepare {
 namespace {
@@ -29,12 +27,6 @@ bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, E
     if (effects.depthOfField.enabled || effects.motionBlur.enabled) return true;
     if (std::ranges::any_of(scene.lights.records, &scene::LightRecord::contactShadows)) return true;
     return quality.refraction == RefractionSource::Screen && hasRefraction(scene);
-}
-
-uint32_t guardBand(uint2 drawn, uint2 size, Effects const& effects, Quality const& quality, DebugView debugView) {
-    const bool isGatheredLarger = drawn != size && gathersLarger(quality, effects.resolution.upscaling, debugView);
-    if (!effects.guardBand.enabled || debugView != DebugView::None || isGatheredLarger) return 0;
-    return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
 }
 
 } // namespace filament::prepare

@@ -55,10 +55,11 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashDeformations(packet.deformations, hash);
     if (!packet.shadows.maps.empty()) hash = hashShadows(packet.shadows, hash);
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
-    hash = hashEffects(packet.effects, hash);
+    hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed, packet.last.isReflected);
-    hash = hashValues(hash, packet.size, packet.shownSize, packet.band, packet.covered, packet.gathering.jitterPixels,
+    hash = hashValues(hash, packet.settings.size, packet.settings.shownSize,
+                      packet.settings.band, packet.covered, packet.gathering.jitterPixels,
                       packet.gathering.weight, packet.gathering.ramp, packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,

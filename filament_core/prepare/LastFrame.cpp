@@ -26,48 +26,51 @@ float rampOf(float gathered) { return std::max(kWidestRamp / std::sqrt(std::max(
 
 void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) {
     const ViewSpace space = makeViewSpace(view);
-    const bool isFollowing = isGatheredBy(scene, view);
-    mSeen = {
-        view, scene.serial, space.clipFromWorld, space.cameraWorld, space.forward, packet.mainView().uniforms.time
-    };
+    const bool isFollowing = isGatheredBy(scene, packet.settings);
+    mSeen = { view,
+              packet.settings,
+              scene.serial,
+              space.clipFromWorld,
+              space.cameraWorld,
+              space.forward,
+              packet.mainView().uniforms.time };
     const bool gathers = packet.demand.needs(Effect::Taa);
     mJitters = gathers ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
     mIsReflected = packet.demand.needs(Effect::Reflections);
     mGathered = gathers ? 1 / packet.gathering.weight : 0;
     mScene = 0; // until all places are kept
-    if (readsMotion(packet.mainView().counts, view.quality, view.effects, view.debugView)) keepPlaces(scene);
+    if (packet.settings.readsMotion(packet.mainView().counts)) keepPlaces(scene);
 }
 
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": multiples of the inverses of the plastic
 // number and of its square. Any few that follow each other cover the pixel evenly; the first is in its middle.
-float2 LastFrame::jitterPixels(scene::SceneData const& scene, ViewInput const& view) const {
-    const double at = isGatheredBy(scene, view) ? mJitters : 0;
+float2 LastFrame::jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const {
+    const double at = isGatheredBy(scene, settings) ? mJitters : 0;
     const double2 place = double2(0.75487766624669276, 0.56984029099805327) * at + 0.5;
     return float2(glm::fract(place) - 0.5);
 }
 
-bool LastFrame::isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const {
-    return mSeen && mSeen->scene == scene.serial && mSeen->view.shown() == view.shown() &&
-           (mSeen->view.band > 0) == (view.band > 0);
+bool LastFrame::isFollowedBy(scene::SceneData const& scene, FrameSettings const& settings) const {
+    return mSeen && mSeen->scene == scene.serial && mSeen->settings.shownSize == settings.shownSize &&
+           (mSeen->settings.band > 0) == (settings.band > 0);
 }
 
 /// By one whose gathered picture has the same size, too.
-bool LastFrame::isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const {
-    const auto gatheredSize = [](ViewInput const& of) {
-        return gathersLarger(of.quality, of.effects.resolution.upscaling, of.debugView) ? of.shown() : of.size;
-    };
-    return isFollowedBy(scene, view) && gatheredSize(mSeen->view) == gatheredSize(view);
+bool LastFrame::isGatheredBy(scene::SceneData const& scene, FrameSettings const& settings) const {
+    const auto gatheredSize = [](FrameSettings const& of) { return of.gathersLarger ? of.shownSize : of.size; };
+    return isFollowedBy(scene, settings) && gatheredSize(mSeen->settings) == gatheredSize(settings);
 }
 
 /// Whether this frame shows what the last one did, as far as both see it.
 bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const {
     ViewInput const& last = mSeen->view;
-    Effects lastEffects = last.effects;
-    lastEffects.resolution = view.effects.resolution; // how many samples there are does not change what they show
+    FrameSettings const& settings = packet.settings;
+    Effects lastEffects = mSeen->settings.effects;
+    lastEffects.resolution = settings.effects.resolution; // how many samples there are does not change what they show
     const bool isSame = last.contents == view.contents && last.camera.position() == view.camera.position() &&
-                        last.camera.exposure == view.camera.exposure && last.quality == view.quality &&
-                        lastEffects == view.effects && last.visibleLayers == view.visibleLayers;
+                        last.camera.exposure == view.camera.exposure && mSeen->settings.quality == settings.quality &&
+                        lastEffects == settings.effects && last.visibleLayers == view.visibleLayers;
     if (!isSame || packet.motionView != kNowhere) return false;
     if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
     const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };
@@ -76,11 +79,10 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
 }
 
 Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
-    Gathering gathering{ .jitterPixels = jitterPixels(scene, view) };
-    const bool isEnlarged = view.inside() != view.shown() &&
-                            gathersLarger(view.quality, view.effects.resolution.upscaling, view.debugView);
+    Gathering gathering{ .jitterPixels = jitterPixels(scene, packet.settings) };
+    const bool isEnlarged = packet.settings.isEnlargedByGathering();
     if (isEnlarged) gathering.ramp = kWidestRamp;
-    if (!isGatheredBy(scene, view)) return gathering;
+    if (!isGatheredBy(scene, packet.settings)) return gathering;
     gathering.isFixed = isFixed(view, packet);
     const bool isStill = gathering.isFixed && !packet.last.isElsewhere;
     const float most = isStill ? kMostGathered : gathering.isFixed ? kGatheredInTurn : kGatheredInMotion;
@@ -109,7 +111,7 @@ void LastFrame::keepPlaces(scene::SceneData const& scene) {
 }
 
 LastView LastFrame::seenFrom(ViewSpace const& space, ViewInput const& view, float4 const& time) const {
-    const Seen last = mSeen.value_or(Seen{ view, 0, space.clipFromWorld, space.cameraWorld, space.forward, time });
+    const Seen last = mSeen.value_or(Seen{ view, {}, 0, space.clipFromWorld, space.cameraWorld, space.forward, time });
     const double3 moved = space.cameraWorld - last.cameraWorld;
     const double along = dot(double3(last.forward), moved);
     return { .clipFromWorld = float4x4(glm::translate(double4x4(last.clipFromWorld), moved)),

@@ -27,12 +27,12 @@ public:
     void forget() { *this = {}; }
 
     /// Whether such a frame goes on with what the last one left: it shows the same scene in the same size.
-    bool isFollowedBy(scene::SceneData const& scene, ViewInput const& view) const;
+    bool isFollowedBy(scene::SceneData const& scene, FrameSettings const& settings) const;
 
     /// As this frame sees the last one; itself, if there was none.
     LastView seenFrom(ViewSpace const& space, ViewInput const& view, float4 const& time) const;
     /// Of a frame that gathers: another place in the pixels for each.
-    float2 jitterPixels(scene::SceneData const& scene, ViewInput const& view) const;
+    float2 jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const;
     /// The mean of all frames since something changed.
     Gathering gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
 
@@ -44,6 +44,7 @@ public:
 private:
     struct Seen {
         ViewInput view;
+        FrameSettings settings;
         uint64_t scene; ///< SceneData::serial
         float4x4 clipFromWorld;
         double3 cameraWorld;
@@ -57,7 +58,7 @@ private:
     };
 
     void keepPlaces(scene::SceneData const& scene);
-    bool isGatheredBy(scene::SceneData const& scene, ViewInput const& view) const;
+    bool isGatheredBy(scene::SceneData const& scene, FrameSettings const& settings) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
     std::optional<Seen> mSeen;

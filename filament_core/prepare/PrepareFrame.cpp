@@ -44,7 +44,7 @@ uint32_t movedObjects(FramePacket const& packet) {
     return packet.motionView == kNowhere ? 0 : static_cast<uint32_t>(packet.views[packet.motionView].opaque.size());
 }
 
-SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, ViewInput const& view, float blurRadius) {
+SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, float blurRadius) {
     return findDemand({ .counts = packet.mainView().counts,
                         .shadows = shadows,
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
@@ -53,14 +53,8 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .copiedPixels = copiedPixels(packet.mainView().pictures),
                         .moved = movedObjects(packet),
                         .cameraMoved = packet.last.isElsewhere,
-                        .quality = view.quality,
-                        .effects = packet.effects,
                         .blurRadius = blurRadius,
-                        .size = packet.insideSize(),
-                        .shownSize = packet.shownSize,
-                        .band = packet.band,
-                        .samples = view.samples,
-                        .debugView = view.debugView,
+                        .settings = packet.settings,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
@@ -88,7 +82,7 @@ struct FrameViews {
 /// Of what is visible, in pixels.
 float largestBlur(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
                   FramePacket const& packet) {
-    if (!view.effects.depthOfField.enabled) return 0;
+    if (!packet.settings.effects.depthOfField.enabled) return 0;
     const bool hasFarthest = packet.environment.sky || !packet.discs.empty();
     const VisibleDistances at = visibleDistances(jobs, arena, scene, packet.mainView(), makeViewSpace(view));
     const double far = blurRadius(packet.focus, hasFarthest ? HUGE_VAL : std::max(at.farthest, at.nearest));
@@ -105,9 +99,9 @@ backend::Rect coveredPixelsIn(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
 
 /// As they are drawn.
 std::span<const ViewInput> jittered(Arena& arena, scene::SceneData const& scene, std::span<const ViewInput> views,
-                                    LastFrame const& last) {
+                                    FrameSettings const& settings, LastFrame const& last) {
     const std::span<ViewInput> drawn = arena.copy(views);
-    if (gathersFrames(drawn[0].quality, drawn[0].debugView)) drawn[0].jitterPixels = last.jitterPixels(scene, drawn[0]);
+    if (settings.gathersFrames) drawn[0].jitterPixels = last.jitterPixels(scene, settings);
     return drawn;
 }
 
@@ -138,29 +132,26 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
                          std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& kept) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
     ViewInput const& main = views[0]; // without jitter, so that shadow maps and places of the last frame stay
+    const FrameSettings settings = resolve(main);
     static const LastFrame kNone;
-    LastFrame const& last = kept.isFollowedBy(scene, main) ? kept : kNone;
-    const std::span<const ViewInput> drawn = jittered(arena, scene, views, last);
+    LastFrame const& last = kept.isFollowedBy(scene, settings) ? kept : kNone;
+    const std::span<const ViewInput> drawn = jittered(arena, scene, views, settings, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
-    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i]);
-    const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, asked[0], held);
+    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i], settings);
+    const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
     packet.environment = environmentOf(scene);
-    packet.effects = main.effects;
-    packet.size = main.size;
-    packet.shownSize = main.shown();
-    packet.band = main.band;
+    packet.settings = settings;
     packet.last = last.seenFrom(makeViewSpace(main), main, packet.mainView().uniforms.time);
-    if (readsMotion(packet.mainView().counts, main.quality, main.effects, main.debugView))
-        addMotion(arena, scene, last, packet);
+    if (settings.readsMotion(packet.mainView().counts)) addMotion(arena, scene, last, packet);
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
-    packet.focus = focusOf(main.camera, main.effects.depthOfField, main.inside().y);
-    packet.demand = demandOf(packet, shadows.counts, main, largestBlur(jobs, arena, scene, main, packet));
+    packet.focus = focusOf(main.camera, settings.effects.depthOfField, settings.insideSize().y);
+    packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
     if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);
     return packet;

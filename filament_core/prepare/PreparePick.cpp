@@ -90,7 +90,8 @@ PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
                          uint2 pixel) {
     ViewInput reversed = view;
     reversed.quality.depthRange = DepthRange::Reversed;
-    PreparedView prepared = prepareView(jobs, arena, scene, aroundPixel(reversed, pixel));
+    const FrameSettings settings = resolve(reversed);
+    PreparedView prepared = prepareView(jobs, arena, scene, aroundPixel(reversed, pixel), settings);
     const ViewSpace space = makeViewSpace(reversed);
     const std::span<const PickCandidate> candidates =
             nearestOf(arena, candidatesOf(arena, prepared.packet), scene.renderables, space);
@@ -108,6 +109,7 @@ PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.opaque = draws;
     PreparedPick pick{ .renderables = renderables };
     pick.packet.views = packets;
+    pick.packet.settings = settings;
     pick.packet.deformations = placeDeformations(arena, scene, std::span(&prepared.visible, 1));
     return pick;
 }

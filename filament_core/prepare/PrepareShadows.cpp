@@ -68,15 +68,15 @@ uint32_t powerOfTwo(float pixels, uint32_t smallest, uint32_t largest) {
 class ShadowPreparation {
 public:
     ShadowPreparation(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                      PreparedView& main, ShadowAtlas const& held)
-            : mJobs(jobs), mArena(arena), mScene(scene), mView(view), mMain(main), mHeld(held),
+                      FrameSettings const& settings, PreparedView& main, ShadowAtlas const& held)
+            : mJobs(jobs), mArena(arena), mScene(scene), mView(view), mSettings(settings), mMain(main), mHeld(held),
               mSpace(makeViewSpace(view)), mCandidates(arena.arrayForOverwrite<Candidate>(kMaxShadowMaps)) {}
 
     PreparedShadows prepare() {
         PreparedShadows out;
         mCounts.isOn = true;
-        mCounts.isColorOn = mView.quality.coloredShadows;
-        mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mView.quality.shadows);
+        mCounts.isColorOn = mSettings.quality.coloredShadows;
+        mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mSettings.quality.shadows);
         mCounts.receivers = mReceivers.count;
         const std::span<const Caster> casters = findCasters();
         mCounts.lights = static_cast<uint32_t>(casters.size());
@@ -124,7 +124,7 @@ private:
         const double3x3 axes = worldFromLight(double3(light.directionWorld));
         const LightSpaceBox extent = sceneInLightSpace(mJobs, mArena, mScene.renderables, axes, mView.visibleLayers);
         if (extent.isEmpty()) return;
-        const uint32_t cascades = std::clamp<uint32_t>(mView.quality.shadowCascades, 1, kMaxCascades);
+        const uint32_t cascades = std::clamp<uint32_t>(mSettings.quality.shadowCascades, 1, kMaxCascades);
         const auto slices = splitDepth({ mReceivers.nearest, mReceivers.farthest }, cascades);
         bool coversScene = false;
         for (uint32_t i = 0; i < cascades && !coversScene; ++i)
@@ -144,7 +144,7 @@ private:
                          .quality = mView.quality,
                          .visibleLayers = mView.visibleLayers };
         input.quality.depthRange = DepthRange::Reversed;
-        PreparedView prepared = prepareView(mJobs, mArena, mScene, input);
+        PreparedView prepared = prepareView(mJobs, mArena, mScene, input, mSettings);
         if (prepared.packet.opaque.empty()) {
             ++mCounts.mapsWithoutCasters;
             return;
@@ -157,12 +157,12 @@ private:
         const auto transmits = [](DrawCall const& draw) {
             return shader::transmitsLight(draw.material->material->package);
         };
-        return mView.quality.coloredShadows && std::ranges::any_of(map.opaque, transmits) ? 3 : 1;
+        return mSettings.quality.coloredShadows && std::ranges::any_of(map.opaque, transmits) ? 3 : 1;
     }
 
     uint32_t sizeOf(Caster const& caster) const {
         const uint32_t largest = std::bit_floor(
-                std::clamp<uint32_t>(mView.quality.shadowMapSize, kSmallestPunctualMap, kLargestShadowMap));
+                std::clamp<uint32_t>(mSettings.quality.shadowMapSize, kSmallestPunctualMap, kLargestShadowMap));
         LightRecord const& light = mScene.lights.records[caster.record];
         if (light.type == LightRecord::Type::Sun) return largest;
         // A face of a cube sees a quarter of the horizon, a spot about as much as its reach covers.
@@ -180,8 +180,8 @@ private:
             const uint32_t side = mCandidates[i].channels > 1 ? 2 * sizeOf(caster) : sizeOf(caster);
             wishes[i] = { ownerOf(caster, mCandidates[i].part), std::min(side, kLargestShadowMap) };
         }
-        const uint64_t budget = uint64_t{ mView.quality.shadowAtlasMegabytes } << 20;
-        const ShadowMoments moments = momentsFor(mView.quality.shadows);
+        const uint64_t budget = uint64_t{ mSettings.quality.shadowAtlasMegabytes } << 20;
+        const ShadowMoments moments = momentsFor(mSettings.quality.shadows);
         const PlacedShadowMaps placed = placeShadowMaps(mArena, wishes, mHeld, atlasSizeForBytes(budget, moments));
         out.packet.atlasSize = placed.atlasSize;
         out.packet.moments = moments;
@@ -231,7 +231,7 @@ private:
 
     uint64_t hashOf(Candidate const& candidate, uint32_t size, shader::ShadowMapRecord const& map) const {
         const uint64_t depths = hashShadowView(mScene, candidate.prepared.packet, size, candidate.channels > 1);
-        if (momentsFor(mView.quality.shadows) == ShadowMoments::None) return depths;
+        if (momentsFor(mSettings.quality.shadows) == ShadowMoments::None) return depths;
         return hashWords(depths, std::bit_cast<uint32_t>(map.softness.z), std::bit_cast<uint32_t>(map.softness.w));
     }
 
@@ -257,9 +257,9 @@ private:
 
     /// Of moments; must not reach beyond a map's margin.
     float blurOf(uint32_t size) const {
-        if (momentsFor(mView.quality.shadows) == ShadowMoments::None) return 0;
+        if (momentsFor(mSettings.quality.shadows) == ShadowMoments::None) return 0;
         const uint32_t margin = size / kMarginTexels;
-        return static_cast<float>(std::min<uint32_t>(mView.quality.shadowBlurTexels, margin > 2 ? margin - 2 : 0));
+        return static_cast<float>(std::min<uint32_t>(mSettings.quality.shadowBlurTexels, margin > 2 ? margin - 2 : 0));
     }
 
     /// Maps of a light are neighbours; cascades and a cube's faces without casters are left out.
@@ -281,6 +281,7 @@ private:
     Arena& mArena;
     scene::SceneData const& mScene;
     ViewInput const& mView;
+    FrameSettings const& mSettings;
     PreparedView& mMain;
     ShadowAtlas const& mHeld;
     const ViewSpace mSpace;
@@ -296,9 +297,10 @@ private:
 } // namespace
 
 PreparedShadows prepareShadows(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                               ViewInput const& view, PreparedView& main, ShadowAtlas const& held) {
-    if (view.quality.shadows == ShadowFilter::Off) return {};
-    return ShadowPreparation(jobs, arena, scene, view, main, held).prepare();
+                               ViewInput const& view, FrameSettings const& settings, PreparedView& main,
+                               ShadowAtlas const& held) {
+    if (settings.quality.shadows == ShadowFilter::Off) return {};
+    return ShadowPreparation(jobs, arena, scene, view, settings, main, held).prepare();
 }
 
 } // namespace filament::prepare

@@ -25,6 +25,7 @@ struct PreparedShadows {
 
 /// Changes `main`: its variant, and the lights of its list.
 PreparedShadows prepareShadows(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                               ViewInput const& view, PreparedView& main, ShadowAtlas const& held);
+                               ViewInput const& view, FrameSettings const& settings, PreparedView& main,
+                               ShadowAtlas const& held);
 
 } // namespace filament::prepare

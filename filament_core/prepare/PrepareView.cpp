@@ -72,15 +72,14 @@ std::span<const SortItem> drawnItems(std::span<const SortItem> sorted, ViewKind 
     return solid;
 }
 
-RefractionOrder refractionOrder(ViewInput const& view) {
-    if (!isShaded(view.kind) || view.quality.refraction != RefractionSource::Screen) return RefractionOrder::Any;
-    return view.quality.refractionLayers > 1 ? RefractionOrder::BackToFront : RefractionOrder::FrontToBack;
+RefractionOrder refractionOrder(ViewKind kind, Quality const& quality) {
+    if (!isShaded(kind) || quality.refraction != RefractionSource::Screen) return RefractionOrder::Any;
+    return quality.refractionLayers > 1 ? RefractionOrder::BackToFront : RefractionOrder::FrontToBack;
 }
 
 /// Looks for what may be composed in any order only where that is asked for.
-AnyOrderExtent anyOrderIn(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables, ViewInput const& view,
+AnyOrderExtent anyOrderIn(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables, bool isAsked,
                           VisibleItems const& visible) {
-    const bool isAsked = isShaded(view.kind) && asksForAnyOrder(view.quality, view.debugView);
     return isAsked ? findAnyOrder(jobs, arena, drawables, visible) : AnyOrderExtent{};
 }
 
@@ -92,7 +91,8 @@ AnyOrderDraws anyOrderDraws(std::span<const SortItem> order, std::span<const Dra
 
 } // namespace
 
-PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view) {
+PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                         FrameSettings const& settings) {
     PreparedView prepared;
     ViewPacket& packet = prepared.packet;
     packet.kind = view.kind;
@@ -116,8 +116,9 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     scene::Renderables const& renderables = scene.renderables;
     prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
-    const RefractionOrder refraction = refractionOrder(view);
-    const AnyOrderExtent any = anyOrderIn(jobs, arena, renderables.drawables, view, prepared.visible);
+    const RefractionOrder refraction = refractionOrder(view.kind, settings.quality);
+    const AnyOrderExtent any = anyOrderIn(jobs, arena, renderables.drawables,
+                                          isShaded(view.kind) && settings.composesAnyOrder, prepared.visible);
     const bool composes = overlaps(any.count);
     packet.counts.anyOrderObjects = any.count;
     const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible,
@@ -133,7 +134,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
     if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
         packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,
-                                        view.quality.refractionLayers);
+                                        settings.quality.refractionLayers);
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
     if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);
@@ -146,7 +147,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (!packet.lights.empty() && packet.counts.profiledLights > 0)
         placeProfiles(arena, lights, prepared.lightRecords, packet);
     packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
-    packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
+    packet.objects = { order, renderables.placement, settings.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     return prepared;
 }
 

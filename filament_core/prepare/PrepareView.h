@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// prepareView: what one view sees of a scene -> ViewPacket, on the job system.
-///   In      the current scene, and the view. For several views of a frame: one call each, in turn.
+///   In      the current scene, the view, and the settings of the frame. For several views of a frame: one call each,
+///           in turn.
 ///   Out     the packet, and the visible draws: deformations are placed for all views together.
 ///   Thread  the thread that owns the arena; it takes part in the work until all is done.
 ///   Memory  the arena only.
@@ -26,6 +27,7 @@ struct PreparedView {
     bool hasChannels = false;               ///< some light does not shine on everything: see LightChannels.h
 };
 
-PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);
+PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                         FrameSettings const& settings);
 
 } // namespace filament::prepare

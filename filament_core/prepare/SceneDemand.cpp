@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/SceneDemand.h"
 
-#include "base/math/Elementary.h"
 #include "filament_core/prepare/DebugViews.h"
 #include "filament_core/prepare/EffectTable.h"
 
@@ -10,40 +9,6 @@
 #include <algorithm>
 
 namespace filament::prepare {
-bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView) {
-    return debugView == DebugView::Motion || (effects.motionBlur.enabled && debugView == DebugView::None) ||
-           (effects.screenSpaceReflections.enabled && counts.reflectiveDraws > 0) || gathersFrames(quality, debugView);
-}
-
-Quality drawnQuality(Quality const& quality, DebugView debugView) {
-    Quality drawn = quality;
-    if (showsLight(debugView)) return drawn;
-    drawn.shadows = ShadowFilter::Off;
-    drawn.refraction = RefractionSource::Environment;
-    return drawn;
-}
-
-Effects drawnEffects(Effects const& effects, DebugView debugView) {
-    Effects drawn = effects;
-    if (showsLight(debugView)) return drawn;
-    drawn.ambientOcclusion.enabled = false;
-    drawn.screenSpaceReflections.enabled = false;
-    return drawn;
-}
-
-float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView) {
-    if (quality.mipBias == MipBias::Off || !gathersFrames(quality, debugView)) return 0;
-    const float2 scale = float2(size) / float2(shownSize);
-    const float sharper = quality.mipBias == MipBias::Sharp ? 1.0f : 0.0f;
-    return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
-}
-
-uint2 drawnSize(uint2 size, Resolution const& resolution, Quality const& quality, DebugView debugView) {
-    const bool isEnlarged = resolution.upscaling != Upscaling::Off || gathersFrames(quality, debugView);
-    if (!isEnlarged || debugView != DebugView::None) return size;
-    return min(max(uint2(float2(size) * resolution.scale + 0.5f), 1u), size);
-}
-
 bool SceneDemand::changesColor() const {
     return std::ranges::any_of(kEffectTable,
                                [&](EffectRow const& row) { return row.has(kChangesColor) && needs(row.effect); });
@@ -51,7 +16,7 @@ bool SceneDemand::changesColor() const {
 
 SceneDemand findDemand(DemandInput const& input) {
     SceneDemand demand;
-    const bool isLit = showsLight(input.debugView);
+    const bool isLit = showsLight(input.settings.debugView);
     for (EffectRow const& row : kEffectTable) {
         if (!row.demand.alone) continue;
         const bool isLeftOut = row.stage == EffectStage::Lighting && !isLit;

@@ -8,10 +8,9 @@
 #pragma once
 
 #include "filament_core/prepare/DemandReason.h"
+#include "filament_core/prepare/FrameSettings.h"
 #include "filament_core/prepare/ShadowCounts.h"
 #include "filament_core/prepare/ViewCounts.h"
-
-#include <filament/View.h>
 
 #include <array>
 #include <cstddef>
@@ -89,53 +88,16 @@ struct DemandInput {
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     bool cameraMoved = false;
-    Quality quality{};
-    Effects effects{};                     ///< within their ranges
-    float blurRadius = 0;                  ///< in pixels: the largest of what is visible, of the lens
-    uint2 size{ 1, 1 }, shownSize{ 1, 1 }; ///< pixels that are drawn, and those of the picture that is made of them
-    uint32_t band = 0;                     ///< pixels on each side that are drawn besides
-    uint8_t samples = 1;                   ///< a pixel
-    DebugView debugView = DebugView::None;
+    float blurRadius = 0;      ///< in pixels: the largest of what is visible, of the lens
+    FrameSettings settings{};
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
 };
 
 SceneDemand findDemand(DemandInput const& input);
 
-/// Whether the view gathers its picture over frames, if there is anything in it.
-inline bool gathersFrames(Quality const& quality, DebugView debugView) {
-    return quality.antiAliasing == AntiAliasing::Taa &&
-           (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
-}
-
-/// Without the choices that only matter where surfaces are lit, if they are not.
-Quality drawnQuality(Quality const& quality, DebugView debugView);
-Effects drawnEffects(Effects const& effects, DebugView debugView);
-
-/// Whether gathering makes the picture as large as it is shown.
-inline bool gathersLarger(Quality const& quality, Upscaling upscaling, DebugView debugView) {
-    return gathersFrames(quality, debugView) && upscaling == Upscaling::Off;
-}
-
-/// Whether the view composes what blends in any order, if that may overlap. One layer is what sorting draws.
-inline bool asksForAnyOrder(Quality const& quality, DebugView debugView) {
-    const bool isSorted = quality.transparency == TransparencyOrder::Sorted ||
-                          (quality.transparency == TransparencyOrder::Peeled && quality.transparencyLayers <= 1);
-    return !isSorted && debugView == DebugView::None;
-}
-
 /// Whether so many objects need an order.
 constexpr bool overlaps(uint32_t objects) { return objects > 1; }
-
-/// How many mip levels further down materials' textures are read, for `size` pixels that are drawn and those of the
-/// picture that is made of them; at most 0.
-float mipBias(uint2 size, uint2 shownSize, Quality const& quality, DebugView debugView);
-
-/// The pixels that a view draws of `size`.
-uint2 drawnSize(uint2 size, Resolution const& resolution, Quality const& quality, DebugView debugView);
-
-/// Whether an effect of the view looks at the last picture, so that it matters what moved since.
-bool readsMotion(ViewCounts const& counts, Quality const& quality, Effects const& effects, DebugView debugView);
 
 /// "light list". One name in explain(), reports and documents.
 const char* nameOf(Effect effect);

@@ -25,6 +25,17 @@ enum class ViewKind : uint8_t {
 inline constexpr size_t kViewKinds = 4;
 constexpr bool isShaded(ViewKind kind) { return kind == ViewKind::Color; }
 
+/// View::colorGrading, as shaders/lib/tone.glsl reads it (values/ToneShader.h).
+struct DisplaySettings {
+    int32_t toneMapper = 0, outputSpace = 0;
+    float4 toneCurve{ 0 };
+    float whiteShare = 0;
+    float halfWhiteLight = 0.5f; ///< which the tone mapper displays at half of white
+    bool hasNumbers = false;     ///< the curve or the output space reads some of the above
+    bool dithers = false;
+};
+
+/// `quality` to `debugView`: of the main view; FrameSettings says what becomes of them.
 struct ViewInput {
     ViewKind kind = ViewKind::Color;
     Camera camera{};
@@ -39,8 +50,11 @@ struct ViewInput {
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
-    Effects effects{};
-    DebugView debugView = DebugView::None; ///< of the main view
+    Effects effects{}; ///< within their ranges
+    DisplaySettings display{};
+    float4 clearColor{ 0, 0, 0, 1 };
+    std::optional<Viewport> viewport{};
+    DebugView debugView = DebugView::None;
     Layers visibleLayers = kAllLayers;     ///< of renderables
     uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
 

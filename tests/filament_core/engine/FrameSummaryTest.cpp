@@ -25,7 +25,9 @@ ViewPacket view(ViewKind kind, uint32_t visible, size_t draws, uint64_t triangle
 TEST(FrameSummary, CountsWhatTheMainViewSeesAndWhatAllViewsDraw) {
     const std::array views{ view(ViewKind::Color, 40, 7, 1000), view(ViewKind::Shadow, 60, 5, 2000),
                             view(ViewKind::Shadow, 70, 6, 3000), view(ViewKind::Depth, 40, 4, 500) };
-    prepare::FramePacket packet{ .views = views, .size = { 1280, 720 }, .covered = { 400, 100, 300, 200 } };
+    prepare::FramePacket packet{ .views = views,
+                                 .settings = { .size = { 1280, 720 } },
+                                 .covered = { 400, 100, 300, 200 } };
     packet.demand = prepare::findDemand({ .hasSky = true });
     const FrameSummary summary = summarize(3, packet, {});
     EXPECT_EQ(summary.statistics.renderables, 100u);

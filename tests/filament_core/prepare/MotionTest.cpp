@@ -22,8 +22,8 @@ struct MotionTest : testing::Test, BoxScene {
     FramePacket frameOf(scene::SceneData& drawn) {
         jobs::JobSystem jobs({ .workers = 0 });
         const jobs::AdoptedThread seat(jobs);
-        const std::array views{ view };
         view.debugView = DebugView::Motion;
+        const std::array views{ view };
         const FramePacket packet = prepareFrame(jobs, arena, drawn, views, {}, last);
         last.keep(drawn, view, packet);
         return packet;

@@ -378,8 +378,8 @@ TEST_F(PrepareFrameTest, GatheringOfALargerPictureSurvivesAnotherScale) {
         view.effects.resolution.upscaling = filter;
         view.effects.resolution.scale = float2(size) / float2(view.shownSize);
         const FramePacket packet = prepareFrame(jobs, arena, scene, std::array{ view }, {}, last);
-        EXPECT_EQ(packet.size, size);
-        EXPECT_EQ(packet.shownSize, view.shownSize);
+        EXPECT_EQ(packet.settings.size, size);
+        EXPECT_EQ(packet.settings.shownSize, view.shownSize);
         EXPECT_FALSE(packet.last.isElsewhere) << "the proportions are those of what is shown";
         const float2 jitter(packet.mainView().uniforms.jitter);
         EXPECT_EQ(jitter, 2.0f * packet.gathering.jitterPixels / float2(size));

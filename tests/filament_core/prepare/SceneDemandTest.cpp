@@ -11,10 +11,62 @@
 namespace filament::prepare {
 namespace {
 
-SceneDemand demandOf(ViewCounts const& counts) { return findDemand({ .counts = counts }); }
+/// What findDemand() reads, with the view as the user asks for it.
+struct DemandCase {
+    ViewCounts counts;
+    ShadowCounts shadows{};
+    bool hasIndirectLight = false, hasSky = false;
+    uint32_t deformed = 0, copiedPixels = 0, moved = 0;
+    bool cameraMoved = false;
+    Quality quality{};
+    Effects effects{};
+    float blurRadius = 0;
+    uint2 size{ 1, 1 }, shownSize{ 1, 1 };
+    uint32_t band = 0;
+    uint8_t samples = 1;
+    DebugView debugView = DebugView::None;
+    uint32_t cascades = 0, atlasSize = 0;
+    uint32_t discsInView = 0, discsOutOfView = 0;
+
+    FrameSettings settings() const {
+        return resolve({ .size = size + 2u * band,
+                         .shownSize = shownSize,
+                         .band = band,
+                         .samples = samples,
+                         .quality = quality,
+                         .effects = effects,
+                         .debugView = debugView });
+    }
+};
+
+SceneDemand demandFor(DemandCase const& of) {
+    return findDemand({ .counts = of.counts,
+                        .shadows = of.shadows,
+                        .hasIndirectLight = of.hasIndirectLight,
+                        .hasSky = of.hasSky,
+                        .deformed = of.deformed,
+                        .copiedPixels = of.copiedPixels,
+                        .moved = of.moved,
+                        .cameraMoved = of.cameraMoved,
+                        .blurRadius = of.blurRadius,
+                        .settings = of.settings(),
+                        .cascades = of.cascades,
+                        .atlasSize = of.atlasSize,
+                        .discsInView = of.discsInView,
+                        .discsOutOfView = of.discsOutOfView });
+}
+
+/// The pixels that a view of `size` draws.
+uint2 drawnSize(uint2 size, Resolution const& resolution, Quality const& quality, DebugView debugView) {
+    Effects effects;
+    effects.resolution = resolution;
+    return viewInput({ .size = size, .quality = quality, .debugView = debugView }, effects, 0).size;
+}
+
+SceneDemand demandOf(ViewCounts const& counts) { return demandFor({ .counts = counts }); }
 
 TEST(SceneDemand, OfAnEmptySceneIsNothing) {
-    const SceneDemand demand = findDemand({});
+    const SceneDemand demand = demandFor({});
     for (EffectDemand const& effect : demand.effects) {
         EXPECT_FALSE(effect.isNeeded);
     }
@@ -30,7 +82,7 @@ TEST(SceneDemand, OfAnEmptySceneIsNothing) {
 
 TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
     ShadowCounts shadows{ .isOn = true, .lights = 1, .receivers = 1, .maps = 3 };
-    const auto demand = [&] { return findDemand({ .shadows = shadows }).of(Effect::ColoredShadows); };
+    const auto demand = [&] { return demandFor({ .shadows = shadows }).of(Effect::ColoredShadows); };
     EXPECT_EQ(describe(Effect::ColoredShadows, demand()), "switched off: coloredShadows=off");
     shadows.isColorOn = true;
     EXPECT_FALSE(demand().isNeeded);
@@ -44,7 +96,7 @@ TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
 
 TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
     Fog fog{ .enabled = true };
-    const auto demand = [&] { return findDemand({ .effects = { .fog = fog } }).of(Effect::Fog); };
+    const auto demand = [&] { return demandFor({ .effects = { .fog = fog } }).of(Effect::Fog); };
     EXPECT_TRUE(demand().isNeeded);
     EXPECT_EQ(describe(Effect::Fog, demand()), "lies between the camera and what is visible");
     fog.maximumOpacity = 0;
@@ -77,9 +129,9 @@ TEST(SceneDemand, NeedsContactShadowsOnlyForLightsThatAskOverSurfacesThatReceive
 }
 
 TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) {
-    DemandInput input{ .counts = { .litDraws = 3, .opaqueDraws = 2, .opaqueLitDraws = 2 }, .hasIndirectLight = true };
+    DemandCase input{ .counts = { .litDraws = 3, .opaqueDraws = 2, .opaqueLitDraws = 2 }, .hasIndirectLight = true };
     const auto described = [&] {
-        const SceneDemand demand = findDemand(input);
+        const SceneDemand demand = demandFor(input);
         EXPECT_EQ(demand.needs(Effect::DepthPrepass), demand.needs(Effect::AmbientOcclusion));
         return describe(Effect::AmbientOcclusion, demand.of(Effect::AmbientOcclusion));
     };
@@ -87,7 +139,7 @@ TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) 
     input.effects.ambientOcclusion.enabled = true;
     input.effects.ambientOcclusion.method = AmbientOcclusionMethod::Sao;
     EXPECT_EQ(described(), "darkens indirect light of 2 draws");
-    EXPECT_TRUE(findDemand(input).needs(Effect::AmbientOcclusion));
+    EXPECT_TRUE(demandFor(input).needs(Effect::AmbientOcclusion));
     input.effects.ambientOcclusion.intensity = 0;
     EXPECT_EQ(described(), "its intensity is 0");
     input.effects.ambientOcclusion.intensity = 1;
@@ -96,7 +148,7 @@ TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) 
     input.hasIndirectLight = true;
     input.counts.opaqueLitDraws = 0; // what is lit blends
     EXPECT_EQ(described(), "no indirect light is seen");
-    EXPECT_FALSE(findDemand(input).needs(Effect::AmbientOcclusion));
+    EXPECT_FALSE(demandFor(input).needs(Effect::AmbientOcclusion));
     input.counts.opaqueDraws = 0;
     EXPECT_EQ(described(), "nothing opaque is visible");
 }
@@ -104,10 +156,10 @@ TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) 
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     ViewCounts counts{ .lights = 2, .suns = 1, .litDraws = 1 };
     const Effect lights[] = { Effect::Sun, Effect::LightList, Effect::IndirectLight };
-    SceneDemand demand = findDemand({ .counts = counts, .hasIndirectLight = true });
+    SceneDemand demand = demandFor({ .counts = counts, .hasIndirectLight = true });
     for (const Effect effect : lights) EXPECT_TRUE(demand.needs(effect)) << nameOf(effect);
     counts.litDraws = 0;
-    demand = findDemand({ .counts = counts, .hasIndirectLight = true });
+    demand = demandFor({ .counts = counts, .hasIndirectLight = true });
     for (const Effect effect : lights) {
         EXPECT_FALSE(demand.needs(effect)) << nameOf(effect);
         EXPECT_EQ(demand.of(effect).reason, DemandReason::NoLitSurface) << nameOf(effect);
@@ -135,12 +187,12 @@ TEST(SceneDemand, SaysWhichProfilesDoNotFit) {
 }
 
 TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
-    const DemandInput nothing{ .counts = { .litDraws = 1 } };
-    const auto changed = [&](DemandInput const& input) {
+    const DemandCase nothing{ .counts = { .litDraws = 1 } };
+    const auto changed = [&](DemandCase const& input) {
         std::vector<Effect> effects;
         for (size_t i = 0; i < kEffects; ++i) {
             const auto effect = static_cast<Effect>(i);
-            if (findDemand(input).of(effect) != findDemand(nothing).of(effect)) effects.push_back(effect);
+            if (demandFor(input).of(effect) != demandFor(nothing).of(effect)) effects.push_back(effect);
         }
         return effects;
     };
@@ -159,30 +211,30 @@ TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .deformed = 1 }), std::vector{ Effect::Deformation });
 }
 
-std::string words(Effect effect, DemandInput const& input) { return describe(effect, findDemand(input).of(effect)); }
+std::string words(Effect effect, DemandCase const& input) { return describe(effect, demandFor(input).of(effect)); }
 
 TEST(SceneDemand, NeedsAntiAliasingOnlyWhereThereIsSomethingToSmooth) {
-    DemandInput input{ .counts = { .visible = 3, .opaqueDraws = 1 } };
+    DemandCase input{ .counts = { .visible = 3, .opaqueDraws = 1 } };
     EXPECT_EQ(words(Effect::Taa, input), "switched off: antiAliasing");
     input.quality.antiAliasing = AntiAliasing::Taa;
     EXPECT_EQ(words(Effect::Taa, input), "smooths the edges of what is visible");
-    EXPECT_FALSE(findDemand(input).needs(Effect::Fxaa));
-    EXPECT_FALSE(findDemand(input).needs(Effect::DepthPrepass)) << "of a still camera";
+    EXPECT_FALSE(demandFor(input).needs(Effect::Fxaa));
+    EXPECT_FALSE(demandFor(input).needs(Effect::DepthPrepass)) << "of a still camera";
     input.cameraMoved = true;
-    EXPECT_TRUE(findDemand(input).needs(Effect::DepthPrepass));
+    EXPECT_TRUE(demandFor(input).needs(Effect::DepthPrepass));
     input.debugView = DebugView::Lights;
     EXPECT_EQ(words(Effect::Taa, input), "a debug view is shown");
     input = { .counts = {}, .hasSky = true };
     input.quality.antiAliasing = AntiAliasing::Fxaa;
     EXPECT_EQ(words(Effect::Fxaa, input), "no surface is visible");
     input.quality.antiAliasing = AntiAliasing::Taa;
-    EXPECT_TRUE(findDemand(input).needs(Effect::Taa)) << "a sky has details";
+    EXPECT_TRUE(demandFor(input).needs(Effect::Taa)) << "a sky has details";
     input.hasSky = false;
     EXPECT_EQ(words(Effect::Taa, input), "nothing is visible, not even a sky");
 }
 
 TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
-    DemandInput input;
+    DemandCase input;
     EXPECT_EQ(words(Effect::Grading, input), "switched off: grading=off");
     EXPECT_EQ(words(Effect::Vignette, input), "switched off: vignette=off");
     EXPECT_EQ(words(Effect::Grain, input), "switched off: grain=off");
@@ -205,7 +257,7 @@ TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
 }
 
 TEST(SceneDemand, NeedsALensFlareOnlyOfSomethingThatShines) {
-    DemandInput input{ .counts = { .visible = 1 } };
+    DemandCase input{ .counts = { .visible = 1 } };
     EXPECT_EQ(words(Effect::LensFlare, input), "switched off: lensFlare=off");
     LensFlare& flare = input.effects.lensFlare;
     flare.enabled = true;
@@ -227,7 +279,7 @@ TEST(SceneDemand, NeedsALensFlareOnlyOfSomethingThatShines) {
 }
 
 TEST(SceneDemand, SaysWhenDirtScattersLight) {
-    DemandInput input{ .counts = { .visible = 1 } };
+    DemandCase input{ .counts = { .visible = 1 } };
     input.effects.bloom.enabled = true;
     EXPECT_EQ(words(Effect::Bloom, input), "spreads light of what is visible");
     input.effects.bloom.dirt.bits = 1;
@@ -237,13 +289,13 @@ TEST(SceneDemand, SaysWhenDirtScattersLight) {
 }
 
 TEST(SceneDemand, NeedsUpscalingOnlyOfFewerPixels) {
-    DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
+    DemandCase input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
     EXPECT_EQ(words(Effect::Upscaling, input), "switched off: resolution.upscaling=off");
     for (const bool isGathered : { false, true }) {
         input.quality = {};
         if (isGathered) input.quality.antiAliasing = AntiAliasing::Taa;
         if (!isGathered) input.effects.resolution.upscaling = Upscaling::Bilinear;
-        EXPECT_TRUE(findDemand(input).needs(Effect::Upscaling));
+        EXPECT_TRUE(demandFor(input).needs(Effect::Upscaling));
         EXPECT_EQ(words(Effect::Upscaling, input), "200 x 150 pixels are drawn");
         input.debugView = DebugView::Lights;
         EXPECT_EQ(words(Effect::Upscaling, input), "a debug view is shown");
@@ -256,7 +308,7 @@ TEST(SceneDemand, NeedsUpscalingOnlyOfFewerPixels) {
 }
 
 TEST(SceneDemand, NeedsSharpeningOnlyOfSomething) {
-    DemandInput input;
+    DemandCase input;
     EXPECT_EQ(words(Effect::Sharpening, input), "switched off: sharpening=off");
     input.effects.sharpening.enabled = true;
     EXPECT_EQ(words(Effect::Sharpening, input), "nothing is visible, not even a sky");
@@ -267,28 +319,32 @@ TEST(SceneDemand, NeedsSharpeningOnlyOfSomething) {
 }
 
 TEST(SceneDemand, ResolvesSamplesByWhatTheyDisplayOnlyWhereThereAreEdges) {
-    DemandInput input{ .samples = 4 };
+    DemandCase input{ .samples = 4 };
     EXPECT_EQ(words(Effect::MsaaResolve, input), "switched off: msaaResolve=average");
     input.quality.msaaResolve = MsaaResolve::ToneAware;
     EXPECT_EQ(words(Effect::MsaaResolve, input), "no surface is visible");
     input.counts.visible = 1;
     EXPECT_EQ(words(Effect::MsaaResolve, input), "4 samples a pixel, weighted by what they display");
-    EXPECT_TRUE(findDemand(input).needs(Effect::MsaaResolve));
+    EXPECT_TRUE(demandFor(input).needs(Effect::MsaaResolve));
     input.samples = 1;
     EXPECT_EQ(words(Effect::MsaaResolve, input), "pixels have one sample");
 }
 
 TEST(SceneDemand, SharpensTexturesByTheShareOfPixelsThatFramesHave) {
-    DemandInput input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
+    DemandCase input{ .size = { 200, 150 }, .shownSize = { 400, 300 } };
+    const auto bias = [&](uint2 size, DebugView debugView) {
+        return resolve({ .size = size, .shownSize = { 400, 300 }, .quality = input.quality, .debugView = debugView })
+                .mipBias;
+    };
     EXPECT_EQ(words(Effect::MipBias, input), "no frames are gathered into more pixels than they have");
     input.quality.antiAliasing = AntiAliasing::Taa;
     EXPECT_EQ(words(Effect::MipBias, input), "textures are read 1.00 mip levels sharper");
-    EXPECT_EQ(mipBias(input.size, input.shownSize, input.quality, DebugView::None), -1);
-    EXPECT_EQ(mipBias({ 400, 150 }, { 400, 300 }, input.quality, DebugView::None), -0.5f) << "of the area";
-    EXPECT_EQ(mipBias({ 400, 300 }, { 400, 300 }, input.quality, DebugView::None), 0);
-    EXPECT_EQ(mipBias({ 200, 150 }, { 400, 300 }, input.quality, DebugView::Motion), 0);
+    EXPECT_EQ(bias(input.size, DebugView::None), -1);
+    EXPECT_EQ(bias({ 400, 150 }, DebugView::None), -0.5f) << "of the area";
+    EXPECT_EQ(bias({ 400, 300 }, DebugView::None), 0);
+    EXPECT_EQ(bias({ 200, 150 }, DebugView::Motion), 0);
     input.quality.mipBias = MipBias::Sharp;
-    EXPECT_EQ(mipBias({ 400, 300 }, { 400, 300 }, input.quality, DebugView::None), -1);
+    EXPECT_EQ(bias({ 400, 300 }, DebugView::None), -1);
     EXPECT_EQ(words(Effect::MipBias, input), "textures are read 2.00 mip levels sharper");
     input.quality.mipBias = MipBias::Off;
     EXPECT_EQ(words(Effect::MipBias, input), "switched off: mipBias=off");
@@ -297,18 +353,22 @@ TEST(SceneDemand, SharpensTexturesByTheShareOfPixelsThatFramesHave) {
 TEST(SceneDemand, DrawsAGuardBandOnlyWhereItIsCutOff) {
     Effects effects;
     Quality quality;
-    const uint2 size(200, 105);
-    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 0u);
+    const auto band = [&](DebugView debugView = DebugView::None) {
+        const View view{ .size = { 200, 105 }, .quality = quality, .debugView = debugView };
+        return viewInput(view, effects, 0).band;
+    };
+    EXPECT_EQ(band(), 0u);
     effects.guardBand.enabled = true;
-    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 11u) << "a tenth of the height, rounded up";
-    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::Fog), 0u);
+    EXPECT_EQ(band(), 11u) << "a tenth of the height, rounded up";
+    EXPECT_EQ(band(DebugView::Fog), 0u);
     quality.antiAliasing = AntiAliasing::Taa;
-    EXPECT_EQ(guardBand(size, size, effects, quality, DebugView::None), 11u);
-    EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 0u) << "gathering enlarges";
+    EXPECT_EQ(band(), 11u);
+    effects.resolution.scale = float2(0.5f);
+    EXPECT_EQ(band(), 0u) << "gathering enlarges";
     effects.resolution.upscaling = Upscaling::Bilinear;
-    EXPECT_EQ(guardBand({ 100, 53 }, size, effects, quality, DebugView::None), 6u);
+    EXPECT_EQ(band(), 6u);
 
-    DemandInput input;
+    DemandCase input;
     EXPECT_EQ(words(Effect::GuardBand, input), "switched off: guardBand=off");
     input.effects = effects;
     EXPECT_EQ(
@@ -371,20 +431,20 @@ TEST(SceneDemand, DrawsAShareOfThePixelsOnlyWhereSomethingEnlargesThem) {
 }
 
 TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
-    DemandInput input{ .counts = { .litDraws = 2 } };
+    DemandCase input{ .counts = { .litDraws = 2 } };
     EXPECT_EQ(words(Effect::Refraction, input), "nothing in view refracts the picture");
     input.counts.refractiveDraws = 2;
     input.copiedPixels = 4096;
     EXPECT_EQ(words(Effect::Refraction, input), "2 in view see the picture, of which 4096 pixels are copied");
-    EXPECT_TRUE(findDemand(input).needs(Effect::Refraction));
+    EXPECT_TRUE(demandFor(input).needs(Effect::Refraction));
     input.quality.refraction = RefractionSource::Environment;
     EXPECT_EQ(words(Effect::Refraction, input), "switched off: refraction=environment");
-    EXPECT_FALSE(findDemand(input).needs(Effect::Refraction));
+    EXPECT_FALSE(demandFor(input).needs(Effect::Refraction));
 }
 
 TEST(SceneDemand, ComposesInAnyOrderOnlyWhatMayOverlap) {
-    DemandInput input{ .counts = { .blendedDraws = 3, .anyOrderObjects = 2 } };
-    const auto needs = [&] { return findDemand(input).needs(Effect::Transparency); };
+    DemandCase input{ .counts = { .blendedDraws = 3, .anyOrderObjects = 2 } };
+    const auto needs = [&] { return demandFor(input).needs(Effect::Transparency); };
     EXPECT_EQ(words(Effect::Transparency, input), "switched off: transparency=sorted");
     input.quality.transparency = TransparencyOrder::Weighted;
     EXPECT_EQ(words(Effect::Transparency, input), "2 in view may overlap");
@@ -410,7 +470,7 @@ TEST(SceneDemand, ComposesInAnyOrderOnlyWhatMayOverlap) {
 
 TEST(SceneDemand, SaysWhatDebugViewsShow) {
     const ViewCounts lists{ .lights = 40, .froxels = 4096, .longestFroxel = 7, .litDraws = 1 };
-    DemandInput input{ .counts = lists, .debugView = DebugView::Cascades, .cascades = 3 };
+    DemandCase input{ .counts = lists, .debugView = DebugView::Cascades, .cascades = 3 };
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=cascades: 3 of the sun");
     input.cascades = 0;
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=cascades: none, the sun has no shadow map");
@@ -430,7 +490,7 @@ TEST(SceneDemand, SaysWhatDebugViewsShow) {
 }
 
 TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
-    DemandInput input{ .counts = { .visible = 1, .opaqueDraws = 1 }, .blurRadius = 3 };
+    DemandCase input{ .counts = { .visible = 1, .opaqueDraws = 1 }, .blurRadius = 3 };
     input.quality.antiAliasing = AntiAliasing::Taa;
     input.effects.depthOfField.enabled = input.effects.autoExposure.enabled = input.effects.bloom.enabled = true;
     const std::array shown{ std::pair(DebugView::CircleOfConfusion, Effect::DepthOfField),
@@ -439,7 +499,7 @@ TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
     const Resolution half{ .upscaling = Upscaling::Bilinear, .scale = float2(0.5f) };
     for (auto const& [view, ofView] : shown) {
         input.debugView = view;
-        const SceneDemand demand = findDemand(input);
+        const SceneDemand demand = demandFor(input);
         for (auto const& [other, effect] : shown) EXPECT_EQ(demand.needs(effect), effect == ofView) << nameOf(effect);
         EXPECT_FALSE(demand.needs(Effect::Bloom));
         EXPECT_EQ(words(Effect::DebugView, input), std::string("debugView=") + toString(view));
@@ -450,19 +510,19 @@ TEST(SceneDemand, RunsTheEffectThatADebugViewShows) {
 }
 
 TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
-    DemandInput input{ .counts = { .visible = 4,
-                                   .lights = 3,
-                                   .suns = 1,
-                                   .litDraws = 4,
-                                   .opaqueDraws = 4,
-                                   .opaqueLitDraws = 4,
-                                   .refractiveDraws = 1,
-                                   .reflectiveDraws = 1 },
-                       .shadows = { .isOn = true, .maps = 2 },
-                       .hasIndirectLight = true,
-                       .hasSky = true,
-                       .moved = 1,
-                       .discsInView = 1 };
+    DemandCase input{ .counts = { .visible = 4,
+                                  .lights = 3,
+                                  .suns = 1,
+                                  .litDraws = 4,
+                                  .opaqueDraws = 4,
+                                  .opaqueLitDraws = 4,
+                                  .refractiveDraws = 1,
+                                  .reflectiveDraws = 1 },
+                      .shadows = { .isOn = true, .maps = 2 },
+                      .hasIndirectLight = true,
+                      .hasSky = true,
+                      .moved = 1,
+                      .discsInView = 1 };
     input.effects.ambientOcclusion.enabled = true;
     input.quality.refraction = RefractionSource::Screen;
     input.effects.screenSpaceReflections.enabled = true;
@@ -472,7 +532,7 @@ TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
                           Effect::Refraction, Effect::Reflections, Effect::Motion };
     for (size_t i = 0; i < kDebugViewCount; ++i) {
         input.debugView = static_cast<DebugView>(i);
-        const SceneDemand demand = findDemand(input);
+        const SceneDemand demand = demandFor(input);
         const bool isLit = input.debugView < DebugView::BaseColor || input.debugView == DebugView::Wireframe;
         for (const Effect effect : lit) {
             EXPECT_EQ(demand.needs(effect), isLit) << toString(input.debugView) << ": " << nameOf(effect);
@@ -480,15 +540,16 @@ TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
         }
         EXPECT_EQ(demand.needs(Effect::DebugView), i > 0);
         EXPECT_EQ(demand.needs(Effect::DepthPrepass), isLit) << "nothing else reads depths";
-        const Quality drawn = drawnQuality(input.quality, input.debugView);
+        const Quality drawn = resolve({ .quality = input.quality, .debugView = input.debugView }).quality;
         EXPECT_EQ(drawn == input.quality, isLit) << toString(input.debugView);
         EXPECT_TRUE(isLit || drawn.shadows == ShadowFilter::Off);
-        EXPECT_EQ(drawnEffects(input.effects, input.debugView) == input.effects, isLit) << toString(input.debugView);
+        EXPECT_EQ(resolve({ .effects = input.effects, .debugView = input.debugView }).effects == input.effects, isLit)
+                << toString(input.debugView);
     }
     input.debugView = DebugView::Overdraw;
     EXPECT_EQ(words(Effect::DebugView, input), "debugView=overdraw");
     input.quality.depthPrepass = DepthPrepass::On;
-    EXPECT_TRUE(findDemand(input).needs(Effect::DepthPrepass)) << "so that it can be seen what it saves";
+    EXPECT_TRUE(demandFor(input).needs(Effect::DepthPrepass)) << "so that it can be seen what it saves";
 }
 
 TEST(SceneDemand, CountsTheDiscsOfSuns) {

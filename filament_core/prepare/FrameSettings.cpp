@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/FrameSettings.h"
+
+#include "base/Assert.h"
+#include "base/math/Elementary.h"
+#include "filament_core/prepare/DebugViews.h"
+#include "filament_core/values/ToneShader.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::prepare {
+namespace {
+
+bool gathersFrames(Quality const& quality, DebugView debugView) {
+    return quality.antiAliasing == AntiAliasing::Taa &&
+           (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
+}
+
+bool gathersLarger(Quality const& quality, Upscaling upscaling, DebugView debugView) {
+    return gathersFrames(quality, debugView) && upscaling == Upscaling::Off;
+}
+
+uint2 drawnSize(View const& view, Resolution const& resolution) {
+    const bool isEnlarged = resolution.upscaling != Upscaling::Off || gathersFrames(view.quality, view.debugView);
+    if (!isEnlarged || view.debugView != DebugView::None) return view.size;
+    return min(max(uint2(float2(view.size) * resolution.scale + 0.5f), 1u), view.size);
+}
+
+/// Gathering would have to cut the band off before it knows the image around it.
+uint32_t guardBand(View const& view, Effects const& effects, uint2 drawn) {
+    const bool isGatheredLarger =
+            drawn != view.size && gathersLarger(view.quality, effects.resolution.upscaling, view.debugView);
+    if (!effects.guardBand.enabled || view.debugView != DebugView::None || isGatheredLarger) return 0;
+    return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
+}
+
+DisplaySettings displayOf(ColorGrading const& unlimited) {
+    const ColorGrading grading = clamped(unlimited);
+    return { .toneMapper = shaderToneMapper(grading),
+             .outputSpace = shaderOutputSpace(grading),
+             .toneCurve = shaderToneCurve(grading.toneCurve),
+             .whiteShare = whiteShareOf(grading),
+             .halfWhiteLight = halfWhiteLight(grading),
+             .hasNumbers = grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb,
+             .dithers = grading.dither };
+}
+
+/// One layer that is peeled is what sorting draws.
+Quality drawnQuality(Quality const& quality, DebugView debugView) {
+    Quality drawn = quality;
+    const bool isPeeled = drawn.transparency == TransparencyOrder::Peeled;
+    if (isPeeled && drawn.transparencyLayers <= 1) drawn.transparency = TransparencyOrder::Sorted;
+    if (showsLight(debugView)) return drawn;
+    drawn.shadows = ShadowFilter::Off;
+    drawn.refraction = RefractionSource::Environment;
+    return drawn;
+}
+
+Effects drawnEffects(Effects const& effects, DebugView debugView) {
+    Effects drawn = effects;
+    if (showsLight(debugView)) return drawn;
+    drawn.ambientOcclusion.enabled = false;
+    drawn.screenSpaceReflections.enabled = false;
+    return drawn;
+}
+
+/// Frames that are gathered have more samples together than each has pixels: their textures may be as sharp as the
+/// image that they become.
+float mipBias(ViewInput const& view, bool gathers) {
+    if (view.quality.mipBias == MipBias::Off || !gathers) return 0;
+    const float2 scale = float2(view.inside()) / float2(view.shown());
+    const float sharper = view.quality.mipBias == MipBias::Sharp ? 1.0f : 0.0f;
+    return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
+}
+
+} // namespace
+
+ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents) {
+    const uint2 drawn = drawnSize(view, effects.resolution);
+    const uint32_t band = guardBand(view, effects, drawn);
+    return { .camera = view.camera,
+             .size = drawn + 2u * band,
+             .shownSize = view.size,
+             .band = band,
+             .samples = view.samples,
+             .timeSeconds = view.timeSeconds,
+             .materialGlobals = view.materialGlobals,
+             .quality = view.quality,
+             .effects = effects,
+             .display = displayOf(view.colorGrading),
+             .clearColor = view.clearColor,
+             .viewport = view.viewport,
+             .debugView = view.debugView,
+             .visibleLayers = view.visibleLayers,
+             .contents = contents };
+}
+
+FrameSettings resolve(ViewInput const& main) {
+    FILAMENT_ASSERT(main.samples == 1 || main.samples == 4, "a view has 1 or 4 samples a pixel");
+    const bool gathers = gathersFrames(main.quality, main.debugView), isImage = main.debugView == DebugView::None;
+    FrameSettings settings{
+        .quality = drawnQuality(main.quality, main.debugView),
+        .effects = drawnEffects(main.effects, main.debugView),
+        .display = main.display,
+        .debugView = main.debugView,
+        .size = main.size,
+        .shownSize = main.shown(),
+        .band = main.band,
+        .samples = isImage ? main.samples : uint8_t{ 1 },
+        .clearColor = main.clearColor,
+        .viewport = main.viewport,
+        .gathersFrames = gathers,
+        .gathersLarger = gathersLarger(main.quality, main.effects.resolution.upscaling, main.debugView),
+        .tracksMotion = gathers || main.debugView == DebugView::Motion || (main.effects.motionBlur.enabled && isImage),
+        .mipBias = mipBias(main, gathers)
+    };
+    settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
+    return settings;
+}
+
+} // namespace filament::prepare

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FrameSettings: a View resolved once a frame: options within their ranges, the debug view applied, and what follows
+/// from several options together. Preparing a frame and its passes read this and nothing else of the View.
+///   In      viewInput(): a View, before anything is known of its scene. resolve(): what became of it.
+///   Thread  any; pure functions of plain values.   Memory: none.   Fails: never.
+#pragma once
+
+#include "filament_core/prepare/ViewCounts.h"
+#include "filament_core/prepare/ViewInput.h"
+
+namespace filament::prepare {
+
+struct FrameSettings {
+    Quality quality{};         ///< without choices that only matter where surfaces are lit, if they are not
+    Effects effects{};         ///< within their ranges; those that light surfaces are off where nothing is lit
+    DisplaySettings display{}; ///< of View::colorGrading
+    DebugView debugView = DebugView::None;
+    uint2 size{ 1, 1 };      ///< pixels that are drawn
+    uint2 shownSize{ 1, 1 }; ///< of the image that is made of them
+    uint32_t band = 0;       ///< of `size`, on each side, that the image does not show
+    uint8_t samples = 1;     ///< a pixel; 1 for debug views, which read depths
+    float4 clearColor{ 0, 0, 0, 1 };
+    std::optional<Viewport> viewport{};
+    bool gathersFrames = false;    ///< the image is gathered over frames, if there is anything in it
+    bool gathersLarger = false;    ///< and gathering, not a filter, makes it as large as it is shown
+    bool composesAnyOrder = false; ///< what blends, if it may overlap
+    bool tracksMotion = false;     ///< an effect of the image looks at the last one, so that it matters what moved
+    float mipBias = 0;             ///< of materials' textures, in levels, at most 0
+
+    uint2 insideSize() const { return size - 2u * band; } ///< pixels of the image that are drawn
+    /// Whether gathering makes the image larger than it is drawn.
+    bool isEnlargedByGathering() const { return gathersLarger && insideSize() != shownSize; }
+    /// Whether it matters what moved since the last frame: to an effect of the image, or to a surface that reflects it.
+    bool readsMotion(ViewCounts const& counts) const {
+        return tracksMotion || (effects.screenSpaceReflections.enabled && counts.reflectiveDraws > 0);
+    }
+    bool isTranslucent() const { return viewport && viewport->blending == ViewBlending::Translucent; }
+
+    friend bool operator==(FrameSettings const&, FrameSettings const&) = default;
+};
+
+/// `effects`: those of the view, within their ranges, with the share of its pixels that there is time for. `contents`:
+/// see ViewInput.
+ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents);
+
+FrameSettings resolve(ViewInput const& main);
+
+} // namespace filament::prepare
