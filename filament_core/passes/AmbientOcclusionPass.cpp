@@ -226,12 +226,12 @@ void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, Fra
     const OcclusionSource from{ context, targets.prepassDepth, gridOf(occlusion.resolution, context.settings().size),
                                 occlusion.bentNormals };
     const bool isUpsampled = from.grid.code != 0;
-    targets.occlusion = addPoints(graph, from, !occlusion.blur && !isUpsampled);
+    targets.ambientOcclusion = addPoints(graph, from, !occlusion.blur && !isUpsampled);
     if (occlusion.blur) {
-        targets.occlusion = addBlur(graph, from, targets.occlusion, true, false);
-        targets.occlusion = addBlur(graph, from, targets.occlusion, false, !isUpsampled);
+        targets.ambientOcclusion = addBlur(graph, from, targets.ambientOcclusion, true, false);
+        targets.ambientOcclusion = addBlur(graph, from, targets.ambientOcclusion, false, !isUpsampled);
     }
-    if (isUpsampled) targets.occlusion = addUpsample(graph, from, targets.occlusion);
+    if (isUpsampled) targets.ambientOcclusion = addUpsample(graph, from, targets.ambientOcclusion);
 }
 
 } // namespace filament::passes

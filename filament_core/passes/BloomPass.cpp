@@ -99,7 +99,7 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     for (uint8_t level = 0; level < levels; ++level) addDown(graph, context, targets.color, spread, level);
     for (int level = levels - 2; level >= 0; --level)
         addUp(graph, context, spread, static_cast<uint8_t>(level), levels);
-    targets.spread = spread;
+    targets.bloom = spread;
 }
 
 } // namespace filament::passes

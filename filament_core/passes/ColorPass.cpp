@@ -4,8 +4,8 @@
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
-#include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/ResolvePass.h"
+#include "filament_core/passes/SceneColorCopyPass.h"
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -135,9 +135,9 @@ void recordScene(PassContext& pass, FrameContext const& context, Chosen const& c
 /// What the parts of the view are drawn to.
 struct ColorAttachments {
     TextureId color, samples, depth;
-    TextureId depthOfPicture{}; ///< the depth with one sample a pixel, if the picture is copied
-    bool hasDepth = false;      ///< the prepass left it
-    bool isWeighted = false;    ///< a pass of its own resolves the last samples
+    TextureId sceneDepth{};  ///< the depth with one sample a pixel, if the picture is copied
+    bool hasDepth = false;   ///< the prepass left it
+    bool isWeighted = false; ///< a pass of its own resolves the last samples
 };
 
 ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
@@ -146,8 +146,8 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
                            .isWeighted = context.packet.demand.needs(prepare::Effect::MsaaResolve) };
     const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
     const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
-    made.hasDepth =
-            targets.depth && samples == 1 && !hasStencil && context.settings().quality.depthPrepass != DepthPrepass::Off;
+    made.hasDepth = targets.depth && samples == 1 && !hasStencil &&
+                    context.settings().quality.depthPrepass != DepthPrepass::Off;
     made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, depth, samples, "depth");
     made.samples = samples == 1
                            ? made.color
@@ -155,8 +155,7 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
     const bool isPeeled = !context.packet.mainView().anyOrder.empty() &&
                           context.settings().quality.transparency == TransparencyOrder::Peeled;
     if (context.packet.demand.needs(prepare::Effect::Refraction) || context.keepsDepth || isPeeled)
-        made.depthOfPicture =
-                samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
+        made.sceneDepth = samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
     return made;
 }
 
@@ -170,7 +169,7 @@ void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachm
     framegraph::DepthTarget depth;
     if (part.isFirst && !to.hasDepth) depth.clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
     const bool isRead = !part.isLast || context.keepsDepth;
-    if (isRead && settings.samples > 1) depth.resolve = to.depthOfPicture;
+    if (isRead && settings.samples > 1) depth.resolve = to.sceneDepth;
     pass.writeDepth(to.depth, depth);
 }
 
@@ -188,8 +187,8 @@ void addPart(FrameGraph& graph, FrameContext const& context, ColorAttachments co
 
 PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets) {
     PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
-                           .occlusion = targets.occlusion,
-                           .sceneDepth = targets.distances };
+                           .occlusion = targets.ambientOcclusion,
+                           .linearDepth = targets.linearDepth };
     textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
     return textures;
 }
@@ -197,8 +196,8 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
 void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target,
                  prepare::PictureCopy const& copy, TextureId texture, ColorBlocks& blocks) {
     blocks.target = declareTargetBeforePicture(context, target, context.settings().samples, copy);
-    blocks.textures.picture = texture;
-    blocks.textures.pictureLevels = copy.levels;
+    blocks.textures.sceneColor = texture;
+    blocks.textures.sceneColorLevels = copy.levels;
 }
 
 /// The same part without what follows its first draws.
@@ -220,7 +219,7 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
     const TransparencyTargets targets{ .color = to.color,
                                        .samples = to.samples,
                                        .depth = to.depth,
-                                       .solidDepth = to.depthOfPicture,
+                                       .sceneDepth = to.sceneDepth,
                                        .target = blocks.target,
                                        .textures = blocks.textures };
     if (context.settings().quality.transparency == TransparencyOrder::Weighted) {
@@ -247,11 +246,11 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const uint8_t samples = context.settings().samples;
     ColorBlocks blocks{ .textures = texturesOf(context, targets) };
     blocks.target = declareTarget(context, like, 0, samples);
-    if (targets.picture) showPicture(context, like, wholePicture(context), targets.picture, blocks);
+    if (targets.sceneColor) showPicture(context, like, wholeSceneColor(context), targets.sceneColor, blocks);
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
     targets.depth = to.depth;
-    targets.solidDepth = to.depthOfPicture;
+    targets.sceneDepth = to.sceneDepth;
     prepare::ViewPacket const& view = context.packet.mainView();
     const auto add = [&](std::string_view name) {
         if (blocks.part.isLast && !view.anyOrder.empty())
@@ -262,8 +261,8 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     blocks.part = partOf(view, 0);
     add("color");
     for (size_t i = 0; i < view.pictures.size(); ++i) {
-        targets.picture = addPicturePasses(graph, context, to.color, to.depthOfPicture, view.pictures[i]);
-        showPicture(context, like, view.pictures[i], targets.picture, blocks);
+        targets.sceneColor = addSceneColorCopyPasses(graph, context, to.color, to.sceneDepth, view.pictures[i]);
+        showPicture(context, like, view.pictures[i], targets.sceneColor, blocks);
         blocks.part = partOf(view, i + 1);
         add("refraction");
     }

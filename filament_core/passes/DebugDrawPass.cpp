@@ -75,15 +75,16 @@ void addDebugDrawPass(FrameGraph& graph, FrameContext const& context, FrameTarge
     const PassBlock target = declareTarget(context, graph.texture(targets.output).desc);
     // An enlarged picture has no depth of its own size: nothing is hidden then.
     const bool isTested =
-            context.debugDraw.quads.tested > 0 && sizeOf(graph, targets.solidDepth) == sizeOf(graph, targets.output);
+            context.debugDraw.quads.tested > 0 && sizeOf(graph, targets.sceneDepth) == sizeOf(graph, targets.output);
     graph.addPass(
             "debug draw",
             [&](PassBuilder& pass) {
                 pass.writeColor(0, targets.output);
-                if (isTested) pass.testDepth(targets.solidDepth);
+                if (isTested) pass.testDepth(targets.sceneDepth);
             },
             [of = &context, target](PassContext& pass) {
-                return chooseDraws(pass, *of, debugSlot(pass, of->settings().quality.depthRange), target, debugDraws(*of));
+                return chooseDraws(pass, *of, debugSlot(pass, of->settings().quality.depthRange), target,
+                                   debugDraws(*of));
             },
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDebugDraw(pass, *of, chosen); });
 }

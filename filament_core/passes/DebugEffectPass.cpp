@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/DebugEffectPass.h"
 
-#include "filament_core/passes/FinishPass.h"
 #include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/PostProcessPass.h"
 
 #include <array>
 
@@ -54,8 +54,8 @@ void addFocusView(FrameGraph& graph, FrameContext const& context, FrameTargets c
 }
 
 void addHistoryView(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isEncoded) {
-    const std::array inputs{ FullScreenInput{ .name = "shares", .texture = targets.historyShare } };
-    const std::array constants{ EffectConstant{ "hasShares", static_cast<bool>(targets.historyShare) },
+    const std::array inputs{ FullScreenInput{ .name = "shares", .texture = targets.historyWeight } };
+    const std::array constants{ EffectConstant{ "hasShares", static_cast<bool>(targets.historyWeight) },
                                 EffectConstant{ "isEncoded", isEncoded } };
     addFullScreenPass(graph, context,
                       { .name = "debug view",
@@ -113,7 +113,7 @@ void addNumericsView(FrameGraph& graph, FrameContext const& context, FrameTarget
     shown.output = TextureId{};
     if (isEncoded) {
         shown.output = createLike(graph, targets.color, backend::Format::RGBA8, 1, "shown");
-        addFinishPasses(graph, context, shown, false);
+        addPostProcessPasses(graph, context, shown, false);
     }
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
                              FullScreenInput{ .name = "shown", .texture = shown.output } };

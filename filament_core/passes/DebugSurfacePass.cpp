@@ -50,7 +50,8 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, DebugSurfaces c
             [&](PassBuilder& pass) {
                 pass.writeColor(0, to.color, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
                 framegraph::DepthTarget depth;
-                if (!to.keepsDepth) depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+                if (!to.keepsDepth)
+                    depth.clear = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
                 pass.writeDepth(to.depth, depth);
             },
             [of = &context, debug = to.debug, target](PassContext& pass) {
@@ -66,7 +67,7 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
     const bool hasDepth = targets.depth && !hasStencil;
     if (!hasDepth)
         targets.depth = createLike(graph, targets.color, hasStencil ? Format::D32FS8 : Format::D32F, 1, "depth");
-    targets.solidDepth = targets.depth;
+    targets.sceneDepth = targets.depth;
     const bool counts = prepare::countsSurfaces(context.settings().debugView);
     addSurfaces(graph, context,
                 { .name = "debug surfaces",
@@ -78,12 +79,12 @@ void addDebugSurfacePass(FrameGraph& graph, FrameContext const& context, FrameTa
 
 void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.resources.edges) { // the depths alone, for who reads them
-        if (!targets.solidDepth && context.keepsDepth) addDebugSurfacePass(graph, context, targets);
+        if (!targets.sceneDepth && context.keepsDepth) addDebugSurfacePass(graph, context, targets);
         return;
     }
     targets.triangles = createLike(graph, targets.color, Format::RGBA16F, 1, "triangles");
     const TextureId depth = createLike(graph, targets.color, Format::D32F, 1, "depth of triangles");
-    if (!targets.solidDepth) targets.solidDepth = depth;
+    if (!targets.sceneDepth) targets.sceneDepth = depth;
     addSurfaces(graph, context,
                 { .name = "triangles", .debug = DebugSlot::Edges, .color = targets.triangles, .depth = depth });
 }

@@ -43,10 +43,10 @@ BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, Frame
               .texture = pass.texture(targets.depth),
               .sampler = nearest },
             { .binding = package.findParameter("occlusion")->binding,
-              .texture = targets.occlusion ? pass.texture(targets.occlusion) : context.resources.white,
+              .texture = targets.ambientOcclusion ? pass.texture(targets.ambientOcclusion) : context.resources.white,
               .sampler = nearest },
             { .binding = package.findParameter("motion")->binding,
-              .texture = targets.motion ? pass.texture(targets.motion) : context.resources.white,
+              .texture = targets.motionVectors ? pass.texture(targets.motionVectors) : context.resources.white,
               .sampler = nearest },
     } };
     return pass.bindGroup(package.layout[shader::kGroupMaterial], entries, package.name);
@@ -71,8 +71,8 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 pass.readSampled(targets.color);
                 pass.readSampled(targets.depth);
                 if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
-                if (targets.occlusion) pass.readSampled(targets.occlusion);
-                if (targets.motion) pass.readSampled(targets.motion);
+                if (targets.ambientOcclusion) pass.readSampled(targets.ambientOcclusion);
+                if (targets.motionVectors) pass.readSampled(targets.motionVectors);
                 pass.writeColor(0, targets.output, { .overwrites = true });
             },
             [of = &context, inputs](PassContext& pass) { return choose(pass, *of, inputs); },

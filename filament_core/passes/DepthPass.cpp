@@ -56,15 +56,15 @@ void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const uint2 size = context.settings().size;
     const bool isMarched = context.packet.demand.needs(prepare::Effect::Reflections);
     const uint8_t levels = isMarched ? pyramidLevels(size) : uint8_t{ 1 };
-    targets.distances = graph.createTexture(
+    targets.linearDepth = graph.createTexture(
             { .width = size.x, .height = size.y, .format = Format::R32F, .levels = levels, .name = "distances" });
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
     addFullScreenPass(graph, context,
                       { .name = "distances",
                         .material = context.resources.effects->get("scene_distance", {}, kDistance),
                         .inputs = inputs,
-                        .target = targets.distances });
-    for (uint8_t level = 1; level < levels; ++level) addPyramidLevel(graph, context, level, targets.distances);
+                        .target = targets.linearDepth });
+    for (uint8_t level = 1; level < levels; ++level) addPyramidLevel(graph, context, level, targets.linearDepth);
 }
 
 } // namespace
@@ -92,7 +92,8 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     graph.addPass(
             "depth",
             [&](PassBuilder& pass) {
-                pass.writeDepth(targets.depth, { .clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
+                pass.writeDepth(targets.depth,
+                                { .clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
                 return chooseDepths(pass, *of, target);

@@ -8,18 +8,18 @@
 #include "filament_core/passes/DebugEffectPass.h"
 #include "filament_core/passes/DebugSurfacePass.h"
 #include "filament_core/passes/DebugViewPass.h"
+#include "filament_core/passes/DepthOfFieldPass.h"
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
-#include "filament_core/passes/FinishPass.h"
 #include "filament_core/passes/FlarePass.h"
-#include "filament_core/passes/FocusPass.h"
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
-#include "filament_core/passes/PicturePass.h"
-#include "filament_core/passes/PlacePass.h"
+#include "filament_core/passes/PostProcessPass.h"
+#include "filament_core/passes/SceneColorCopyPass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/TargetMips.h"
 #include "filament_core/passes/TemporalPass.h"
+#include "filament_core/passes/ViewportBlitPass.h"
 #include "filament_core/prepare/DebugViews.h"
 
 namespace filament::passes {
@@ -66,7 +66,7 @@ bool showsDecisions(FrameContext const& context) { return context.packet.demand.
 FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     const uint2 size = context.settings().size;
     FrameTargets targets;
-    beginPlace(graph, context, output, targets);
+    beginViewportBlit(graph, context, output, targets);
     const bool isFull =
             context.settings().debugView == DebugView::Numerics; // what half floats do not hold is to be seen
     const bool isFinished = output.isSceneLinear() && !showsDecisions(context) && !context.packet.demand.changesColor();
@@ -87,7 +87,7 @@ void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTarge
     if (prepare::showsLight(shown)) {
         addMotionPass(graph, context, targets);
         addAmbientOcclusionPass(graph, context, targets);
-        addReflectedPicture(graph, context, targets);
+        addReflectedSceneColor(graph, context, targets);
         addColorPass(graph, context, targets);
     }
     if (prepare::showsEdges(shown)) addTrianglePass(graph, context, targets);
@@ -113,12 +113,12 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
             isEnlargedByGathering(context); // depth of field and reflections have as many pixels as the depths
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color;
-    addFocusPasses(graph, context, targets);
+    addDepthOfFieldPasses(graph, context, targets);
     addMotionBlurPasses(graph, context, targets);
     if (isEnlarged) addTemporalPass(graph, context, targets);
     if (context.settings().band > 0) {
         addBloomPasses(graph, context, targets); // of what lies beside the picture, too
-        addCutPass(graph, context, targets);
+        addGuardBandCutPass(graph, context, targets);
     }
     addExposurePasses(graph, context, targets);
     if (context.settings().band == 0) addBloomPasses(graph, context, targets);
@@ -128,12 +128,12 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     else if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else
-        addFinishPasses(graph, context, targets, output.isSceneLinear());
+        addPostProcessPasses(graph, context, targets, output.isSceneLinear());
     addDebugDrawPass(graph, context, targets);
-    addPlacePass(graph, context, output, targets);
+    addViewportBlitPass(graph, context, output, targets);
     addTargetMips(graph, context, output, targets);
     addTargetDepth(graph, context, output, targets);
-    keepPicture(graph, context, targets, light); // last: the tone mapper merges with the colour pass
+    keepSceneColor(graph, context, targets, light); // last: the tone mapper merges with the colour pass
     return targets;
 }
 

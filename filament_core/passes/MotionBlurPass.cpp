@@ -61,7 +61,7 @@ private:
 
     void addWays(TextureId target) {
         const std::array inputs{ FullScreenInput{ .name = "depth", .texture = mTargets.prepassDepth },
-                                 FullScreenInput{ .name = "motion", .texture = mTargets.motion } };
+                                 FullScreenInput{ .name = "motion", .texture = mTargets.motionVectors } };
         const float share = effect().shutterDegrees / 360;
         float4x4 const& clip = mContext.packet.mainView().uniforms.clipFromView;
         const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(mContext, double2(1)) },
@@ -73,7 +73,7 @@ private:
                                  FullScreenValue{ "most", mMost } };
         const std::array constants{ EffectConstant{ "isElsewhere", mContext.packet.last.isElsewhere },
                                     EffectConstant{ "hasDepth", static_cast<bool>(mTargets.prepassDepth) },
-                                    EffectConstant{ "hasMotion", static_cast<bool>(mTargets.motion) },
+                                    EffectConstant{ "hasMotion", static_cast<bool>(mTargets.motionVectors) },
                                     EffectConstant{ "isParallel", isParallel(clip) } };
         addFullScreenPass(mGraph, mContext,
                           { .name = "ways",

@@ -41,11 +41,11 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
     const framegraph::GraphTextureDesc desc{
         .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "motion"
     };
-    targets.motion = graph.createTexture(desc);
+    targets.motionVectors = graph.createTexture(desc);
     graph.addPass(
             "motion",
             [&](PassBuilder& pass) {
-                pass.writeColor(0, targets.motion, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
+                pass.writeColor(0, targets.motionVectors, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
                 pass.writeDepth(targets.prepassDepth, {});
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {

@@ -74,9 +74,9 @@ PassShadows declareShadows(FrameContext const& context, framegraph::TextureId ma
 }
 
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
-    for (const framegraph::TextureId read : { textures.shadows.maps, textures.occlusion, textures.sceneDepth })
+    for (const framegraph::TextureId read : { textures.shadows.maps, textures.occlusion, textures.linearDepth })
         if (read) pass.readSampled(read);
-    if (textures.picture) pass.readSampled(textures.picture, { .levelCount = textures.pictureLevels });
+    if (textures.sceneColor) pass.readSampled(textures.sceneColor, { .levelCount = textures.sceneColorLevels });
 }
 
 namespace {
@@ -104,13 +104,13 @@ std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameCo
               .texture = orWhite(textures.occlusion),
               .sampler = samplers.nearest },
             { .binding = shader::kBindingSceneDepth,
-              .texture = orWhite(textures.sceneDepth),
+              .texture = orWhite(textures.linearDepth),
               .sampler = samplers.nearestOfLevels },
             { .binding = shader::kBindingFog, .texture = light.specular, .sampler = samplers.trilinear },
             { .binding = shader::kBindingPicture,
-              .texture = orWhite(textures.picture),
+              .texture = orWhite(textures.sceneColor),
               .sampler = samplers.trilinear,
-              .range = { .levelCount = textures.pictureLevels } },
+              .range = { .levelCount = textures.sceneColorLevels } },
     } };
 }
 

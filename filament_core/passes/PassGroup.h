@@ -40,10 +40,10 @@ PassShadows declareShadows(FrameContext const& context, framegraph::TextureId ma
 /// instead.
 struct PassTextures {
     PassShadows shadows{};
-    framegraph::TextureId occlusion{};  ///< FrameTargets::occlusion
-    framegraph::TextureId sceneDepth{}; ///< FrameTargets::distances
-    framegraph::TextureId picture{};    ///< FrameTargets::picture
-    uint8_t pictureLevels = 0;          ///< of it: those that are drawn
+    framegraph::TextureId occlusion{};   ///< FrameTargets::ambientOcclusion
+    framegraph::TextureId linearDepth{}; ///< FrameTargets::linearDepth
+    framegraph::TextureId sceneColor{};  ///< FrameTargets::sceneColor
+    uint8_t sceneColorLevels = 0;        ///< of `sceneColor`: those that are drawn
 };
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures);
 

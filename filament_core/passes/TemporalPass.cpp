@@ -36,14 +36,14 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                                               .texture = history.previous,
                                               .sampler = context.resources.samplers.bilinear },
                              FullScreenInput{ .name = "depth", .texture = targets.prepassDepth },
-                             FullScreenInput{ .name = "motion", .texture = targets.motion } };
+                             FullScreenInput{ .name = "motion", .texture = targets.motionVectors } };
     const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, double2(1)) },
                              FullScreenValue{ "perPixel", 1.0f / float2(size) },
                              FullScreenValue{ "jitter", context.packet.gathering.jitterPixels },
                              FullScreenValue{ "weight", context.packet.gathering.weight },
                              FullScreenValue{ "ramp", context.packet.gathering.ramp },
                              FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) } };
-    const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motion);
+    const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motionVectors);
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
     const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
                                 EffectConstant{ "hasDepth", hasDepth },
@@ -63,9 +63,9 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
     };
     add("taa", false, history.current);
     if (context.settings().debugView == DebugView::HistoryWeight) {
-        targets.historyShare = graph.createTexture(
+        targets.historyWeight = graph.createTexture(
                 { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "history share" });
-        add("taa shares", true, targets.historyShare);
+        add("taa shares", true, targets.historyWeight);
     }
     targets.color = history.current;
 }

@@ -116,7 +116,7 @@ PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, Trans
         with.textures.occlusion = layers.depth;
         addSurfaces(graph, context, "layer", with, shader::kTransparencyLayer, [&](PassBuilder& pass) {
             pass.writeColor(0, layers.light);
-            pass.testDepth(targets.solidDepth);
+            pass.testDepth(targets.sceneDepth);
         });
     }
     return layers;

@@ -20,7 +20,7 @@ struct TransparencyTargets {
     framegraph::TextureId color;      ///< the picture, one sample a pixel
     framegraph::TextureId samples;    ///< what is drawn to; `color` itself, if the view has one sample a pixel
     framegraph::TextureId depth;      ///< with as many samples
-    framegraph::TextureId solidDepth; ///< with one sample a pixel; read by peeling
+    framegraph::TextureId sceneDepth; ///< with one sample a pixel; read by peeling
     PassBlock target;
     PassTextures textures;
 };

@@ -58,9 +58,9 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed, packet.last.isReflected);
-    hash = hashValues(hash, packet.settings.size, packet.settings.shownSize,
-                      packet.settings.band, packet.covered, packet.gathering.jitterPixels,
-                      packet.gathering.weight, packet.gathering.ramp, packet.focus, packet.last.secondsSince);
+    hash = hashValues(hash, packet.settings.size, packet.settings.shownSize, packet.settings.band, packet.covered,
+                      packet.gathering.jitterPixels, packet.gathering.weight, packet.gathering.ramp, packet.focus,
+                      packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

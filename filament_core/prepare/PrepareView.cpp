@@ -147,7 +147,8 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (!packet.lights.empty() && packet.counts.profiledLights > 0)
         placeProfiles(arena, lights, prepared.lightRecords, packet);
     packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
-    packet.objects = { order, renderables.placement, settings.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
+    packet.objects = { order, renderables.placement,
+                       settings.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     return prepared;
 }
 

@@ -88,7 +88,7 @@ struct DemandInput {
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     bool cameraMoved = false;
-    float blurRadius = 0;      ///< in pixels: the largest of what is visible, of the lens
+    float blurRadius = 0; ///< in pixels: the largest of what is visible, of the lens
     FrameSettings settings{};
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs

@@ -55,8 +55,8 @@ struct ViewInput {
     float4 clearColor{ 0, 0, 0, 1 };
     std::optional<Viewport> viewport{};
     DebugView debugView = DebugView::None;
-    Layers visibleLayers = kAllLayers;     ///< of renderables
-    uint64_t contents = 0;                 ///< another number whenever the app changed the scene or a material
+    Layers visibleLayers = kAllLayers; ///< of renderables
+    uint64_t contents = 0;             ///< another number whenever the app changed the scene or a material
 
     uint2 inside() const { return size - 2u * band; } ///< pixels of the picture that are drawn
     uint2 shown() const { return shownSize.x > 0 ? shownSize : inside(); }

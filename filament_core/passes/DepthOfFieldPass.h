@@ -11,6 +11,6 @@
 
 namespace filament::passes {
 
-void addFocusPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+void addDepthOfFieldPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 } // namespace filament::passes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/passes/FocusPass.h"
+#include "filament_core/passes/DepthOfFieldPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
 
@@ -129,7 +129,7 @@ private:
 
 } // namespace
 
-void addFocusPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+void addDepthOfFieldPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::DepthOfField)) return;
     targets.color = FocusPasses(graph, context, targets).add();
 }

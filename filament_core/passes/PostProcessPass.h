@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Finish passes: the last ones of a picture: from scene-linear light to what the output stores.
+/// Post-processing: the last passes of an image, from scene-linear light to what the output stores.
 ///   What    fringes of the lens, vignette, grading, tone mapper, grain and dither in one pass; after it FXAA (Lottes
 ///           2009), an upscaler and sharpening (ResolutionPass.h); the last one has the grain and the dither. A view
 ///           that asks for a tone mapper alone gets a pass without the rest.
@@ -15,7 +15,7 @@
 
 namespace filament::passes {
 
-void addFinishPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
-                     bool isSceneLinear);
+void addPostProcessPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
+                          bool isSceneLinear);
 
 } // namespace filament::passes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/passes/PicturePass.h"
+#include "filament_core/passes/SceneColorCopyPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/Reprojection.h"
@@ -68,12 +68,12 @@ void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets
                              FullScreenValue{ "along", float4(double4(-view[0].z, -view[1].z, -view[2].z, 0) * world) },
                              FullScreenValue{ "perTexel", float2(perTexel) }, FullScreenValue{ "end", float2(end) } };
     const std::array inputs{ FullScreenInput{ .name = "last",
-                                              .texture = targets.lastPicture.previous,
+                                              .texture = targets.sceneColorHistory.previous,
                                               .sampler = context.resources.samplers.bilinear },
                              FullScreenInput{ .name = "depth", .texture = targets.prepassDepth },
-                             FullScreenInput{ .name = "motion", .texture = targets.motion } };
-    const EffectConstant constants[] = { { "isElsewhere", last.isElsewhere || targets.motion },
-                                         { "hasMotion", static_cast<bool>(targets.motion) } };
+                             FullScreenInput{ .name = "motion", .texture = targets.motionVectors } };
+    const EffectConstant constants[] = { { "isElsewhere", last.isElsewhere || targets.motionVectors },
+                                         { "hasMotion", static_cast<bool>(targets.motionVectors) } };
     addFullScreenPass(graph, context,
                       { .name = "reprojection",
                         .material = context.resources.effects->get("picture_reprojection", constants, kReprojection),
@@ -121,31 +121,33 @@ void addBlurredLevels(FrameGraph& graph, FrameContext const& context, PictureCop
 
 } // namespace
 
-PictureCopy wholePicture(FrameContext const& context) {
+PictureCopy wholeSceneColor(FrameContext const& context) {
     const uint2 size = context.settings().size;
     return prepare::copyAround({ float2(0.0f), float2(size) }, size);
 }
 
-TextureId addPicturePasses(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId depth,
-                           PictureCopy const& copy) {
+TextureId addSceneColorCopyPasses(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId depth,
+                                  PictureCopy const& copy) {
     const TextureId picture = createPicture(graph, context);
     addCopy(graph, context, { color, depth }, copy, picture);
     addBlurredLevels(graph, context, copy, picture);
     return picture;
 }
 
-void addReflectedPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+void addReflectedSceneColor(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Reflections)) return;
-    targets.lastPicture = graph.history(pictureDesc(context, 1, "last picture"), {}, !context.packet.last.isReflected);
-    if (!targets.lastPicture.previous) return;
-    targets.picture = createPicture(graph, context);
-    addReprojected(graph, context, targets, targets.picture);
-    addBlurredLevels(graph, context, wholePicture(context), targets.picture);
+    targets.sceneColorHistory =
+            graph.history(pictureDesc(context, 1, "last picture"), {}, !context.packet.last.isReflected);
+    if (!targets.sceneColorHistory.previous) return;
+    targets.sceneColor = createPicture(graph, context);
+    addReprojected(graph, context, targets, targets.sceneColor);
+    addBlurredLevels(graph, context, wholeSceneColor(context), targets.sceneColor);
 }
 
-void keepPicture(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId color) {
-    if (!targets.lastPicture.current) return;
-    addCopy(graph, context, { color, targets.prepassDepth }, wholePicture(context), targets.lastPicture.current);
+void keepSceneColor(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId color) {
+    if (!targets.sceneColorHistory.current) return;
+    addCopy(graph, context, { color, targets.prepassDepth }, wholeSceneColor(context),
+            targets.sceneColorHistory.current);
 }
 
 } // namespace filament::passes

@@ -11,15 +11,15 @@
 namespace filament::passes {
 
 /// Imports what the user asked for, and makes the picture of the view if it has a place of its own.
-void beginPlace(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
-                FrameTargets& targets);
-void addPlacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
-                  FrameTargets const& targets);
+void beginViewportBlit(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                       FrameTargets& targets);
+void addViewportBlitPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                         FrameTargets const& targets);
 
 /// targets.color without the band of Effects::guardBand around it. What comes later works on the picture alone.
-void addCutPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+void addGuardBandCutPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-/// What a render target wants to know of depths: FrameTargets::solidDepth as distances, in their place.
+/// What a render target asks for of depth: FrameTargets::sceneDepth as linear depth, in its place.
 void addTargetDepth(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets);
 

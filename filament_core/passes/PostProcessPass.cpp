@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/passes/FinishPass.h"
+#include "filament_core/passes/PostProcessPass.h"
 
 #include "base/math/Elementary.h"
 #include "filament_core/passes/FlarePass.h"
 #include "filament_core/passes/FullScreenPass.h"
-#include "filament_core/passes/PlacePass.h"
 #include "filament_core/passes/ResolutionPass.h"
+#include "filament_core/passes/ViewportBlitPass.h"
 #include "filament_core/values/ToneShader.h"
 
 #include <array>
@@ -49,7 +49,7 @@ constexpr FullScreenParameter kFxaaValues[] = { { "grainStrength", ParameterType
 constexpr FullScreenInterface kFxaa{ .pass = "fxaa", .inputs = kFxaaInputs, .values = kFxaaValues };
 
 /// What the passes of a frame do.
-struct Finish {
+struct PostProcessSteps {
     bool isSceneLinear = false;
     bool smoothsEdges = false, enlarges = false, sharpens = false; // in this order, after the others
     bool hasBloom = false, isDirty = false, hasFlare = false, isExposed = false, isGraded = false, hasVignette = false,
@@ -58,17 +58,17 @@ struct Finish {
     bool hasGrain = false;                    // by the last pass, because the others take noise for edges
     bool hasTenBits = false, dithers = false; // dither: as grain
 
-    bool goesOn() const { return smoothsEdges || changesPixels(); }
+    bool hasLaterPass() const { return smoothsEdges || changesPixels(); }
     bool changesPixels() const { return enlarges || sharpens; }
     /// Whether more than a tone mapper is asked for.
     bool hasLens() const {
         return hasBloom || hasFlare || isExposed || isGraded || hasVignette || hasFringes || hasToneValues ||
-               (hasGrain && !goesOn());
+               (hasGrain && !hasLaterPass());
     }
 };
 
 /// Steps of ten bits need no dither.
-Finish finishOf(FrameContext const& context, Format target, bool isSceneLinear, bool enlarges) {
+PostProcessSteps stepsOf(FrameContext const& context, Format target, bool isSceneLinear, bool enlarges) {
     prepare::SceneDemand const& demand = context.packet.demand;
     return { .isSceneLinear = isSceneLinear,
              .smoothsEdges = demand.needs(Effect::Fxaa),
@@ -91,9 +91,9 @@ int32_t toneMapperOf(FrameContext const& context) {
     return context.resources.toneTable ? 0 : context.settings().display.toneMapper;
 }
 
-void addToneMapPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId color,
+void addToneMapPass(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps, TextureId color,
                     TextureId target) {
-    const std::array constants{ EffectConstant{ "dither", finish.dithers && !finish.goesOn() },
+    const std::array constants{ EffectConstant{ "dither", steps.dithers && !steps.hasLaterPass() },
                                 EffectConstant{ "fromTable", static_cast<bool>(context.resources.toneTable) },
                                 EffectConstant{ "toneMapper", toneMapperOf(context) } };
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = color },
@@ -177,35 +177,35 @@ auto valuesOf(FrameContext const& context, uint2 drawn) {
     };
 }
 
-void addFinishPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
-                   TextureId target) {
-    const bool hasTable = static_cast<bool>(context.resources.toneTable) && !finish.isSceneLinear;
+void addFinishPass(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps,
+                   FrameTargets const& targets, TextureId target) {
+    const bool hasTable = static_cast<bool>(context.resources.toneTable) && !steps.isSceneLinear;
     const std::array constants{
-        EffectConstant{ "isSceneLinear", finish.isSceneLinear },
+        EffectConstant{ "isSceneLinear", steps.isSceneLinear },
         EffectConstant{ "fromTable", hasTable },
         EffectConstant{ "toneMapper", toneMapperOf(context) },
-        EffectConstant{ "dither", finish.dithers && !finish.goesOn() },
-        EffectConstant{ "autoExposure", finish.isExposed },
-        EffectConstant{ "bloom", finish.hasBloom },
-        EffectConstant{ "isDirty", finish.isDirty },
-        EffectConstant{ "hasFlare", finish.hasFlare },
-        EffectConstant{ "graded", finish.isGraded },
-        EffectConstant{ "mapsGamut", finish.isGraded && context.settings().effects.grading.gamutMapping },
-        EffectConstant{ "aberration", finish.hasFringes },
-        EffectConstant{ "hasVignette", finish.hasVignette },
-        EffectConstant{ "grain", finish.hasGrain && !finish.goesOn() },
+        EffectConstant{ "dither", steps.dithers && !steps.hasLaterPass() },
+        EffectConstant{ "autoExposure", steps.isExposed },
+        EffectConstant{ "bloom", steps.hasBloom },
+        EffectConstant{ "isDirty", steps.isDirty },
+        EffectConstant{ "hasFlare", steps.hasFlare },
+        EffectConstant{ "graded", steps.isGraded },
+        EffectConstant{ "mapsGamut", steps.isGraded && context.settings().effects.grading.gamutMapping },
+        EffectConstant{ "aberration", steps.hasFringes },
+        EffectConstant{ "hasVignette", steps.hasVignette },
+        EffectConstant{ "grain", steps.hasGrain && !steps.hasLaterPass() },
         EffectConstant{ "outputSpace", hasTable ? 0 : context.settings().display.outputSpace },
-        EffectConstant{ "adaptsToNight", finish.isGraded && context.settings().effects.grading.nightAdaptation > 0 },
+        EffectConstant{ "adaptsToNight", steps.isGraded && context.settings().effects.grading.nightAdaptation > 0 },
     };
     const std::array inputs{
         FullScreenInput{ .name = "color", .texture = targets.color },
         FullScreenInput{ .name = "around",
-                         .texture = finish.hasFringes ? targets.color : TextureId{},
+                         .texture = steps.hasFringes ? targets.color : TextureId{},
                          .sampler = context.resources.samplers.bilinear },
         FullScreenInput{ .name = "spread",
-                         .texture = targets.spread,
+                         .texture = targets.bloom,
                          .sampler = context.resources.samplers.bilinear,
-                         .range = targets.spread ? backend::oneLevel(0) : backend::TextureRange{} },
+                         .range = targets.bloom ? backend::oneLevel(0) : backend::TextureRange{} },
         FullScreenInput{ .name = "dirt",
                          .image = context.resources.dirt.texture,
                          .sampler = context.resources.samplers.trilinear },
@@ -232,8 +232,8 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
 }
 
 /// Where objects have edges: beside them only the sky is, unless the picture shows them elsewhere.
-Rect pixelsWithEdges(prepare::FramePacket const& packet, Finish const& finish, uint2 size) {
-    const bool isKnown = size == packet.settings.size && !finish.hasFringes && packet.discs.empty();
+Rect pixelsWithEdges(prepare::FramePacket const& packet, PostProcessSteps const& steps, uint2 size) {
+    const bool isKnown = size == packet.settings.size && !steps.hasFringes && packet.discs.empty();
     return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };
 }
 
@@ -246,30 +246,30 @@ std::array<Rect, 4> around(Rect const& inside, uint2 size) {
              Rect{ 0, static_cast<int32_t>(below), size.x, size.y - below } };
 }
 
-scene::Material const& fxaaMaterial(FrameContext const& context, Finish const& finish, bool smooths) {
-    const std::array constants{ EffectConstant{ "isSceneLinear", finish.isSceneLinear },
+scene::Material const& fxaaMaterial(FrameContext const& context, PostProcessSteps const& steps, bool smooths) {
+    const std::array constants{ EffectConstant{ "isSceneLinear", steps.isSceneLinear },
                                 EffectConstant{ "smooths", smooths },
-                                EffectConstant{ "dither", finish.dithers && !finish.changesPixels() },
-                                EffectConstant{ "grain", finish.hasGrain && !finish.changesPixels() } };
+                                EffectConstant{ "dither", steps.dithers && !steps.changesPixels() },
+                                EffectConstant{ "grain", steps.hasGrain && !steps.changesPixels() } };
     return context.resources.effects->get("fxaa", constants, kFxaa);
 }
 
-void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& finish, TextureId picture,
+void addFxaaPass(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps, TextureId picture,
                  TextureId target) {
     const std::array inputs{ FullScreenInput{ .name = "picture", .texture = picture } };
     Grain const& grain = context.settings().effects.grain;
     const std::array values{ FullScreenValue{ "grainStrength", grain.strength },
                              FullScreenValue{ "grainSize", grain.size } };
     const uint2 size = sizeOf(graph, target);
-    const Rect withEdges = pixelsWithEdges(context.packet, finish, size);
+    const Rect withEdges = pixelsWithEdges(context.packet, steps, size);
     std::array<FullScreenTile, 5> tiles{ FullScreenTile{ withEdges, values } };
     size_t count = 1;
     for (Rect const& rect : around(withEdges, size)) {
-        if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &fxaaMaterial(context, finish, false) };
+        if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &fxaaMaterial(context, steps, false) };
     }
     addFullScreenPass(graph, context,
                       { .name = "fxaa",
-                        .material = fxaaMaterial(context, finish, true),
+                        .material = fxaaMaterial(context, steps, true),
                         .inputs = inputs,
                         .target = target,
                         .tiles = std::span(tiles).first(count),
@@ -278,9 +278,9 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, Finish const& f
 
 /// Between the passes. Noise that comes later needs more than 8 bits until then, and sharpening would raise their
 /// steps.
-TextureId createUnfinished(FrameGraph& graph, Finish const& finish, uint2 size, std::string_view name) {
+TextureId createUnfinished(FrameGraph& graph, PostProcessSteps const& steps, uint2 size, std::string_view name) {
     const bool isEightBit =
-            !finish.isSceneLinear && !finish.dithers && !finish.hasGrain && !finish.sharpens && !finish.hasTenBits;
+            !steps.isSceneLinear && !steps.dithers && !steps.hasGrain && !steps.sharpens && !steps.hasTenBits;
     return graph.createTexture({ .width = size.x,
                                  .height = size.y,
                                  .format = isEightBit ? Format::RGBA8 : Format::RGBA16F,
@@ -288,14 +288,14 @@ TextureId createUnfinished(FrameGraph& graph, Finish const& finish, uint2 size, 
 }
 
 /// Draws `target` from targets.color, by the cheapest pass that does what is asked for.
-void addPicture(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
-                TextureId target) {
-    if (finish.hasLens())
-        addFinishPass(graph, context, finish, targets, target);
-    else if (finish.isSceneLinear)
+void addPicture(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps,
+                FrameTargets const& targets, TextureId target) {
+    if (steps.hasLens())
+        addFinishPass(graph, context, steps, targets, target);
+    else if (steps.isSceneLinear)
         addLightPass(graph, context, targets.color, target);
     else
-        addToneMapPass(graph, context, finish, targets.color, target);
+        addToneMapPass(graph, context, steps, targets.color, target);
 }
 
 /// Colours divided by their alpha, or multiplied by it.
@@ -310,7 +310,7 @@ void addAlphaPass(FrameGraph& graph, FrameContext const& context, bool multiplie
 }
 
 /// addPicture() for light that is multiplied by alpha: tone mappers and gradings are of colours, not of shares of them.
-void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, Finish const& finish,
+void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps,
                            FrameTargets const& targets, TextureId target) {
     const uint2 size = sizeOf(graph, targets.color);
     FrameTargets straight = targets;
@@ -320,48 +320,50 @@ void addTranslucentPicture(FrameGraph& graph, FrameContext const& context, Finis
     const Format format = graph.texture(target).desc.format;
     const TextureId picture = graph.createTexture({ .width = size.x,
                                                     .height = size.y,
-                                                    .format = finish.hasTenBits ? Format::RGBA16F : format, // for alpha
+                                                    .format = steps.hasTenBits ? Format::RGBA16F : format, // for alpha
                                                     .name = "straight picture" });
-    addPicture(graph, context, finish, straight, picture);
+    addPicture(graph, context, steps, straight, picture);
     addAlphaPass(graph, context, true, picture, target);
 }
 
 /// Draws `target` from targets.color.
-void addPictureOfView(FrameGraph& graph, FrameContext const& context, Finish const& finish, FrameTargets const& targets,
-                      TextureId target) {
-    const bool isLight = finish.isSceneLinear && !finish.hasLens();
+void addPictureOfView(FrameGraph& graph, FrameContext const& context, PostProcessSteps const& steps,
+                      FrameTargets const& targets, TextureId target) {
+    const bool isLight = steps.isSceneLinear && !steps.hasLens();
     if (context.settings().isTranslucent() && !isLight)
-        addTranslucentPicture(graph, context, finish, targets, target);
+        addTranslucentPicture(graph, context, steps, targets, target);
     else
-        addPicture(graph, context, finish, targets, target);
+        addPicture(graph, context, steps, targets, target);
 }
 
 } // namespace
 
-void addFinishPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, bool isSceneLinear) {
+void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
+                          bool isSceneLinear) {
     if (targets.color == targets.output) return;
     const uint2 size = sizeOf(graph, targets.color), shown = sizeOf(graph, targets.output);
-    const Finish finish = finishOf(context, graph.texture(targets.target).desc.format, isSceneLinear, size != shown);
-    if (!finish.goesOn()) return addPictureOfView(graph, context, finish, targets, targets.output);
+    const PostProcessSteps steps =
+            stepsOf(context, graph.texture(targets.target).desc.format, isSceneLinear, size != shown);
+    if (!steps.hasLaterPass()) return addPictureOfView(graph, context, steps, targets, targets.output);
     TextureId picture = targets.color;
-    if (finish.hasLens() || !finish.isSceneLinear) {
-        picture = createUnfinished(graph, finish, size, finish.smoothsEdges ? "with edges" : "with few pixels");
-        addPictureOfView(graph, context, finish, targets, picture);
+    if (steps.hasLens() || !steps.isSceneLinear) {
+        picture = createUnfinished(graph, steps, size, steps.smoothsEdges ? "with edges" : "with few pixels");
+        addPictureOfView(graph, context, steps, targets, picture);
     }
-    if (finish.smoothsEdges) {
+    if (steps.smoothsEdges) {
         const TextureId smooth =
-                finish.changesPixels() ? createUnfinished(graph, finish, size, "smooth") : targets.output;
-        addFxaaPass(graph, context, finish, picture, smooth);
+                steps.changesPixels() ? createUnfinished(graph, steps, size, "smooth") : targets.output;
+        addFxaaPass(graph, context, steps, picture, smooth);
         picture = smooth;
     }
-    const LastStep last{ .isSceneLinear = isSceneLinear, .hasGrain = finish.hasGrain, .dithers = finish.dithers };
-    if (finish.enlarges) {
-        const TextureId large = finish.sharpens ? createUnfinished(graph, finish, shown, "large") : targets.output;
+    const LastStep last{ .isSceneLinear = isSceneLinear, .hasGrain = steps.hasGrain, .dithers = steps.dithers };
+    if (steps.enlarges) {
+        const TextureId large = steps.sharpens ? createUnfinished(graph, steps, shown, "large") : targets.output;
         addUpscalingPass(graph, context, { picture, large },
-                         finish.sharpens ? LastStep{ .isSceneLinear = isSceneLinear } : last);
+                         steps.sharpens ? LastStep{ .isSceneLinear = isSceneLinear } : last);
         picture = large;
     }
-    if (finish.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
+    if (steps.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
 }
 
 } // namespace filament::passes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/passes/PlacePass.h"
+#include "filament_core/passes/ViewportBlitPass.h"
 
 #include "filament_core/passes/FullScreenPass.h"
 
@@ -46,7 +46,8 @@ void place(FrameGraph& graph, FrameContext const& context, std::string_view mate
 }
 
 bool fillsTarget(FrameSettings const& settings, FrameOutput const& output) {
-    return !settings.viewport || (settings.shownSize == uint2(output.width, output.height) && !settings.isTranslucent());
+    return !settings.viewport ||
+           (settings.shownSize == uint2(output.width, output.height) && !settings.isTranslucent());
 }
 
 bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
@@ -60,7 +61,8 @@ Format formatOfView(FrameSettings const& settings, Format target) {
 
 } // namespace
 
-void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput const& output, FrameTargets& targets) {
+void beginViewportBlit(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                       FrameTargets& targets) {
     FrameSettings const& settings = context.settings();
     const bool fills = fillsTarget(settings, output);
     const bool isKept = !fills && !isCleared(*settings.viewport, output);
@@ -78,15 +80,15 @@ void beginPlace(FrameGraph& graph, FrameContext const& context, FrameOutput cons
                                                    .name = "view" });
 }
 
-void addPlacePass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
-                  FrameTargets const& targets) {
+void addViewportBlitPass(FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
+                         FrameTargets const& targets) {
     if (targets.output == targets.target) return;
     FrameSettings const& settings = context.settings();
     place(graph, context, settings.isTranslucent() ? "place_over" : "place", targets.output, targets.target,
           { isCleared(*settings.viewport, output), settings.viewport->clearColor });
 }
 
-void addCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+void addGuardBandCutPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     const uint2 size = context.settings().insideSize();
     const framegraph::TextureId inside = graph.createTexture(
             { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "without its band" });
@@ -115,9 +117,9 @@ void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput 
                                                                       .height = settings.shownSize.y,
                                                                       .format = Format::R32F,
                                                                       .name = "view depths" });
-    const bool isScaled = sizeOf(graph, targets.solidDepth) != settings.shownSize;
+    const bool isScaled = sizeOf(graph, targets.sceneDepth) != settings.shownSize;
     const std::array constants{ EffectConstant{ "isScaled", isScaled } };
-    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.solidDepth } };
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.sceneDepth } };
     addFullScreenPass(graph, context,
                       { .name = "target depth",
                         .material = context.resources.effects->get("scene_distance", constants, kTargetDepth),
