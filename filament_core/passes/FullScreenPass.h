@@ -19,8 +19,12 @@
 
 #include <filament/Objects.h>
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 namespace filament::passes {
 
@@ -37,6 +41,21 @@ struct FullScreenValue {
     std::string_view name;
     ParameterValue value;
 };
+
+static_assert(std::is_same_v<std::variant_alternative_t<static_cast<size_t>(ParameterType::Float4x4),
+                                                        ParameterValue>,
+                             float4x4>,
+              "values have the types of ParameterType, in their order");
+
+/// FullScreenInterface::values of a pass that gives these: names and types then stand in one place.
+template <size_t N>
+std::array<FullScreenParameter, N> parametersOf(std::array<FullScreenValue, N> const& values) {
+    std::array<FullScreenParameter, N> parameters;
+    std::transform(values.begin(), values.end(), parameters.begin(), [](FullScreenValue const& one) {
+        return FullScreenParameter{ one.name, static_cast<ParameterType>(one.value.index()) };
+    });
+    return parameters;
+}
 
 /// A part of the target, with values of its own.
 struct FullScreenTile {

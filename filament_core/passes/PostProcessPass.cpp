@@ -26,23 +26,6 @@ constexpr FullScreenInterface kAlpha{ .pass = "alpha", .inputs = kLightInputs };
 constexpr std::string_view kToneInputs[] = { "color", "table" };
 constexpr FullScreenInterface kTone{ .pass = "tone map", .inputs = kToneInputs };
 constexpr std::string_view kFinishInputs[] = { "color", "around", "spread", "dirt", "flare", "table", "exposure" };
-constexpr FullScreenParameter kFinishValues[] = {
-    { "bloomStrength", ParameterType::Float },   { "bloomThreshold", ParameterType::Float },
-    { "dirtLevels", ParameterType::Float3 },     { "flareShare", ParameterType::Float4 },
-    { "fringe", ParameterType::Float },          { "vignette", ParameterType::Float4 },
-    { "vignetteColor", ParameterType::Float3 },  { "grainStrength", ParameterType::Float },
-    { "grainSize", ParameterType::Float },       { "mixRed", ParameterType::Float3 },
-    { "mixGreen", ParameterType::Float3 },       { "mixBlue", ParameterType::Float3 },
-    { "shadows", ParameterType::Float3 },        { "midtones", ParameterType::Float3 },
-    { "highlights", ParameterType::Float3 },     { "tonalRanges", ParameterType::Float4 },
-    { "slope", ParameterType::Float3 },          { "offset", ParameterType::Float3 },
-    { "power", ParameterType::Float3 },          { "contrastSaturationVibrance", ParameterType::Float3 },
-    { "shadowGamma", ParameterType::Float3 },    { "midPoint", ParameterType::Float3 },
-    { "highlightScale", ParameterType::Float3 }, { "night", ParameterType::Float2 },
-    { "toneCurve", ParameterType::Float4 },      { "whiteShare", ParameterType::Float },
-    { "spreadPlace", ParameterType::Float4 },
-};
-constexpr FullScreenInterface kFinish{ .pass = "finish", .inputs = kFinishInputs, .values = kFinishValues };
 constexpr std::string_view kFxaaInputs[] = { "picture" };
 constexpr FullScreenParameter kFxaaValues[] = { { "grainStrength", ParameterType::Float },
                                                 { "grainSize", ParameterType::Float } };
@@ -140,6 +123,7 @@ float4 placeInBand(prepare::FramePacket const& packet) {
     return { float2(packet.settings.insideSize()) / whole, static_cast<float>(packet.settings.band) / whole };
 }
 
+/// All that finish.mat reads, which is checked against this when it is loaded.
 auto valuesOf(FrameContext const& context, uint2 drawn) {
     Effects const& effects = context.settings().effects;
     Grading const& grading = effects.grading;
@@ -214,9 +198,11 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, PostProcessSt
         FullScreenInput{ .name = "exposure", .texture = targets.exposure }
     };
     const auto values = valuesOf(context, sizeOf(graph, targets.color));
+    const auto parameters = parametersOf(values);
+    const FullScreenInterface given{ .pass = "finish", .inputs = kFinishInputs, .values = parameters };
     addFullScreenPass(graph, context,
                       { .name = "finish",
-                        .material = context.resources.effects->get("finish", constants, kFinish),
+                        .material = context.resources.effects->get("finish", constants, given),
                         .inputs = inputs,
                         .values = values,
                         .target = target });
