@@ -14,7 +14,7 @@
 #include "filament_core/engine/Uses.h"
 #include "filament_core/engine/materials/CompileQueue.h"
 #include "filament_core/engine/materials/MaterialNumbers.h"
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineCache.h"
 #include "filament_core/scene/SceneData.h"
 #include "jobsystem/Affinity.h"
 #include "jobsystem/JobSystem.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Ambient occlusion from the depths of the picture (docs/ambient-occlusion.md).
-///   Draws   targets.ambientOcclusion, of the view's size: what samples or horizons hide at all pixels, half of them or a
-///           quarter; then, as Quality says, a blur along each axis, and the step up to all pixels.
+///   Draws   targets.ambientOcclusion, of the view's size: what samples or horizons hide at all pixels, half of them
+///           or a quarter; then, as Quality says, a blur along each axis, and the step up to all pixels.
 ///   Reads   targets.prepassDepth.
 ///   Where   FramePacket::covered; beside it nothing is hidden, and the passes only clear.
 ///   Skips   all of it, unless the frame's demand needs it.

@@ -25,8 +25,8 @@ struct FrameOutput {
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
 };
 
-/// In the arena: passes keep a pointer to it. Results of uploads (FrameContext::views and
-/// the members after it) are set later, before the graph is recorded.
+/// In the arena: passes keep a pointer to it. Results of uploads (FrameContext::views and the members after it) are set
+/// later, before the graph is recorded.
 FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources);
 
 FrameTargets describeFrame(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output);

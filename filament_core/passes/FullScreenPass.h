@@ -42,8 +42,7 @@ struct FullScreenValue {
     ParameterValue value;
 };
 
-static_assert(std::is_same_v<std::variant_alternative_t<static_cast<size_t>(ParameterType::Float4x4),
-                                                        ParameterValue>,
+static_assert(std::is_same_v<std::variant_alternative_t<static_cast<size_t>(ParameterType::Float4x4), ParameterValue>,
                              float4x4>,
               "values have the types of ParameterType, in their order");
 

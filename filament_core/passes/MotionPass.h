@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Motion pass: where the last frame showed what moved by itself, for effects that look at the last picture.
-///   Draws   targets.motionVectors: rg: from here to there, as shares of the picture's width and height; b: its distance along
-///           the view then, over that of now; a: 1. All 0 where nothing moved by itself: the motion of the
+///   Draws   targets.motionVectors: rg: from here to there, as shares of the image's width and height; b: its distance
+///           along the view then, over that of now; a: 1. All 0 where nothing moved by itself: the motion of the
 ///           camera tells the rest.
 ///   How     the surfaces of the prepass again, over its depths, so that whatever cut holes there does so here.
 ///           Materials that place their vertices are drawn by their variants with kVariantMotion, all others by the

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineCache.h"
 
 namespace filament::passes {
 

@@ -7,7 +7,7 @@
 ///   Thread  as PipelineCache.   Memory: the list.   Fails: std::bad_alloc.
 #pragma once
 
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineCache.h"
 
 #include <optional>
 #include <vector>

@@ -6,7 +6,7 @@
 
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineCache.h"
 
 namespace filament::passes {
 

@@ -190,7 +190,8 @@ struct FramePacket {
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;
-    /// Pixels of `settings.size`: objects of the main view cover no others (CoveredPixels.h), if an effect asks; otherwise all.
+    /// Pixels of `settings.size`: objects of the main view cover no others (CoveredPixels.h), if an effect asks;
+    /// otherwise all.
     backend::Rect covered{ 0, 0, 1, 1 };
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;

@@ -9,7 +9,7 @@
 ///   Fails   add() and recordSlice(): std::bad_alloc; anything not recorded stays queued.
 #pragma once
 
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineCache.h"
 
 #include <filament/Objects.h>
 

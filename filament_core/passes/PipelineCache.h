@@ -9,9 +9,8 @@
 #pragma once
 
 #include "backend/stream/CommandStream.h"
+#include "filament_core/passes/PassSlot.h"
 #include "filament_core/passes/PipelineTable.h"
-#include "filament_core/passes/ShadingKey.h"
-#include "filament_core/prepare/FramePacket.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <cstdint>
@@ -24,44 +23,6 @@
 #include <vector>
 
 namespace filament::passes {
-
-/// What surfaces leave instead of light, for debug views: with the tests, writes and faces of their materials, but not
-/// blended.
-enum class DebugSlot : uint8_t {
-    None,
-    Values, ///< what their variants with kVariantDebug give
-    Counts, ///< the same, added up
-    Edges,  ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is
-            ///< behind
-};
-
-/// Where a pipeline draws, and how lit materials are shaded there.
-struct PassSlot {
-    backend::PassLayout layout{};
-    uint8_t subpass = 0;
-    ShadingKey shading = 0;
-    DepthRange depthRange = DepthRange::Reversed;
-    ShadingPrecision precision = ShadingPrecision::Full;
-    bool isFullScreen = false; ///< no geometry of the scene is drawn there
-    bool depthOnly = false;    ///< surfaces are drawn by their variants with kVariantDepth
-    bool motionOnly = false;   ///< surfaces are drawn by their variants with kVariantMotion, where their depth is known
-    bool isShadowMap = false;  ///< those of them that cast, with the faces that do
-    shader::TransparencyTerm transparency = shader::kTransparencyInOrder; ///< all that is drawn blends in any order
-    DebugSlot debug = DebugSlot::None;
-    scene::Material const* edges = nullptr; ///< of DebugSlot::Edges
-    bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
-    std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own
-    friend bool operator==(PassSlot const&, PassSlot const&) = default;
-};
-
-/// What a pipeline is chosen by, besides where it draws.
-struct PipelineUse {
-    scene::MaterialInstance const& instance;
-    uint32_t geometryLayout = 0; ///< into GeometryLayouts
-    uint8_t variant = 0;         ///< VariantBits that the scene selects
-    bool mirrored = false;
-    prepare::DrawPass pass = prepare::DrawPass::Only;
-};
 
 /// The line for a variant (a set of VariantBits) that a package lacks, naming both and the filter.
 std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant);
@@ -126,8 +87,6 @@ private:
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
                                          shader::Variant const& code, ShadingKey shading,
                                          shader::Variant const& fragment);
-    backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material,
-                                   scene::InstanceRaster const& raster, uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
                                    uint32_t material);
 
