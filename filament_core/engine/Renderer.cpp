@@ -221,6 +221,9 @@ struct Renderer::Impl final : engine::Dependent {
         stamps.acquired = clock();
         commands->record(CmdBeginFrame{ ++frame });
         const InReserve<CmdEndFrame> end{ *commands, { frame } };
+        // What the frame binds is made first: instances whose groups the filter needs are pending, then everything
+        // pending, then programs that an earlier compile() asked for. Memory may run out while the frame is recorded:
+        // the atlas forgets its maps before the frame draws over them, and keeps them when all of it is recorded.
         engine.useTextureFilter(context.settings().quality.textureFilter);
         engine.drainPending(*commands);
         engine.recordCompilations(*commands);

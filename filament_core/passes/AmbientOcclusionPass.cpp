@@ -135,6 +135,8 @@ void addCoveredPass(FrameGraph& graph, OcclusionSource const& from, Rect const& 
     addFullScreenPass(graph, from.context, pass);
 }
 
+/// By samples: McGuire, Mara and Luebke 2012, "Scalable Ambient Obscurance"; by horizons: Jimenez et al. 2016,
+/// "Practical Realtime Strategies for Accurate Indirect Occlusion".
 TextureId addPoints(FrameGraph& graph, OcclusionSource const& from, bool isResult) {
     FrameContext const& context = from.context;
     AmbientOcclusion const& occlusion = context.settings().effects.ambientOcclusion;

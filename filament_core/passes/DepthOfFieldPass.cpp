@@ -129,6 +129,7 @@ private:
 
 } // namespace
 
+// Jimenez 2014, "Next Generation Post Processing in Call of Duty: Advanced Warfare": half size, tiles, gathering.
 void addDepthOfFieldPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::DepthOfField)) return;
     targets.color = FocusPasses(graph, context, targets).add();

@@ -115,6 +115,7 @@ uint32_t flareBlock(uint32_t height) {
     return std::bit_floor(std::clamp(height / kLeastRows, 1u, kLargestBlock));
 }
 
+// Chapman 2013, "Pseudo Lens Flare".
 std::array<FlareGhost, kMostGhosts> flareGhosts(LensFlare const& flare, uint32_t height) {
     std::array<FlareGhost, kMostGhosts> ghosts{};
     const auto block = static_cast<float>(flareBlock(height));

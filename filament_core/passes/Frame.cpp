@@ -81,6 +81,7 @@ FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOut
 /// What is seen of the scene, lit or not.
 void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     const DebugView shown = context.settings().debugView;
+    // What the colour pass samples comes before it: shadow maps, then depths, which the passes after them read.
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
     if (prepare::showsMaterials(shown)) return addDebugSurfacePass(graph, context, targets);
@@ -109,20 +110,25 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
     addSurfacePasses(graph, context, targets);
-    const bool isEnlarged =
-            isEnlargedByGathering(context); // depth of field and reflections have as many pixels as the depths
+    // Frames are gathered before the lens blurs them: the history is clamped by colours of sharp neighbours. Depth of
+    // field and motion blur look pixels up in the depths, so gathering that enlarges the image comes after them.
+    const bool isEnlarged = isEnlargedByGathering(context);
     if (!isEnlarged) addTemporalPass(graph, context, targets);
-    const framegraph::TextureId light = targets.color;
+    const framegraph::TextureId light = targets.color; // surfaces reflect the scene, not what the lens makes of it
     addDepthOfFieldPasses(graph, context, targets);
     addMotionBlurPasses(graph, context, targets);
     if (isEnlarged) addTemporalPass(graph, context, targets);
+    // The guard band is there for what reads pixels beside the image; the last of it is bloom. What measures or shapes
+    // the image as a whole (exposure, flare, vignette) must not see the band.
     if (context.settings().band > 0) {
-        addBloomPasses(graph, context, targets); // of what lies beside the picture, too
+        addBloomPasses(graph, context, targets);
         addGuardBandCutPass(graph, context, targets);
     }
     addExposurePasses(graph, context, targets);
     if (context.settings().band == 0) addBloomPasses(graph, context, targets);
     addFlarePasses(graph, context, targets);
+    // Light becomes display values here. Lines and text of the app come after it, so that no exposure dims them, and
+    // before the blit, which knows the view's place in the target.
     if (showsDecisions(context) && prepare::isOfEffectPass(context.settings().debugView))
         addDebugEffectPass(graph, context, targets, output.isSceneLinear());
     else if (showsDecisions(context))
@@ -133,7 +139,8 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addViewportBlitPass(graph, context, output, targets);
     addTargetMips(graph, context, output, targets);
     addTargetDepth(graph, context, output, targets);
-    keepSceneColor(graph, context, targets, light); // last: the tone mapper merges with the colour pass
+    // Last: between the colour pass and the tone mapper it would keep them from being merged.
+    keepSceneColor(graph, context, targets, light);
     return targets;
 }
 

@@ -113,6 +113,7 @@ private:
 
 } // namespace
 
+// McGuire et al. 2012, "A Reconstruction Filter for Plausible Motion Blur": ways, tiles, gathering.
 void addMotionBlurPasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::MotionBlur)) return;
     targets.color = MotionBlurPasses(graph, context, targets).add();

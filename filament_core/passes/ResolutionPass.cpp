@@ -27,6 +27,7 @@ constexpr FullScreenInterface kSharpening{ .pass = "sharpening",
 
 } // namespace
 
+// Along edges: Lottes 2021, AMD FidelityFX Super Resolution 1, EASU.
 void addUpscalingPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
     const auto filter =
             static_cast<int32_t>(std::max(context.settings().effects.resolution.upscaling, Upscaling::Bilinear));
@@ -47,6 +48,7 @@ void addUpscalingPass(FrameGraph& graph, FrameContext const& context, PictureSte
                         .target = step.target });
 }
 
+// Lottes 2021, AMD FidelityFX Super Resolution 1, RCAS.
 void addSharpeningPass(FrameGraph& graph, FrameContext const& context, PictureStep const& step, LastStep const& last) {
     const std::array constants{ EffectConstant{ "isSceneLinear", last.isSceneLinear },
                                 EffectConstant{ "dither", last.dithers }, EffectConstant{ "grain", last.hasGrain } };

@@ -109,6 +109,8 @@ void addMips(FrameGraph& graph, FrameContext const& context, TextureId moments) 
 
 } // namespace
 
+// Two moments: Donnelly and Lauritzen 2006, "Variance Shadow Maps"; four of warped depths: Lauritzen and McCool 2008,
+// "Layered Variance Shadow Maps".
 void addShadowMoments(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     ShadowPacket const& shadows = context.packet.shadows;
     if (shadows.maps.empty() || shadows.moments == ShadowMoments::None) return;

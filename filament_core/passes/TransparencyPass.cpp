@@ -90,6 +90,7 @@ void addOver(FrameGraph& graph, FrameContext const& context, TransparencyTargets
 
 } // namespace
 
+// McGuire and Bavoil 2013, "Weighted Blended Order-Independent Transparency".
 void addWeightedPasses(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets) {
     const TextureId sums =
             addSums(graph, context, targets, Format::RGBA16F, "weighted light", shader::kTransparencyWeightedLight);
@@ -98,6 +99,7 @@ void addWeightedPasses(FrameGraph& graph, FrameContext const& context, Transpare
     addOver(graph, context, targets, sums, cover);
 }
 
+// Everitt 2001, "Interactive Order-Independent Transparency".
 PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets) {
     const float farthest = context.settings().quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
     PeeledLayers layers{ .light = createLike(graph, targets.color, Format::RGBA16F, 1, "layers") };

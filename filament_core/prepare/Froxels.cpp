@@ -137,6 +137,8 @@ private:
 
 } // namespace
 
+// Olsson, Billeter and Assarsson 2012, "Clustered Deferred and Forward Shading": lists by clusters whose slices are
+// exponential in depth.
 FroxelLists assignLights(jobs::JobSystem& jobs, Arena& arena, ViewSpace const& space, uint2 size,
                          std::span<const PunctualLight> lights, shader::FrameUniforms& frame, ViewCounts& counts,
                          FroxelOptions const& options) {

@@ -138,6 +138,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const std::span<const ViewInput> drawn = jittered(arena, scene, views, settings, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
     for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i], settings);
+    // Shadows need the receivers of the main view, and give its lights their maps; lists by channel copy these lights.
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
@@ -151,6 +152,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
     packet.focus = focusOf(main.camera, settings.effects.depthOfField, settings.insideSize().y);
+    // The demand comes after all that it counts; what only an effect needs, after the demand.
     packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
     if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);

@@ -108,6 +108,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
         prepared.sunRecord = selected.sun;
         lightsInCommon = selected.channelsInCommon;
     };
+    // Lights are selected while renderables are culled: neither reads what the other writes.
     jobs::JobGroup besideCulling(jobs);
     if (lights.records.size() < kLightsWorthAJob)
         selectLights();
@@ -125,16 +126,18 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
                                                 { view.kind, refraction, composes, any.farthest });
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
-    besideCulling.wait();
+    besideCulling.wait(); // from here on both are needed: which lights meet which lit draws
 
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     if (composes) packet.anyOrder = anyOrderDraws(order, packet.blended, any.nearest);
     packet.uniforms.jitter.z = packet.anyOrder.nearestMeters;
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
+    // Copies of the scene colour are planned by the counts above: without a refractive draw there are none.
     if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
         packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,
                                         settings.quality.refractionLayers);
+    // Lights are dropped before the variant, profiles and froxels follow from those that are left.
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
     if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);
