@@ -5,6 +5,7 @@
 //   Method  one engine per API; every round draws every number of lamps on each, so that all see the same machine.
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
+#include "base/Statistics.h"
 #include "tools/common/CommandLine.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
@@ -84,11 +85,6 @@ std::string luminaire() {
     for (int i = 0; i < kHorizontal; ++i) text += fmt::format("{}\n", i * 15);
     for (int i = 0; i < kVertical * kHorizontal; ++i) text += "100\n";
     return text;
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
 /// One engine, and a scene for each number of lamps.

@@ -5,6 +5,7 @@
 //           Processor time of the process, which includes the device of a CPU driver, minus that of a frame without the
 //           object; medians of the ratios within rounds. --wall uses elapsed time instead, for other devices.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
+#include "base/Statistics.h"
 #include "tools/common/CommandLine.h"
 #include "tools/common/Machine.h"
 #include "tools/conformance/SceneAssets.h"
@@ -56,11 +57,6 @@ double secondsOf(clockid_t clock) {
     timespec now{};
     clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
 /// One engine, and a scene for each material.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/threading/Report.h"
 
-#include "bench/threading/Statistics.h"
+#include "base/Statistics.h"
 
 #include <fmt/color.h>
 #include <fmt/format.h>

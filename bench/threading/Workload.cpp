@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/threading/Workload.h"
 
-#include "bench/threading/Statistics.h"
+#include "base/Statistics.h"
 
 #include <fmt/format.h>
 

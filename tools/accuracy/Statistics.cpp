@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Statistics.h"
 
+#include "base/Statistics.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -8,15 +10,6 @@ namespace filament::accuracy {
 namespace {
 
 constexpr size_t kResamples = 1000;
-
-double medianOfScratch(std::vector<double>& values) {
-    if (values.empty()) return 0;
-    const size_t middle = values.size() / 2;
-    std::nth_element(values.begin(), values.begin() + middle, values.end());
-    const double upper = values[middle];
-    if (values.size() % 2) return upper;
-    return 0.5 * (upper + *std::max_element(values.begin(), values.begin() + middle));
-}
 
 // Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": SplitMix64.
 struct SplitMix {
@@ -31,28 +24,19 @@ struct SplitMix {
 
 } // namespace
 
-double median(std::span<const double> values) {
-    std::vector<double> scratch(values.begin(), values.end());
-    return medianOfScratch(scratch);
-}
-
 Estimate estimate(std::span<const double> values) {
     if (values.empty()) return {};
     SplitMix random;
     std::vector<double> medians(kResamples), resample(values.size());
     for (double& one : medians) {
         for (double& value : resample) value = values[random.below(values.size())];
-        one = medianOfScratch(resample);
+        one = median(resample);
     }
     std::sort(medians.begin(), medians.end());
-    return { median(values), medians[kResamples * 25 / 1000], medians[kResamples * 975 / 1000 - 1] };
+    return { median({ values.begin(), values.end() }), medians[kResamples * 25 / 1000],
+             medians[kResamples * 975 / 1000 - 1] };
 }
 
-Estimate estimateRatio(std::span<const double> a, std::span<const double> b) {
-    std::vector<double> ratios;
-    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        if (b[i] > 0) ratios.push_back(a[i] / b[i]);
-    return estimate(ratios);
-}
+Estimate estimateRatio(std::span<const double> a, std::span<const double> b) { return estimate(pairedRatios(a, b)); }
 
 } // namespace filament::accuracy

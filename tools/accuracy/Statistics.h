@@ -15,7 +15,6 @@ struct Estimate {
     double median = 0, low = 0, high = 0;
 };
 
-double median(std::span<const double> values);
 Estimate estimate(std::span<const double> values);
 
 /// The median of a[i] / b[i], both taken in round i: a machine that slows down for a while slows down both.

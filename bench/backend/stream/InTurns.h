@@ -4,19 +4,14 @@
 ///   Out   counters: ns (median of a, per item), and `ratio` (median of a / median of b).
 #pragma once
 
+#include "base/Statistics.h"
+
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <vector>
 
 namespace filament::bench {
-
-inline double medianOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
 
 template <class A, class B>
 void measureInTurns(benchmark::State& state, size_t items, const char* ratio, A&& a, B&& b) {
@@ -32,9 +27,9 @@ void measureInTurns(benchmark::State& state, size_t items, const char* ratio, A&
         timesOfB.push_back(seconds(Clock::now() - middle));
         state.SetIterationTime(timesOfA.back());
     }
-    const double medianOfA = medianOf(timesOfA);
+    const double medianOfA = median(timesOfA);
     state.counters["ns"] = medianOfA * 1e9 / static_cast<double>(items);
-    state.counters[ratio] = medianOfA / medianOf(timesOfB);
+    state.counters[ratio] = medianOfA / median(timesOfB);
 }
 
 } // namespace filament::bench

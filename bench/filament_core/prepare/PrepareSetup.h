@@ -2,6 +2,7 @@
 /// Shared by the benchmarks of this folder: scenes in which everything is visible, and clocks.
 #pragma once
 
+#include "base/Statistics.h"
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/ObjectData.h"
 #include "filament_core/prepare/SortItems.h"
@@ -85,12 +86,6 @@ private:
         timespec time{};
         clock_gettime(clock, &time);
         return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
-    }
-
-    static double median(std::vector<double>& values) {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
     }
 
     std::vector<double> mWall, mThreads;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // measureQualityCosts(): draws every value of every choice in turns, timed by the device, and compares the images.
 #include "base/Result.h"
+#include "base/Statistics.h"
 #include "base/Suggest.h"
 #include "base/math/Elementary.h"
 #include "base/math/Half.h"
@@ -59,11 +60,6 @@ double relativeError(Image const& image, Image const& exact) {
         sum += difference * difference;
     }
     return std::min(std::sqrt(sum / static_cast<double>(count)), 100.0);
-}
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
 /// The true median lies between this rank from below and the same rank from above with a probability of 99 %: a table

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/CostMeasurement.h"
 
+#include "base/Statistics.h"
 #include "tools/view/compare/Comparison.h"
 #include "tools/view/panels/OptionCosts.h"
 #include "tools/view/stage/Stage.h"
@@ -140,7 +141,7 @@ private:
             if (!milliseconds) return milliseconds.error();
             mTimes[i].push_back(*milliseconds);
             mPlot.edit([&](CostPlot& plot) {
-                plot.points[i].milliseconds = medianOf(mTimes[i]);
+                plot.points[i].milliseconds = median(mTimes[i]);
                 ++plot.points[i].rounds;
                 ++plot.done;
             });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/OptionCosts.h"
 
+#include "base/Statistics.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +17,6 @@ QualityCost const* costOfValue(QualityEffect const& effect, std::string_view val
 }
 
 } // namespace
-
-double medianOf(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2) return *middle;
-    return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 std::optional<ValueCost> tabledCost(QualityCosts const& costs, Backend backend, std::string_view option,
                                     std::string_view current, std::string_view value, double frameMilliseconds) {
@@ -63,7 +58,7 @@ void ChangeMeter::finish() {
     const std::optional<double> before = mPending->before;
     mPending.reset();
     if (!before) return;
-    change.milliseconds = medianOf(mFrames) - *before;
+    change.milliseconds = median(mFrames) - *before;
     change.frames = mFrames.size();
     std::erase_if(mChanges, [&](MeasuredChange const& old) { return old.option == change.option; });
     mChanges.push_back(std::move(change));
@@ -75,7 +70,7 @@ MeasuredChange const* ChangeMeter::changeOf(std::string_view option) const {
 }
 
 std::optional<double> ChangeMeter::medianMilliseconds() const {
-    return mFrames.size() < kFewestFrames ? std::nullopt : std::optional(medianOf(mFrames));
+    return mFrames.size() < kFewestFrames ? std::nullopt : std::optional(median(mFrames));
 }
 
 } // namespace filament::view

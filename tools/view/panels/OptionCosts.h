@@ -24,9 +24,6 @@ struct ValueCost {
 std::optional<ValueCost> tabledCost(QualityCosts const& costs, Backend backend, std::string_view option,
                                     std::string_view current, std::string_view value, double frameMilliseconds);
 
-/// Of a list that is not empty.
-double medianOf(std::vector<double> values);
-
 /// The difference between frames before and after a change.
 struct MeasuredChange {
     std::string option{}, from{}, to{};

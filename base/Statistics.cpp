@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/threading/Statistics.h"
+#include "base/Statistics.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament::bench {
+namespace filament {
 namespace {
 
 double quantileOfSorted(std::span<const double> sorted, double p) {
@@ -15,19 +15,23 @@ double quantileOfSorted(std::span<const double> sorted, double p) {
     return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-std::vector<double> sorted(std::span<const double> values) {
-    std::vector<double> copy(values.begin(), values.end());
-    std::sort(copy.begin(), copy.end());
-    return copy;
-}
-
 } // namespace
 
-double quantile(std::span<const double> values, double p) { return quantileOfSorted(sorted(values), p); }
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return values.size() % 2 ? *middle : (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
 
-Quartiles quartiles(std::span<const double> values) {
-    const std::vector<double> ascending = sorted(values);
-    return { quantileOfSorted(ascending, 0.25), quantileOfSorted(ascending, 0.5), quantileOfSorted(ascending, 0.75) };
+double quantile(std::vector<double> values, double p) {
+    std::sort(values.begin(), values.end());
+    return quantileOfSorted(values, p);
+}
+
+Quartiles quartiles(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return { quantileOfSorted(values, 0.25), quantileOfSorted(values, 0.5), quantileOfSorted(values, 0.75) };
 }
 
 std::vector<double> pairedRatios(std::span<const double> a, std::span<const double> b) {
@@ -37,4 +41,4 @@ std::vector<double> pairedRatios(std::span<const double> a, std::span<const doub
     return ratios;
 }
 
-} // namespace filament::bench
+} // namespace filament

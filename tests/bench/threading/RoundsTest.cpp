@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/threading/Statistics.h"
 #include "bench/threading/Workload.h"
 
 #include <gmock/gmock.h>
@@ -10,35 +9,6 @@ namespace {
 
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-
-TEST(Quartiles, OfOneToFiveAreTwoThreeAndFour) {
-    const double values[] = { 4, 1, 5, 2, 3 };
-    const Quartiles q = quartiles(values);
-    EXPECT_EQ(q.first, 2);
-    EXPECT_EQ(q.median, 3);
-    EXPECT_EQ(q.third, 4);
-}
-
-TEST(Quartiles, LieBetweenTheValuesWhenTheCountIsEven) {
-    const double values[] = { 10, 20, 30, 40 };
-    const Quartiles q = quartiles(values);
-    EXPECT_DOUBLE_EQ(q.first, 17.5);
-    EXPECT_DOUBLE_EQ(q.median, 25);
-    EXPECT_DOUBLE_EQ(q.third, 32.5);
-}
-
-TEST(Quartiles, OfNothingAreZero) { EXPECT_EQ(quartiles({}).median, 0); }
-
-TEST(Quantile, ReachesTheSmallestAndTheLargestValue) {
-    const double values[] = { 7, -1, 3 };
-    EXPECT_EQ(quantile(values, 0), -1);
-    EXPECT_EQ(quantile(values, 1), 7);
-}
-
-TEST(PairedRatios, AreFormedWithinARoundAndLeaveOutZeros) {
-    const double a[] = { 1, 20, 3, 9 }, b[] = { 2, 40, 0 };
-    EXPECT_THAT(pairedRatios(a, b), ElementsAre(0.5, 0.5));
-}
 
 /// Returns given figures, round after round.
 Sampler playing(std::vector<std::vector<double>> rounds) {
