@@ -64,14 +64,14 @@ ROOMS = {
 
 # Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it
 # mirrors.
-USERS = ["tools", "python", "tests", "bench"]
+USERS = ["toolkit", "tools", "python", "tests", "bench"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
 # A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
 PUBLIC = ["base/include/filament", "shaders/package/include/filament", "filament_core/include/filament"]
 # Public headers whose objects are the engine's; the rest are value types.
 PUBLIC_ENGINE = ["filament.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
-PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "tools", "python", "samples", "tests", "bench"]
+PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "toolkit", "tools", "python", "samples", "tests", "bench"]
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
 
@@ -85,11 +85,11 @@ LIBRARIES = {
     r"stb_?image|stb/|png\.h|jpeglib\.h|webp/|avif/": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zlib\.h": ["shaders/package", "filament_core/assets/image", "filament_core/assets/gltf"],
     r"zstd\.h": ["filament_core/assets/image"],
-    r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "tools", "tests",
-                   "bench"],
+    r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "toolkit", "tools",
+                   "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
-    r"CLI/": ["tools"],
-    r"embree\d?/": ["tools"],
+    r"CLI/": ["tools", "toolkit"],
+    r"embree\d?/": ["tools", "toolkit"],
     r"imgui": ["tools", "tests"],
     r"pybind11/|numpy/|Python\.h": ["python"],
     r"gtest/|gmock/": ["tests"],
@@ -226,7 +226,7 @@ def table():
             line = line[cut + 1:]
         text.append(line)
         lines += [f"{room if i == 0 else '':{width}}{':' if i == 0 else ' '} {part}".rstrip() for i, part in enumerate(text)]
-    lines.append(f"{'tools python tests bench':{width}}: any room, a backend only through backend/create; a test also the folder it mirrors")
+    lines.append(f"{'toolkit tools python tests bench':{width}}: any room, a backend only through backend/create; a test also the folder it mirrors")
     lines.append(f"{'samples':{width}}: the public headers")
     return "\n".join(lines) + "\n"
 

@@ -6,8 +6,8 @@
 //           object; medians of the ratios within rounds. --wall uses elapsed time instead, for other devices.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/common/CommandLine.h"
-#include "tools/common/Machine.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"

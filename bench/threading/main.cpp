@@ -5,15 +5,16 @@
 // Google Benchmark registers, filters and runs. A workload is one benchmark, and each of its iterations is a round:
 // every contender once, in order, timed separately. (Google Benchmark's random interleaving shuffles whole repetitions;
 // figures of different contenders would not belong together, and ratios within a round could not be formed.)
-#include "bench/threading/Machine.h"
 #include "bench/threading/Placement.h"
 #include "bench/threading/Report.h"
 #include "bench/threading/Workloads.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -125,7 +126,8 @@ int run(Options const& options) {
         for (WorkloadEntry const& entry : workloads) fmt::print("{}\n", entry.name);
         return 0;
     }
-    const MachineDescription machine = describeMachine();
+    MachineDescription machine = tools::machineFacts();
+    machine.emplace_back("allowed", fmt::format("cores {}", fmt::join(allowedCores(), ",")));
     printMachine(machine, options.settings);
     benchmark::RunSpecifiedBenchmarks(&reporter, options.filter);
     return finish(options, machine, reporter);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-accuracy [options]: error and cost of every named choice, as JSON, CSV, plots and one page.
 // Exit status 0: measured and written.
-#include "tools/accuracy/Machine.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/accuracy/Options.h"
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/Shards.h"
@@ -39,13 +39,17 @@ MeasureProgress progressLine() {
     };
 }
 
+void nameOrigin(auto& results) {
+    results.machine = tools::describeMachine();
+    results.commit = tools::builtCommit();
+    results.date = tools::today();
+}
+
 int compare(Options const& options) {
     Result<ComparisonResults> results = comparePictures(*options.comparison, progressLine());
     tools::clearProgress();
     if (!results) return failed(results.error());
-    Results described;
-    describeMachine(described);
-    results->machine = described.machine, results->commit = described.commit, results->date = described.date;
+    nameOrigin(*results);
     if (const Result<void> written = writeComparison(*results, options.out); !written) return failed(written.error());
     for (Skipped const& one : results->skipped)
         tools::printWarning(fmt::format("row {} skipped: no {}; give --assets", one.name, one.reason));
@@ -84,7 +88,7 @@ int measureAndReport(Options const& options, std::vector<Effect> const& effects)
     Result<Results> results = measure(effects, *rows, *scenes, options.measure, progressLine());
     tools::clearProgress();
     if (!results) return failed(results.error());
-    describeMachine(*results);
+    nameOrigin(*results);
     for (Skipped const& one : results->skipped)
         tools::printWarning(fmt::format("effect {} skipped: it needs {}", one.name, one.reason));
     if (!options.shard) return report(options, *results);

@@ -3,8 +3,8 @@
 
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/common/DriverPromise.h"
-#include "tools/common/Machine.h"
+#include "toolkit/machine/DriverPromise.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/conformance/Flip.h"
 #include "tools/conformance/ImageChecks.h"
 

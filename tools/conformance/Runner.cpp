@@ -3,10 +3,10 @@
 
 #include "base/Assert.h"
 #include "base/Hash.h"
+#include "toolkit/machine/DriverPromise.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/common/Console.h"
-#include "tools/common/DriverPromise.h"
 #include "tools/common/Interrupt.h"
-#include "tools/common/Machine.h"
 #include "tools/conformance/Bisect.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"

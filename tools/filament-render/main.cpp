@@ -2,9 +2,9 @@
 // filament-render [MODEL] [options]: draws the picture of one command line on one or two backends and compares the two.
 // Exit status 0: everything was drawn and, with two backends, all pixels are equal (within --tolerance).
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/machine/DriverPromise.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/common/Console.h"
-#include "tools/common/DriverPromise.h"
-#include "tools/common/Machine.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"

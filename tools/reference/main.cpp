@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
 // Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C; a part is then not written.
+#include "toolkit/machine/Machine.h"
 #include "tools/common/Console.h"
-#include "tools/common/Machine.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/reference/LoadScene.h"

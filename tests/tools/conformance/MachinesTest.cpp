@@ -3,7 +3,7 @@
 // hang.
 #include "tools/conformance/Machines.h"
 #include "tests/tools/conformance/Pictures.h"
-#include "tools/common/Machine.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"

@@ -3,7 +3,7 @@
 
 #include "backend/api/Format.h"
 #include "base/Hash.h"
-#include "tools/common/Machine.h"
+#include "toolkit/machine/Machine.h"
 #include "tools/conformance/ImageChecks.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/common/DriverPromise.h"
+#include "toolkit/machine/DriverPromise.h"
 
-#include "tools/common/Machine.h"
+#include "toolkit/machine/Machine.h"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,17 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace filament::tools {
 
-/// Processor, cores, system, load.
+/// Processor, cores, system, load: in one line.
 std::string describeMachine();
+/// Name and value, in the order to print them: processor, system, what may change its speed, load, compiler, commit.
+std::vector<std::pair<std::string, std::string>> machineFacts();
+/// UTC, such as "2026-11-28".
+std::string today();
 /// What of "avx fma" this processor gives Mesa's CPU drivers, such as "avx no-fma", or "not x86-64". Processors with
 /// both draw the same bits (docs/conformance.md).
 std::string cpuFeatures();

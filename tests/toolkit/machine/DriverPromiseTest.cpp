@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/common/DriverPromise.h"
-#include "tools/common/Machine.h"
+#include "toolkit/machine/DriverPromise.h"
+#include "toolkit/machine/Machine.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
