@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Differences of two images: by imgdiff's counts, filament-accuracy's relative error and FLIP.
 #include "python/Bindings.h"
-#include "tools/accuracy/Picture.h"
-#include "tools/conformance/Flip.h"
-#include "tools/imgdiff/ImageCompare.h"
+#include "toolkit/pictures/Flip.h"
+#include "toolkit/pictures/ImageCompare.h"
+#include "toolkit/pictures/Picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +35,9 @@ void compareComponents(std::vector<T> const& a, std::vector<T> const& b, Compari
     result.rms = std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-accuracy::Picture lightOf(PictureArray const& array) {
-    if (!array.isFloat) return accuracy::pictureOf(array.image());
-    accuracy::Picture picture{ .width = array.width, .height = array.height };
+tools::Picture lightOf(PictureArray const& array) {
+    if (!array.isFloat) return tools::pictureOf(array.image());
+    tools::Picture picture{ .width = array.width, .height = array.height };
     for (size_t i = 0; i < array.light.size(); i += 4)
         picture.pixels.emplace_back(array.light[i], array.light[i + 1], array.light[i + 2]);
     return picture;
@@ -58,8 +58,8 @@ Comparison comparePictures(py::object const& first, py::object const& second) {
         Comparison result{ .pixels = uint64_t{ reference.width } * reference.height };
         compareComponents(reference.light, test.light, result);
         if (!reference.isFloat) compareComponents(reference.codes, test.codes, result);
-        const accuracy::ErrorFigures relative = accuracy::compare(lightOf(reference), lightOf(test));
-        const conformance::FlipError flip = conformance::flip(reference.image(), test.image());
+        const tools::ErrorFigures relative = tools::compare(lightOf(reference), lightOf(test));
+        const tools::FlipError flip = tools::flip(reference.image(), test.image());
         result.relativeRms = relative.rms;
         result.relativeMax = relative.max;
         result.flipMean = flip.mean;
@@ -71,7 +71,7 @@ Comparison comparePictures(py::object const& first, py::object const& second) {
 py::array_t<float> flipMap(py::object const& first, py::object const& second) {
     const PictureArray reference = pictureOf(first, "reference"), test = pictureOf(second, "test");
     requireComparable(reference, test);
-    const conformance::FlipError error = released([&] { return conformance::flip(reference.image(), test.image()); });
+    const tools::FlipError error = released([&] { return tools::flip(reference.image(), test.image()); });
     py::array_t<float> map({ static_cast<py::ssize_t>(reference.height), static_cast<py::ssize_t>(reference.width) });
     std::copy(error.pixels.begin(), error.pixels.end(), map.mutable_data());
     return map;

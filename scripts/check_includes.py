@@ -12,6 +12,7 @@ import argparse
 import pathlib
 import re
 import sys
+import textwrap
 
 # Bottom up; room: the rooms that it may include, besides itself. A folder that is not listed is not a room.
 ROOMS = {
@@ -65,6 +66,25 @@ ROOMS = {
 # Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it
 # mirrors.
 USERS = ["toolkit", "tools", "python", "tests", "bench"]
+
+# What programs share, bottom up; folder: the ones of this table that it may include, besides itself.
+TOOLKIT = {
+    "tools/paths": [],
+    "tools/packages": [],
+    "tools/showcase": [],
+    "toolkit/machine": [],
+    "toolkit/json": [],
+    "toolkit/pictures": [],
+    "toolkit/mutations": [],
+    "tools/common": ["tools/showcase"],
+    "tools/materials": ["tools/packages", "tools/paths", "tools/showcase"],
+    "toolkit/record": ["toolkit/machine", "toolkit/json", "toolkit/pictures"],
+    "toolkit/scenes": ["tools/showcase", "tools/materials", "toolkit/json"],
+    "tools/reference": ["tools/common", "toolkit/machine"],  # the path tracer, and a program around it
+}
+# Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
+PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff", "tools/ltcfit", "tools/matc",
+            "tools/matinfo", "tools/numerics", "tools/replay", "tools/tables", "tools/view"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
 # A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
@@ -106,8 +126,13 @@ SKIPPED = {"build", "out", ".git"}
 
 def room_of(path):
     """The room or user folder that a path from the repository root belongs to; None if it belongs to none."""
-    matches = [r for r in list(ROOMS) + USERS + ["samples"] if path.startswith(r + "/")]
+    matches = [r for r in [*ROOMS, *USERS, *TOOLKIT, *PROGRAMS, "samples"] if path.startswith(r + "/")]
     return max(matches, key=len, default=None)
+
+
+def user_of(room):
+    """tools/view belongs to tools; a room of the engine to itself."""
+    return room.split("/")[0] if room in TOOLKIT or room in PROGRAMS else room
 
 
 def mirrored(path):
@@ -120,7 +145,16 @@ def is_public(path):
 
 
 def may_see(room, target_room):
-    return room == target_room or room in USERS or target_room in ROOMS[room]
+    return room == target_room or user_of(room) in USERS or target_room in ROOMS[room]
+
+
+def user_rule(room, target_room):
+    """Why a file above the rooms may not include one of another folder there; None if it may."""
+    if target_room in PROGRAMS and room != "tests":
+        return f"{room} may not include the program {target_room}: what both need belongs to the toolkit"
+    if room in TOOLKIT and target_room not in TOOLKIT[room]:
+        return f"{room} may not include {target_room}: includes point down in the table of the toolkit"
+    return None
 
 
 def quoted_rule(root, path, room, target):
@@ -138,10 +172,12 @@ def quoted_rule(root, path, room, target):
         return None
     if room == "samples":
         return "samples see only the public headers <filament/...>"
-    if target_room in (None, *USERS, "samples"):
+    if target_room is None or user_of(target_room) in (*USERS, "samples"):
         # users may include each other: tests use the tools' libraries, benches use the test scenes
-        return None if room in USERS and target_room in USERS else f"{room} may not include {target_room or 'this'}"
-    if room in USERS:
+        if user_of(room) not in USERS or target_room in (None, "samples"):
+            return f"{room} may not include {target_room or 'this'}"
+        return user_rule(room, target_room)
+    if user_of(room) in USERS:
         if target_room in BEHIND_CREATE and mirrored(path) != target_room:
             return f"{target_room} is behind backend/create; only tests/{target_room} looks inside"
         return None
@@ -154,7 +190,7 @@ def public_rule(root, room, name):
     owners = [room_of(f"{folder}/{name}") for folder in PUBLIC if (root / folder / name).is_file()]
     if len(owners) != 1:
         return f"<filament/{name}> " + ("does not exist" if not owners else f"exists {len(owners)} times")
-    if name in PUBLIC_ENGINE and room not in PUBLIC_ENGINE_USERS:
+    if name in PUBLIC_ENGINE and user_of(room) not in PUBLIC_ENGINE_USERS:
         return f"<filament/{name}> names the engine; {room} is below it"
     if room != "samples" and not may_see(room, owners[0]):
         return f"<filament/{name}> belongs to {owners[0]}, which {room} may not include"
@@ -163,7 +199,7 @@ def public_rule(root, room, name):
 
 def library_rule(path, room, target):
     for pattern, rooms in LIBRARIES.items():
-        if re.match(pattern, target) and room not in rooms and not (room == "tests" and mirrored(path) in rooms):
+        if re.match(pattern, target) and user_of(room) not in rooms and not (room == "tests" and mirrored(path) in rooms):
             return f"<{target}> belongs to {', '.join(rooms)}"
     if is_public(path) and "/" in target and not target.startswith("glm/"):
         return f"public headers include only the standard library and GLM, not <{target}>"
@@ -173,7 +209,7 @@ def library_rule(path, room, target):
 def check_file(root, path):
     relative = path.relative_to(root).as_posix()
     room = room_of(relative)
-    if room is None:
+    if room in (None, "toolkit", "tools"):
         yield 1, "this folder is no room of the include table"
         return
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
@@ -205,9 +241,9 @@ def source_files(root):
 
 
 def check_order():
-    """No arrow of the table points up: each room lists only rooms that precede it in ROOMS."""
+    """No arrow of the tables points up: each room lists only rooms that precede it."""
     seen = set()
-    for room, below in ROOMS.items():
+    for room, below in [*ROOMS.items(), *TOOLKIT.items()]:
         for name in below:
             if name not in seen:
                 yield f"{room} lists {name}, which is not below it"
@@ -218,7 +254,7 @@ def table():
     """Bottom up, one room per line; the sub-rooms of assets are combined if a room may include all of them."""
     width = max(map(len, ROOMS)) + 1
     lines = []
-    for room, below in ROOMS.items():
+    for room, below in [*ROOMS.items(), *((room, ["any room", *below]) for room, below in TOOLKIT.items())]:
         text, line = [], " ".join(below)
         while len(line) > 118 - width:
             cut = line.rindex(" ", 0, 118 - width)
@@ -226,7 +262,11 @@ def table():
             line = line[cut + 1:]
         text.append(line)
         lines += [f"{room if i == 0 else '':{width}}{':' if i == 0 else ' '} {part}".rstrip() for i, part in enumerate(text)]
-    lines.append(f"{'toolkit tools python tests bench':{width}}: any room, a backend only through backend/create; a test also the folder it mirrors")
+    programs = textwrap.wrap(" ".join(name.removeprefix("tools/") for name in PROGRAMS), 118 - width - len("(of tools) "))
+    lines += [f"{'' if i else 'programs':{width}}{' ' if i else ':'} {'' if i else '(of tools) '}{part}" for i, part in enumerate(programs)]
+    lines.append(f"{'':{width}}  any room, a backend only through backend/create; all of the toolkit; no other program")
+    lines.append(f"{'python bench':{width}}: as programs")
+    lines.append(f"{'tests':{width}}: as programs, and any program; also the folder that it mirrors")
     lines.append(f"{'samples':{width}}: the public headers")
     return "\n".join(lines) + "\n"
 

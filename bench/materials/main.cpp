@@ -7,8 +7,8 @@
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/scenes/SceneAssets.h"
 #include "tools/common/CommandLine.h"
-#include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
 #include "tools/paths/Paths.h"
@@ -66,8 +66,8 @@ public:
         Result<Engine> engine = Engine::create({ .backend = backend, .workers = 0, .cacheDirectory = work });
         if (!engine) return engine.error();
         std::unique_ptr<Device> device(new Device(std::move(*engine), options));
-        const conformance::SceneSpec studio{ .environment = "studio" };
-        const Result<fs::path> file = conformance::environmentFile(studio, { work, {} });
+        const tools::SceneSpec studio{ .environment = "studio" };
+        const Result<fs::path> file = tools::environmentFile(studio, { work, {} });
         if (!file) return file.error();
         Result<Environment> environment = loadEnvironment(device->mEngine, *file, { .faceSize = 64, .samples = 128 });
         if (!environment) return environment.error();

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/Assert.h"
-#include "tools/view/record/Replay.h"
+#include "toolkit/record/Replay.h"
 
 #include <algorithm>
 #include <string>

@@ -4,13 +4,13 @@
 #pragma once
 
 #include "base/Assert.h"
+#include "toolkit/scenes/SceneFile.h"
 #include "tools/accuracy/Effect.h"
 #include "tools/accuracy/Shards.h"
 #include "tools/accuracy/comparison/Comparison.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Results.h"
-#include "tools/conformance/SceneFile.h"
 #include "tools/materials/MaterialFile.h"
 
 #include <nlohmann/json.hpp>
@@ -74,7 +74,7 @@ inline bool fuzzToolFile(ToolFile kind, std::string_view text) {
     static const ToolFolder folder;
     switch (kind) {
     case ToolFile::Scene:
-        return isContents(conformance::readSceneFile(folder.write("scene.json", text)), "scene.json");
+        return isContents(tools::readSceneFile(folder.write("scene.json", text)), "scene.json");
     case ToolFile::Baselines:
         return fuzzBaselines(folder, text);
     case ToolFile::Results:

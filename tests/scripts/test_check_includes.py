@@ -52,10 +52,30 @@ class IncludeTable(unittest.TestCase):
 
     def test_a_tool_reaches_a_backend_only_through_create(self):
         files = {"backend/vulkan/Buffer.h": "\n", "backend/create/CreateDriver.h": "\n"}
-        status, output = check(files | {"tools/x/main.cpp": '#include "backend/create/CreateDriver.h"\n'})
+        status, output = check(files | {"tools/view/main.cpp": '#include "backend/create/CreateDriver.h"\n'})
         self.assertEqual(status, 0, output)
-        self.assert_broken(files | {"tools/x/main.cpp": '#include "backend/vulkan/Buffer.h"\n'},
-                           "tools/x/main.cpp:1:", "behind backend/create")
+        self.assert_broken(files | {"tools/view/main.cpp": '#include "backend/vulkan/Buffer.h"\n'},
+                           "tools/view/main.cpp:1:", "behind backend/create")
+
+    def test_a_program_includes_the_toolkit_and_no_other_program(self):
+        files = {"tools/view/View.h": "\n", "toolkit/json/Json.h": "\n"}
+        for path in ("tools/accuracy/A.cpp", "python/P.cpp", "bench/frame/B.cpp", "toolkit/json/J.cpp"):
+            status, output = check(files | {path: '#include "toolkit/json/Json.h"\n'})
+            self.assertEqual(status, 0, output)
+            self.assert_broken(files | {path: '#include "tools/view/View.h"\n'}, f"{path}:1:", "the program tools/view")
+        status, output = check(files | {"tests/tools/view/T.cpp": '#include "tools/view/View.h"\n'})
+        self.assertEqual(status, 0, output)
+
+    def test_every_folder_of_tools_is_in_the_table(self):
+        self.assert_broken({"tools/another/main.cpp": "\n"}, "tools/another/main.cpp:1:", "no room")
+
+    def test_a_room_of_the_toolkit_includes_those_below_it(self):
+        files = {"toolkit/json/Json.h": "\n", "toolkit/record/Record.h": '#include "toolkit/json/Json.h"\n'}
+        self.assertEqual(check(files)[0], 0)
+        self.assert_broken(files | {"toolkit/json/J.cpp": '#include "toolkit/record/Record.h"\n'}, "toolkit/json/J.cpp:1:",
+                           "includes point down")
+        self.assert_broken({"toolkit/json/Json.h": "\n", "filament_core/engine/E.cpp": '#include "toolkit/json/Json.h"\n'},
+                           "filament_core/engine/E.cpp:1:", "may not include toolkit/json")
 
     def test_a_test_looks_inside_the_folder_it_mirrors(self):
         files = {"backend/vulkan/Buffer.h": "\n"}

@@ -2,8 +2,8 @@
 #include "tools/accuracy/Effect.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonReader.h"
 #include "tools/accuracy/Settings.h"
-#include "tools/conformance/JsonReader.h"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -16,8 +16,8 @@
 namespace filament::accuracy {
 namespace {
 
-using conformance::Json;
-using conformance::JsonReader;
+using tools::Json;
+using tools::JsonReader;
 
 constexpr std::array<std::pair<std::string_view, ReferenceKind>, 7> kKinds{ {
         { "setting", ReferenceKind::Setting },

@@ -8,10 +8,12 @@
 #pragma once
 
 #include "jobsystem/JobSystem.h"
-#include "tools/accuracy/Picture.h"
+#include "toolkit/pictures/Picture.h"
 #include "tools/accuracy/Settings.h"
 
 namespace filament::accuracy {
+
+using namespace tools; // the toolkit
 
 /// Relative rms and max; no FLIP, because there is no picture.
 Result<ErrorFigures> integralError(std::string const& name, Settings const& settings, jobs::JobSystem& jobs);

@@ -12,7 +12,7 @@
 namespace filament::accuracy {
 namespace {
 
-using conformance::SceneSpec;
+using tools::SceneSpec;
 
 class Measurement {
 public:

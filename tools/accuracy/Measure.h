@@ -27,7 +27,7 @@ struct MeasureOptions {
     uint32_t loadRounds = 3;         ///< of loads, which take seconds
     uint32_t mostTraced = 1u << 20;  ///< maximum samples per pixel of references
     std::filesystem::path pictures;  ///< folder for every picture that an error was computed from, as PNG; empty: none
-    conformance::SceneFolders folders{};
+    tools::SceneFolders folders{};
 };
 
 /// The current step, and the fraction done.

@@ -7,7 +7,7 @@
 namespace filament::accuracy {
 namespace {
 
-using conformance::SceneSpec;
+using tools::SceneSpec;
 
 Result<Truth> shootTruth(ReferenceStage const& stage, SceneSpec const& scene, Settings const& settings,
                          uint32_t factor) {

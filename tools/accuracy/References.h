@@ -15,7 +15,7 @@ namespace filament::accuracy {
 struct ReferenceStage {
     Studio& studio;
     SceneLibrary const& scenes;
-    conformance::SceneFolders const& folders;
+    tools::SceneFolders const& folders;
     jobs::JobSystem& jobs;
 };
 
@@ -26,14 +26,13 @@ struct Truth {
 };
 
 /// The scene's own settings, then `base`, then `set`.
-Result<Settings> settingsFor(conformance::SceneSpec const& scene, std::vector<std::string> const& base,
+Result<Settings> settingsFor(tools::SceneSpec const& scene, std::vector<std::string> const& base,
                              std::vector<std::string> const& set);
 
-Result<Picture> shoot(Studio& studio, conformance::SceneSpec const& scene, Settings const& settings, uint2 size,
-                      bool linear);
+Result<Picture> shoot(Studio& studio, tools::SceneSpec const& scene, Settings const& settings, uint2 size, bool linear);
 
 /// Not for Integral, which has no picture, or OtherBackend, which has one per value.
-Result<Truth> makeTruth(Reference const& reference, conformance::SceneSpec const& scene,
-                        std::vector<std::string> const& base, ReferenceStage const& stage);
+Result<Truth> makeTruth(Reference const& reference, tools::SceneSpec const& scene, std::vector<std::string> const& base,
+                        ReferenceStage const& stage);
 
 } // namespace filament::accuracy

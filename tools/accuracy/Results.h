@@ -10,8 +10,8 @@
 ///   Thread  any; pure.
 #pragma once
 
+#include "toolkit/pictures/Picture.h"
 #include "tools/accuracy/Effect.h"
-#include "tools/accuracy/Picture.h"
 #include "tools/accuracy/Statistics.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -23,6 +23,8 @@
 #include <vector>
 
 namespace filament::accuracy {
+
+using namespace tools; // the toolkit
 
 struct Timing {
     Estimate milliseconds;

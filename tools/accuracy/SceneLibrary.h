@@ -5,7 +5,7 @@
 ///   Thread  read-only after read().
 #pragma once
 
-#include "tools/conformance/SceneAssets.h"
+#include "toolkit/scenes/SceneAssets.h"
 
 namespace filament::accuracy {
 
@@ -13,10 +13,10 @@ class SceneLibrary {
 public:
     static Result<SceneLibrary> read(std::filesystem::path const& folder);
     /// The pointer is valid as long as the library.
-    Result<conformance::SceneSpec const*> find(std::string const& name) const;
+    Result<tools::SceneSpec const*> find(std::string const& name) const;
 
 private:
-    std::vector<conformance::SceneSpec> mScenes;
+    std::vector<tools::SceneSpec> mScenes;
 };
 
 } // namespace filament::accuracy

@@ -7,10 +7,10 @@ namespace filament::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using conformance::SceneSpec;
+using tools::SceneSpec;
 
 // Timed loads put their baked environments here; the folder is removed before each load.
-fs::path cacheOf(conformance::SceneFolders const& folders) { return folders.work / "environments"; }
+fs::path cacheOf(tools::SceneFolders const& folders) { return folders.work / "environments"; }
 
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -64,10 +64,10 @@ struct Studio::Equipment {
     std::map<std::string, Loaded<Environment>> environments;
 };
 
-Studio::Studio(Backend backend, conformance::SceneFolders const& folders) : mBackend(backend), mFolders(folders) {}
+Studio::Studio(Backend backend, tools::SceneFolders const& folders) : mBackend(backend), mFolders(folders) {}
 Studio::~Studio() = default;
 
-Result<std::unique_ptr<Studio>> Studio::open(Backend backend, conformance::SceneFolders const& folders) {
+Result<std::unique_ptr<Studio>> Studio::open(Backend backend, tools::SceneFolders const& folders) {
     std::unique_ptr<Studio> studio(new Studio(backend, folders));
     const Result<Equipment*> first = studio->equipment({});
     if (!first) return first.error();
@@ -89,7 +89,7 @@ Result<Studio::Equipment*> Studio::equipment(Settings const& settings) {
 }
 
 Result<std::shared_ptr<Model>> Studio::model(Equipment& used, SceneSpec const& spec, Settings const& settings) {
-    const Result<fs::path> file = conformance::modelFile(spec, mFolders);
+    const Result<fs::path> file = tools::modelFile(spec, mFolders);
     if (!file) return file.error();
     Loaded<Model>& known = used.models[file->string() + settings.modelKey];
     if (!known.file) {
@@ -102,7 +102,7 @@ Result<std::shared_ptr<Model>> Studio::model(Equipment& used, SceneSpec const& s
 
 Result<std::shared_ptr<Environment>> Studio::environment(Equipment& used, SceneSpec const& spec,
                                                          Settings const& settings) {
-    const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
+    const Result<fs::path> file = tools::environmentFile(spec, mFolders);
     if (!file) return file.error();
     if (file->empty()) return std::shared_ptr<Environment>();
     Loaded<Environment>& known = used.environments[file->string() + settings.environmentKey];
@@ -121,7 +121,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     Result<TakeParts> parts = partsOf(**used, spec, settings);
     if (!parts) return parts.error();
     Scene& scene = parts->scene;
-    if (const Result<void> added = conformance::addLights(engine, scene, spec, mFolders); !added) return added.error();
+    if (const Result<void> added = tools::addLights(engine, scene, spec, mFolders); !added) return added.error();
     if (parts->environment)
         scene.setEnvironment(*parts->environment, spec.environmentSettings);
     else if (parts->model && parts->model->environment())
@@ -146,11 +146,11 @@ Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settin
     Result<std::shared_ptr<Environment>> sky = environment(used, spec, settings);
     if (!sky) return sky.error();
     parts.environment = std::move(*sky);
-    if (conformance::isMaterialModel(spec)) {
-        Result<tools::MaterialStand> stand = conformance::makeMaterialModel(used.engine, spec);
+    if (tools::isMaterialModel(spec)) {
+        Result<tools::MaterialStand> stand = tools::makeMaterialModel(used.engine, spec);
         if (!stand) return stand.error();
         parts.material = std::make_shared<tools::MaterialStand>(std::move(*stand));
-        const auto added = conformance::addMaterialCopies(used.engine, parts.scene, spec, *parts.material);
+        const auto added = tools::addMaterialCopies(used.engine, parts.scene, spec, *parts.material);
         if (!added) return added.error();
         return parts;
     }
@@ -162,7 +162,7 @@ Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settin
 }
 
 Result<double> Studio::timeEnvironment(SceneSpec const& spec, Settings const& settings) {
-    const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
+    const Result<fs::path> file = tools::environmentFile(spec, mFolders);
     if (!file) return file.error();
     const Result<Equipment*> used = equipment(settings);
     if (!used) return used.error();
@@ -177,7 +177,7 @@ Result<double> Studio::timeEnvironment(SceneSpec const& spec, Settings const& se
 }
 
 Result<double> Studio::timeModel(SceneSpec const& spec, Settings const& settings) {
-    const Result<fs::path> file = conformance::modelFile(spec, mFolders);
+    const Result<fs::path> file = tools::modelFile(spec, mFolders);
     if (!file) return file.error();
     const Result<Equipment*> used = equipment(settings);
     if (!used) return used.error();

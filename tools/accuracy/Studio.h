@@ -9,10 +9,10 @@
 ///   Cost    the first picture of a new combination compiles a pipeline: up to a second.
 #pragma once
 
-#include "tools/accuracy/Picture.h"
+#include "toolkit/pictures/Picture.h"
+#include "toolkit/scenes/MaterialModel.h"
+#include "toolkit/scenes/SceneAssets.h"
 #include "tools/accuracy/Settings.h"
-#include "tools/conformance/MaterialModel.h"
-#include "tools/conformance/SceneAssets.h"
 
 #include <filament/Renderer.h>
 
@@ -22,8 +22,10 @@
 
 namespace filament::accuracy {
 
+using namespace tools; // the toolkit
+
 /// The scene's own view: the settings to start from.
-Settings settingsOf(conformance::SceneSpec const& spec);
+Settings settingsOf(tools::SceneSpec const& spec);
 
 /// A loaded file, shared by takes.
 template <class T>
@@ -62,30 +64,29 @@ private:
 
 class Studio {
 public:
-    static Result<std::unique_ptr<Studio>> open(Backend backend, conformance::SceneFolders const& folders);
+    static Result<std::unique_ptr<Studio>> open(Backend backend, tools::SceneFolders const& folders);
     ~Studio();
 
     DeviceDescription const& device() const { return mDevice; }
     /// `linear`: scene-linear half floats, without the tone mapper.
-    Result<std::unique_ptr<Take>> take(conformance::SceneSpec const& spec, Settings const& settings, uint2 size,
-                                       bool linear);
+    Result<std::unique_ptr<Take>> take(tools::SceneSpec const& spec, Settings const& settings, uint2 size, bool linear);
     /// Milliseconds for loading one file again, with an empty cache.
-    Result<double> timeEnvironment(conformance::SceneSpec const& spec, Settings const& settings);
-    Result<double> timeModel(conformance::SceneSpec const& spec, Settings const& settings);
+    Result<double> timeEnvironment(tools::SceneSpec const& spec, Settings const& settings);
+    Result<double> timeModel(tools::SceneSpec const& spec, Settings const& settings);
     /// Drops files that no Take uses and that were loaded with special options: a cube of 2048 takes half a gigabyte.
     void forgetUnusual();
 
 private:
     struct Equipment; // one engine, and the files loaded for it
-    Studio(Backend backend, conformance::SceneFolders const& folders);
+    Studio(Backend backend, tools::SceneFolders const& folders);
     Result<Equipment*> equipment(Settings const& settings);
-    Result<TakeParts> partsOf(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);
-    Result<std::shared_ptr<Model>> model(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);
-    Result<std::shared_ptr<Environment>> environment(Equipment& used, conformance::SceneSpec const& spec,
+    Result<TakeParts> partsOf(Equipment& used, tools::SceneSpec const& spec, Settings const& settings);
+    Result<std::shared_ptr<Model>> model(Equipment& used, tools::SceneSpec const& spec, Settings const& settings);
+    Result<std::shared_ptr<Environment>> environment(Equipment& used, tools::SceneSpec const& spec,
                                                      Settings const& settings);
 
     const Backend mBackend;
-    const conformance::SceneFolders mFolders;
+    const tools::SceneFolders mFolders;
     DeviceDescription mDevice;
     std::map<std::string, std::unique_ptr<Equipment>> mEquipment; // by Settings::engineKey
 };

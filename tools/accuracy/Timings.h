@@ -15,7 +15,7 @@ namespace filament::accuracy {
 
 struct TimingJob {
     Studio& studio;
-    conformance::SceneSpec const& scene;
+    tools::SceneSpec const& scene;
     Effect const& effect;
     uint2 size{ 1280, 720 };
     uint32_t rounds = 15;

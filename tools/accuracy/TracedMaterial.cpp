@@ -5,7 +5,7 @@
 #include "base/Suggest.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/lib/LibCppDouble.h"
-#include "tools/conformance/MaterialModel.h"
+#include "toolkit/scenes/MaterialModel.h"
 #include "tools/materials/MaterialMeshes.h"
 #include "tools/reference/Surface.h"
 
@@ -19,9 +19,9 @@ namespace {
 
 namespace lib = shader::lib64;
 
-using conformance::SceneSpec;
 using reference::SurfaceSample;
 using tools::MaterialVertex;
+using tools::SceneSpec;
 
 /// The members of MaterialInputs that the path tracer must know, with their defaults.
 struct Inputs {
@@ -186,7 +186,7 @@ std::shared_ptr<const assets::ModelData> modelOf(tools::MaterialMesh const& mesh
 } // namespace
 
 Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec, size_t copy) {
-    const Result<conformance::MaterialModelFile> read = conformance::readMaterialModel(spec);
+    const Result<tools::MaterialModelFile> read = tools::readMaterialModel(spec);
     if (!read) return read.error();
     shader::MaterialPackage const& package = read->file->package;
     if (package.shading != shader::ShadingModel::Lit && package.shading != shader::ShadingModel::Cloth) {

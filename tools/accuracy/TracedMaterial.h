@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TracedMaterial: converts a scene whose model is a material (tools/conformance/MaterialModel.h) for the path tracer:
+/// TracedMaterial: converts a scene whose model is a material (toolkit/scenes/MaterialModel.h) for the path tracer:
 /// the same mesh, with the parameter values interpreted by their names.
 ///   Names   parameters are named like the members of MaterialInputs that they set: baseColor, metallic, roughness,
 ///           reflectance, ior, clearCoat, clearCoatRoughness, sheenColor, sheenRoughness, anisotropy, transmission,
@@ -11,7 +11,7 @@
 ///   Fails   NotFound with the nearest name; Unsupported: the shading model, or no parameter; errors of the compiler.
 #pragma once
 
-#include "tools/conformance/SceneFile.h"
+#include "toolkit/scenes/SceneFile.h"
 #include "tools/reference/Reference.h"
 
 namespace filament::accuracy {
@@ -28,6 +28,6 @@ struct TracedMaterial {
 };
 
 /// Of one of the scene's copies.
-Result<TracedMaterial> tracedMaterialOf(conformance::SceneSpec const& spec, size_t copy = 0);
+Result<TracedMaterial> tracedMaterialOf(tools::SceneSpec const& spec, size_t copy = 0);
 
 } // namespace filament::accuracy

@@ -4,16 +4,16 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/image/HdrReader.h"
-#include "tools/conformance/MaterialModel.h"
+#include "toolkit/scenes/MaterialModel.h"
 
 #include <type_traits>
 
 namespace filament::accuracy {
 namespace {
 
-using conformance::LightSpec;
-using conformance::SceneSpec;
 using reference::ReferenceScene;
+using tools::LightSpec;
+using tools::SceneSpec;
 
 void add(ReferenceScene& scene, LightSpec const& light, reference::ProfilePtr const& profile) {
     std::visit(
@@ -46,9 +46,9 @@ Result<reference::ProfilePtr> profileOf(std::filesystem::path const& file) {
 }
 
 /// Copies of a material may differ, those of a model do not.
-Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, size_t copy, conformance::SceneFolders const& folders,
+Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, size_t copy, tools::SceneFolders const& folders,
                                           jobs::JobSystem& jobs, MaterialFeatures* features) {
-    if (conformance::isMaterialModel(spec)) {
+    if (tools::isMaterialModel(spec)) {
         Result<TracedMaterial> traced = tracedMaterialOf(spec, copy);
         if (!traced) return traced.error();
         if (features) *features = traced->features;
@@ -63,7 +63,7 @@ Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, size_t copy, co
 
 } // namespace
 
-Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
+Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, tools::SceneFolders const& folders,
                                         jobs::JobSystem& jobs, MaterialFeatures* features) {
     Result<reference::ReferenceModel> model = modelOf(spec, 0, folders, jobs, features);
     if (!model) return model.error();

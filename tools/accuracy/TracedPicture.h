@@ -5,17 +5,18 @@
 ///   Fails   errors of the loaders and of tools/reference.
 #pragma once
 
-#include "tools/accuracy/Picture.h"
+#include "toolkit/pictures/Picture.h"
+#include "toolkit/scenes/SceneAssets.h"
 #include "tools/accuracy/TracedMaterial.h"
-#include "tools/conformance/SceneAssets.h"
 #include "tools/reference/Reference.h"
 
 namespace filament::accuracy {
 
+using namespace tools; // the toolkit
+
 /// The model, lights and environment of a scene file, for the path tracer. `features`: those of its material.
-Result<reference::ReferenceScene> referenceSceneOf(conformance::SceneSpec const& spec,
-                                                   conformance::SceneFolders const& folders, jobs::JobSystem& jobs,
-                                                   MaterialFeatures* features = nullptr);
+Result<reference::ReferenceScene> referenceSceneOf(tools::SceneSpec const& spec, tools::SceneFolders const& folders,
+                                                   jobs::JobSystem& jobs, MaterialFeatures* features = nullptr);
 
 /// The terms that correspond to a set of choices.
 reference::BsdfModel bsdfOf(Quality const& quality);

@@ -5,8 +5,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
-#include "tools/conformance/Flip.h"
-#include "tools/conformance/ImageChecks.h"
+#include "toolkit/pictures/Flip.h"
+#include "toolkit/pictures/ImageChecks.h"
 
 #include <filament/Color.h>
 

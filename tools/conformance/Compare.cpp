@@ -2,9 +2,9 @@
 #include "tools/conformance/Compare.h"
 
 #include "filament_core/assets/image/ImageWriter.h"
-#include "tools/conformance/Flip.h"
-#include "tools/conformance/ImageChecks.h"
-#include "tools/imgdiff/ImageCompare.h"
+#include "toolkit/pictures/Flip.h"
+#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/ImageCompare.h"
 
 #include <filament/Color.h>
 

@@ -5,8 +5,8 @@
 ///   Thread  any; pure.  Fails  InvalidArgument if sizes or formats differ.
 #pragma once
 
+#include "toolkit/scenes/SceneFile.h"
 #include "tools/conformance/Results.h"
-#include "tools/conformance/SceneFile.h"
 
 #include <filament/Image.h>
 

@@ -2,12 +2,12 @@
 #include "tools/conformance/MachineRun.h"
 
 #include "base/Assert.h"
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/common/ChildProcess.h"
 #include "tools/common/Console.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Machines.h"
-#include "tools/imgdiff/ImageCompare.h"
 
 #include <filament/Image.h>
 

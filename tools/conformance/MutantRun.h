@@ -7,7 +7,7 @@
 ///   Thread  any.   Fails: errors of the loaders and the device.
 #pragma once
 
-#include "tools/conformance/Mutations.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/conformance/Results.h"
 #include "tools/conformance/Stage.h"
 

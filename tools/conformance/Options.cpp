@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Options.h"
 
+#include "toolkit/mutations/Mutations.h"
 #include "tools/common/CommandLine.h"
 #include "tools/conformance/Machines.h"
-#include "tools/conformance/Mutations.h"
 #include "tools/paths/Paths.h"
 
 #include <filament/Quality.h>

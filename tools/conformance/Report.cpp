@@ -2,9 +2,9 @@
 #include "tools/conformance/Report.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/common/Html.h"
 #include "tools/conformance/Machines.h"
-#include "tools/conformance/Mutations.h"
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 #include "tools/conformance/Results.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/conformance/Machines.h"
-#include "tools/conformance/Mutations.h"
 
 #include <nlohmann/json.hpp>
 

@@ -7,8 +7,8 @@
 ///   Thread  any; pure except for files.
 #pragma once
 
+#include "toolkit/json/JsonReader.h"
 #include "tools/common/Shard.h"
-#include "tools/conformance/JsonReader.h"
 
 #include <filesystem>
 #include <map>
@@ -17,6 +17,8 @@
 #include <vector>
 
 namespace filament::conformance {
+
+using namespace tools; // the toolkit
 
 enum class Status : uint8_t { Passed, Failed, Skipped };
 const char* toString(Status status);

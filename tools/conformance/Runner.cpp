@@ -5,16 +5,16 @@
 #include "base/Hash.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/mutations/Mutations.h"
+#include "toolkit/pictures/ImageCompare.h"
+#include "toolkit/record/Bisect.h"
 #include "tools/common/Console.h"
 #include "tools/common/Interrupt.h"
-#include "tools/conformance/Bisect.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
 #include "tools/conformance/MutantRun.h"
-#include "tools/conformance/Mutations.h"
 #include "tools/conformance/random/Dice.h"
-#include "tools/imgdiff/ImageCompare.h"
 
 #include <algorithm>
 #include <chrono>

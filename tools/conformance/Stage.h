@@ -7,10 +7,10 @@
 #pragma once
 
 #include "backend/layers/Captured.h"
-#include "tools/conformance/Bisect.h"
-#include "tools/conformance/DefectTrace.h"
-#include "tools/conformance/MaterialModel.h"
-#include "tools/conformance/SceneAssets.h"
+#include "toolkit/mutations/DefectTrace.h"
+#include "toolkit/record/Bisect.h"
+#include "toolkit/scenes/MaterialModel.h"
+#include "toolkit/scenes/SceneAssets.h"
 
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
@@ -20,6 +20,8 @@
 #include <optional>
 
 namespace filament::conformance {
+
+using namespace tools; // the toolkit
 
 struct StageOptions {
     Backend backend = Backend::Vulkan;

@@ -2,11 +2,11 @@
 // filament-conformance [options]: draws every scene on every backend with every number of workers and compares the
 // pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. 130: stopped by Ctrl-C, with a
 // report of the cases until then. docs/conformance.md.
+#include "toolkit/mutations/Mutations.h"
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
 #include "tools/conformance/Against.h"
 #include "tools/conformance/Machines.h"
-#include "tools/conformance/Mutations.h"
 #include "tools/conformance/Report.h"
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/RandomRun.h"

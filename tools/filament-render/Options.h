@@ -29,7 +29,7 @@ struct Options : SceneOptions {
     std::string animation;         ///< name or index; empty: the first, if there is a time
     bool timing = false, explain = false, trace = false;
     std::filesystem::path traceJobs;    ///< empty: none
-    std::filesystem::path saveFrame;    ///< folder of a saved frame (tools/view/record); empty: none
+    std::filesystem::path saveFrame;    ///< folder of a saved frame (toolkit/record); empty: none
     std::vector<std::string> arguments; ///< of the command line, as given
     int workers = -1;                   ///< as EngineOptions::workers
     ThreadAffinity affinity = ThreadAffinity::None;

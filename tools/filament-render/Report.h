@@ -5,8 +5,8 @@
 ///   Fails   writeReport: Unreadable with the path.
 #pragma once
 
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/filament-render/BackendRun.h"
-#include "tools/imgdiff/ImageCompare.h"
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/SaveFrame.h"
 
+#include "toolkit/record/SavedFrame.h"
 #include "tools/common/Console.h"
-#include "tools/view/record/SavedFrame.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -4,6 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
@@ -11,7 +12,6 @@
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/filament-render/SaveFrame.h"
-#include "tools/imgdiff/ImageCompare.h"
 #include "tools/materials/MaterialFile.h"
 
 #include <filament/Look.h>

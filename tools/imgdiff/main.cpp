@@ -2,9 +2,9 @@
 // imgdiff A.png B.png [--out DIFF.png] [--tolerance N]: the comparison of filament-render for any two pictures.
 // Exit status 0: within the tolerance; 1: not; 2: the pictures could not be compared.
 #include "filament_core/assets/image/ImageWriter.h"
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/common/CommandLine.h"
 #include "tools/common/StandardOutput.h"
-#include "tools/imgdiff/ImageCompare.h"
 
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 
 #include "backend/api/Format.h"
 #include "filament_core/assets/image/ImageWriter.h"
-#include "tools/conformance/ImageChecks.h"
+#include "toolkit/pictures/ImageChecks.h"
 
 namespace filament::replay {
 namespace {
@@ -19,7 +19,7 @@ Result<void> makeFolder(std::filesystem::path const& folder) {
 Result<void> writeFloats(std::filesystem::path const& path, backend::CapturedAttachment const& attachment) {
     std::vector<float3> pixels(size_t{ attachment.width } * attachment.height);
     for (size_t i = 0; i < pixels.size(); ++i) {
-        const std::array<float, 4> value = conformance::texel(attachment.format, attachment.bytes, i);
+        const std::array<float, 4> value = tools::texel(attachment.format, attachment.bytes, i);
         pixels[i] = { value[0], value[1], value[2] };
     }
     return assets::writeExr(path, attachment.width, attachment.height, pixels, assets::ExrPrecision::Float);

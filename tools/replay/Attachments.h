@@ -4,7 +4,7 @@
 ///   Thread  any.  Fails: Unreadable with path and reason; Internal for an attachment that was not read back.
 #pragma once
 
-#include "tools/view/record/SavedFrame.h"
+#include "toolkit/record/SavedFrame.h"
 
 namespace filament::replay {
 

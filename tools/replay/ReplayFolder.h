@@ -5,8 +5,8 @@
 ///   Fails   in one line: the folder, its files, the device, a pass or draw that is not there.
 #pragma once
 
+#include "toolkit/record/SavedFrame.h"
 #include "tools/replay/Options.h"
-#include "tools/view/record/SavedFrame.h"
 
 #include <map>
 

@@ -4,7 +4,7 @@
 
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
-#include "tools/conformance/Flip.h"
+#include "toolkit/pictures/Flip.h"
 
 #include <filament/Renderer.h>
 
@@ -134,7 +134,7 @@ inline double flipInMotion(std::function<void(View&)> const& set, FanMotion move
     for (int frame = 0; frame < kFrames; ++frame) {
         move(fan, frame);
         const Image drawn = fan.draw();
-        if (frame >= kWarmUp) sum += conformance::flip(fan.supersampled(), drawn).mean / (kFrames - kWarmUp);
+        if (frame >= kWarmUp) sum += tools::flip(fan.supersampled(), drawn).mean / (kFrames - kWarmUp);
     }
     return sum;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/samples/materials/SampleStage.h"
 
+#include "toolkit/pictures/ImageChecks.h"
 #include "tools/conformance/Compare.h"
-#include "tools/conformance/ImageChecks.h"
 #include "tools/conformance/Stage.h"
 #include "tools/paths/Paths.h"
 

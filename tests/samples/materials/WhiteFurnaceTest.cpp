@@ -2,7 +2,7 @@
 // White furnace of every shading model and layer as drawn: an entirely white sphere in a white environment is nowhere
 // brighter than the background, on both APIs. Prints the largest loss.
 #include "base/math/Half.h"
-#include "tools/conformance/SceneAssets.h"
+#include "toolkit/scenes/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
 #include "tools/paths/Paths.h"
@@ -37,8 +37,8 @@ public:
         const std::filesystem::path work = tools::buildDir() / "material-samples";
         std::filesystem::create_directories(work);
         auto engine = Engine::create({ .backend = backend, .validation = true, .cacheDirectory = work });
-        const conformance::SceneSpec white{ .environment = "white" };
-        const auto file = conformance::environmentFile(white, { work, {} });
+        const tools::SceneSpec white{ .environment = "white" };
+        const auto file = tools::environmentFile(white, { work, {} });
         EXPECT_TRUE(engine.ok() && file.ok());
         mEngine.emplace(std::move(*engine));
         auto environment = loadEnvironment(*mEngine, *file, { .faceSize = 16, .samples = 128 });

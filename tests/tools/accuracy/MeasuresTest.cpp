@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics and distances of images, compared with closed forms.
 #include "base/math/Half.h"
-#include "tools/accuracy/Picture.h"
+#include "toolkit/pictures/Picture.h"
 #include "tools/accuracy/Statistics.h"
 
 #include <gmock/gmock.h>

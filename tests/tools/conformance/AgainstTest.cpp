@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Against.h"
-#include "tests/tools/conformance/Pictures.h"
+#include "tests/toolkit/pictures/Pictures.h"
 #include "tools/conformance/Report.h"
 #include "tools/paths/Paths.h"
 

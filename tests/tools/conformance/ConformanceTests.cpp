@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "toolkit/mutations/Mutations.h"
+#include "toolkit/scenes/BuiltModel.h"
+#include "toolkit/scenes/MaterialModel.h"
 #include "tools/common/ChildProcess.h"
 #include "tools/common/Interrupt.h"
-#include "tools/conformance/BuiltModel.h"
 #include "tools/conformance/Journal.h"
-#include "tools/conformance/MaterialModel.h"
-#include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far defects come: in streams made up for it, and in cases that claim a defect that nothing of theirs reads.
-#include "tools/conformance/DefectTrace.h"
+#include "toolkit/mutations/DefectTrace.h"
 #include "backend/stream/CommandBuffer.h"
-#include "tools/conformance/Mutations.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
 

@@ -2,7 +2,7 @@
 // Child processes that simulate other machines: the result of a case if they draw it, draw something else, crash or
 // hang.
 #include "tools/conformance/Machines.h"
-#include "tests/tools/conformance/Pictures.h"
+#include "tests/toolkit/pictures/Pictures.h"
 #include "toolkit/machine/Machine.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The case "mip-chain" shows what it claims: changing one code of any level by one changes one pixel, that of its
 // texel.
-#include "tools/conformance/Mutations.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/conformance/Stage.h"
 #include "tools/paths/Paths.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Report.h"
-#include "tests/tools/conformance/Pictures.h"
+#include "tests/toolkit/pictures/Pictures.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/paths/Paths.h"
 

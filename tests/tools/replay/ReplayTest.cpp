@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-replay: its options, what it does with a saved frame, and the program itself.
-#include "tests/tools/view/record/SmallScene.h"
-#include "tools/conformance/Mutations.h"
+#include "tests/toolkit/record/SmallScene.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/paths/Paths.h"
 #include "tools/replay/ReplayFolder.h"
 
@@ -119,8 +119,7 @@ TEST_F(ReplayFolder, SteppingThroughAllDrawsEndsWithTheRecordedPicture) {
 }
 
 TEST_F(ReplayFolder, NamesThePassAndTheDrawOfADefectOfOneApi) {
-    const Report broken =
-            report({ { Backend::Gles, [] { return conformance::findMutation("depthCompare")->make(); } } });
+    const Report broken = report({ { Backend::Gles, [] { return tools::findMutation("depthCompare")->make(); } } });
     EXPECT_FALSE(broken.isEqual);
     EXPECT_THAT(broken.text, HasSubstr("vulkan and gles first disagree in frame 1, pass '"));
     EXPECT_THAT(broken.text, HasSubstr("pipeline 'gltf_lit_opaque'"));
@@ -129,7 +128,7 @@ TEST_F(ReplayFolder, NamesThePassAndTheDrawOfADefectOfOneApi) {
 }
 
 TEST_F(ReplayFolder, KnowsADefectOfBothApisFromOneOfOneApi) {
-    const auto edit = [] { return conformance::findMutation("depthCompare")->make(); };
+    const auto edit = [] { return tools::findMutation("depthCompare")->make(); };
     const Report broken = report({ { Backend::Gles, edit }, { Backend::Vulkan, edit } });
     EXPECT_FALSE(broken.isEqual);
     EXPECT_THAT(broken.text, HasSubstr("agree in every attachment: both draw other bits than were shown"));

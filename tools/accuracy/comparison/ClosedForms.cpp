@@ -11,8 +11,8 @@
 namespace filament::accuracy {
 namespace {
 
-using conformance::SceneSpec;
 using reference::BsdfModel;
+using tools::SceneSpec;
 
 constexpr double kAlbedo = 0.6, kEmission = 0.25; // as in the scene files
 constexpr double kRounding = 1e-5;                // relative: colours and normals are floats in files
@@ -48,7 +48,7 @@ constexpr Form kForms[] = {
       [](SceneSpec const&) { return kEmission / (1 - kAlbedo); } },
 };
 
-Result<ClosedForm> check(Form const& form, SceneSpec const& scene, conformance::SceneFolders const& folders,
+Result<ClosedForm> check(Form const& form, SceneSpec const& scene, tools::SceneFolders const& folders,
                          uint32_t samplesPerPixel, jobs::JobSystem& jobs) {
     const Result<reference::ReferenceScene> traced = referenceSceneOf(scene, folders, jobs);
     if (!traced) return traced.error();
@@ -76,7 +76,7 @@ double ClosedForm::deviations() const {
 
 bool ClosedForm::agrees() const { return deviations() <= 4; }
 
-Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, conformance::SceneFolders const& folders,
+Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, tools::SceneFolders const& folders,
                                                  uint32_t samplesPerPixel, jobs::JobSystem& jobs) {
     std::vector<ClosedForm> results;
     for (Form const& form : kForms) {

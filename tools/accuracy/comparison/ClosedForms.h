@@ -20,7 +20,7 @@ struct ClosedForm {
     bool agrees() const;
 };
 
-Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, conformance::SceneFolders const& folders,
+Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, tools::SceneFolders const& folders,
                                                  uint32_t samplesPerPixel, jobs::JobSystem& jobs);
 
 } // namespace filament::accuracy

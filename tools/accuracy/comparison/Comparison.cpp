@@ -3,10 +3,10 @@
 
 #include "base/Suggest.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonReader.h"
+#include "toolkit/pictures/Flip.h"
 #include "tools/accuracy/References.h"
 #include "tools/accuracy/TracedPicture.h"
-#include "tools/conformance/Flip.h"
-#include "tools/conformance/JsonReader.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,10 +16,10 @@
 namespace filament::accuracy {
 namespace {
 
-using conformance::Json;
-using conformance::JsonReader;
-using conformance::SceneSpec;
 using reference::ReferenceImage;
+using tools::Json;
+using tools::JsonReader;
+using tools::SceneSpec;
 
 constexpr uint32_t kClosedFormSamples = 1024;
 
@@ -112,7 +112,7 @@ private:
         mResult.bias = bias(engine, truth, *mScale);
         mResult.noise = noise(mNoise, *mScale);
         mResult.tracedNoise = noise(mLastNoise, *mScale);
-        mResult.flip = conformance::flip(tonemapped(truth), tonemapped(engine)).mean;
+        mResult.flip = tools::flip(tonemapped(truth), tonemapped(engine)).mean;
         const double whole = std::max(mResult.rms * mResult.rms, 1e-300);
         for (size_t i = 0; i + 1 < pictures.size(); ++i) {
             Rung const& rung = mRungs[i];

@@ -66,7 +66,7 @@ struct ComparisonResults {
 
 struct ComparisonOptions {
     std::filesystem::path rows, scenes;
-    conformance::SceneFolders folders{};
+    tools::SceneFolders folders{};
     std::vector<std::string> chosen{}; ///< names; empty: all
     Backend backend = Backend::Vulkan; ///< the other one draws the same bits
     uint2 size{ 240, 136 };

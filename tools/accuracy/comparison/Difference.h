@@ -8,13 +8,15 @@
 ///   Thread  any; pure.
 #pragma once
 
-#include "tools/accuracy/Picture.h"
+#include "toolkit/pictures/Picture.h"
 
 #include <filament/View.h>
 
 #include <vector>
 
 namespace filament::accuracy {
+
+using namespace tools; // the toolkit
 
 /// The weights for all differences of one scene.
 class DifferenceScale {

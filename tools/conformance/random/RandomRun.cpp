@@ -2,13 +2,13 @@
 #include "tools/conformance/random/RandomRun.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/common/Console.h"
 #include "tools/common/Interrupt.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/MaterialGenerator.h"
 #include "tools/conformance/random/MaterialReducer.h"
-#include "tools/imgdiff/ImageCompare.h"
 
 #include <algorithm>
 #include <cctype>

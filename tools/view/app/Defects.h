@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Defects: the mutations of the conformance suite (tools/conformance/Mutations.h), for the viewer to inject into the
+/// Defects: the mutations of the conformance suite (toolkit/mutations/Mutations.h), for the viewer to inject into the
 /// engine that its picture is compared with.
 ///   Thread  any.
 #pragma once

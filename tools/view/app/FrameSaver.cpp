@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/FrameSaver.h"
 
-#include "tools/view/record/SavedFrame.h"
+#include "toolkit/record/SavedFrame.h"
 #include "tools/view/stage/Stage.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 #include "tools/view/compare/Comparison.h"
 
 #include "backend/api/Format.h"
-#include "tools/conformance/Flip.h"
-#include "tools/imgdiff/ImageCompare.h"
+#include "toolkit/pictures/Flip.h"
+#include "toolkit/pictures/ImageCompare.h"
 #include "tools/view/compare/Pixels.h"
 
 #include <fmt/format.h>
@@ -127,7 +127,7 @@ Result<FlipMap> flipMap(Image const& reference, Image const& test) {
     if (Result<void> good = checkPair(reference, test); !good) return good.error();
     if (reference.format == Format::RGB10A2)
         return fail(ErrorCode::InvalidArgument, "FLIP compares RGBA8 and RGBA16F; draw pictures of 8 bits for it");
-    const conformance::FlipError error = conformance::flip(asCodes(reference), asCodes(test));
+    const tools::FlipError error = tools::flip(asCodes(reference), asCodes(test));
     FlipMap map{ .image = emptyMap(reference), .mean = error.mean, .p99 = error.p99 };
     for (size_t i = 0; i < error.pixels.size(); ++i) setPixel(map.image, i, errorColor(error.pixels[i]));
     return map;

@@ -47,7 +47,7 @@ struct FlipMap {
     Image image;
     double mean = 0, p99 = 0; ///< of the error, [0, 1]
 };
-/// How different the two look when alternated (tools/conformance/Flip.h), from black over violet and orange to white.
+/// How different the two look when alternated (toolkit/pictures/Flip.h), from black over violet and orange to white.
 Result<FlipMap> flipMap(Image const& reference, Image const& test);
 
 /// The colour of an error in [0, 1]; the larger, the brighter. Not a number: white.

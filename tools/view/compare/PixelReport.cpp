@@ -2,7 +2,7 @@
 #include "tools/view/compare/PixelReport.h"
 
 #include "backend/api/Format.h"
-#include "tools/conformance/ImageChecks.h"
+#include "toolkit/pictures/ImageChecks.h"
 
 #include <filament/Color.h>
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ std::span<const std::byte> texelBytes(Format format, uint32_t width, std::span<c
 }
 
 std::string numbersText(Format format, std::span<const std::byte> texel) {
-    const std::array<float, 4> value = conformance::texel(format, texel, 0);
+    const std::array<float, 4> value = tools::texel(format, texel, 0);
     std::string text;
     for (uint32_t c = 0; c < std::max<uint32_t>(1, backend::formatInfo(format).components); ++c)
         text += fmt::format("{}{:.6g}", c > 0 ? ", " : "", value[c]);
@@ -68,7 +68,7 @@ std::string normalText(InspectedFrame const* frame, uint2 pixel) {
     if (!frame || frame->normals.format != Format::RGBA16F) return kNothing;
     const auto bytes = texelBytes(Format::RGBA16F, frame->normals.width, frame->normals.pixels, pixel);
     if (bytes.empty() || (frame->surface && frame->surface->object.empty())) return kNothing;
-    const std::array<float, 4> light = conformance::texel(Format::RGBA16F, bytes, 0);
+    const std::array<float, 4> light = tools::texel(Format::RGBA16F, bytes, 0);
     const float3 normal = color::srgbFromLinear({ light[0], light[1], light[2] }) * 2.0f - 1.0f;
     return fmt::format("{:.3f}, {:.3f}, {:.3f}", normal.x, normal.y, normal.z);
 }

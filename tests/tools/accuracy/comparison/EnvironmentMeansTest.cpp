@@ -33,7 +33,7 @@ protected:
     double meanRatio(std::string const& name, std::vector<std::string> const& changes = {}) {
         const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
         EXPECT_TRUE(scenes) << scenes.error().message;
-        conformance::SceneSpec const& scene = **scenes->find(name);
+        tools::SceneSpec const& scene = **scenes->find(name);
         Settings settings = settingsOf(scene);
         for (std::string const& text : changes) EXPECT_TRUE(change(settings, text));
         auto take = mStudio->take(scene, settings, { 96, 54 }, true);
@@ -50,7 +50,7 @@ protected:
     }
 
 private:
-    conformance::SceneFolders mFolders;
+    tools::SceneFolders mFolders;
     std::unique_ptr<Studio> mStudio;
 };
 

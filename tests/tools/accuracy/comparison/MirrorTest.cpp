@@ -11,8 +11,8 @@
 namespace filament::accuracy {
 namespace {
 
-conformance::SceneSpec sceneOf(fs::path const& file) {
-    const auto scenes = conformance::readSceneFile(file);
+tools::SceneSpec sceneOf(fs::path const& file) {
+    const auto scenes = tools::readSceneFile(file);
     EXPECT_TRUE(scenes) << scenes.error().message;
     return scenes->front();
 }
@@ -37,7 +37,7 @@ TEST(TracedMaterials, AreKnownByTheirParameters) {
 }
 
 TEST(TracedMaterials, OfCopiesHaveTheirOwnValues) {
-    const conformance::SceneSpec scene = sceneOf(tools::sourceDir() / "tools/accuracy/scenes/reflections.json");
+    const tools::SceneSpec scene = sceneOf(tools::sourceDir() / "tools/accuracy/scenes/reflections.json");
     ASSERT_EQ(scene.copies.size(), 5u);
     const auto floor = tracedMaterialOf(scene, 0), wall = tracedMaterialOf(scene, 1);
     ASSERT_TRUE(floor && wall);
@@ -47,10 +47,10 @@ TEST(TracedMaterials, OfCopiesHaveTheirOwnValues) {
 
 // Off, the floor mirrors the sky; on, what stands on it.
 TEST(TracedMaterials, AMirrorOfThePictureIsNearerToPathsThanOneOfTheEnvironment) {
-    const conformance::SceneFolders folders{ scratch() / "work", tools::assetDir() };
+    const tools::SceneFolders folders{ scratch() / "work", tools::assetDir() };
     auto studio = Studio::open(Backend::Vulkan, folders);
     ASSERT_TRUE(studio) << studio.error().message;
-    const conformance::SceneSpec scene = sceneOf(tools::sourceDir() / "tools/accuracy/scenes/reflections.json");
+    const tools::SceneSpec scene = sceneOf(tools::sourceDir() / "tools/accuracy/scenes/reflections.json");
     jobs::JobSystem jobs;
     const Result<reference::ReferenceScene> traced = referenceSceneOf(scene, folders, jobs);
     ASSERT_TRUE(traced) << traced.error().message;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the viewer measures beside its image: injected defects are seen and where, jobs of threads, costs of settings.
 #include "tests/tools/view/app/HeadlessViewer.h"
-#include "tools/conformance/Mutations.h"
+#include "toolkit/mutations/Mutations.h"
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/Defects.h"
 #include "tools/view/compare/Comparison.h"
@@ -131,11 +131,11 @@ TEST(Defects, AreThoseOfTheSuiteThatFitTheApi) {
     std::set<std::string_view> offered;
     for (const Backend backend : { Backend::Vulkan, Backend::Gles })
         for (OfferedDefect const& defect : defectsFor(backend)) {
-            offered.insert(conformance::findMutation(defect.name)->name);
+            offered.insert(tools::findMutation(defect.name)->name);
             EXPECT_NE(injected(defect.name), nullptr);
             EXPECT_EQ(whatOf(defect.name), defect.what);
         }
-    EXPECT_EQ(offered.size() + 2, conformance::mutations().size()) << "all but the two controls";
+    EXPECT_EQ(offered.size() + 2, tools::mutations().size()) << "all but the two controls";
     for (auto const& [name, place] : expectedPlaces()) EXPECT_TRUE(offered.contains(name)) << name;
     EXPECT_EQ(injected(""), nullptr);
 }

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits of the files of a real saved frame, without clang and without a device.
+#include "tests/fuzz/FrameFuzzBody.h"
+#include "tests/toolkit/record/SmallScene.h"
+
+#include <random>
+
+namespace filament {
+namespace {
+
+using test::FrameFolder;
+
+std::string editedBytes(std::string text, std::mt19937& random) {
+    constexpr std::string_view kMarks = "{}[]:,\"\\-0e9. ntf=@+|\n";
+    for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
+        const size_t at = random() % text.size();
+        switch (random() % 5) {
+        case 0:
+            text[at] = kMarks[random() % kMarks.size()];
+            break;
+        case 1:
+            text.erase(at, 1 + random() % 12);
+            break;
+        case 2:
+            text.insert(at, text.substr(random() % text.size(), random() % 24));
+            break;
+        case 3: { // a line less: objects that were never created
+            const size_t begin = text.rfind('\n', at);
+            if (begin != std::string::npos) text.erase(begin, text.find('\n', begin + 1) - begin);
+            break;
+        }
+        default:
+            if (random() % 4 == 0) text.resize(at);
+        }
+    }
+    return text;
+}
+
+class FrameFiles : public ::testing::Test {
+protected:
+    void SetUp() override {
+        record::SaveRequest request = test::spheresRequest(mFolder);
+        request.backends = { Backend::Vulkan };
+        ASSERT_TRUE(record::saveFrame(request).ok());
+        mManifest = test::bytesOf(mFolder.path() / "frame.json");
+        mText = test::bytesOf(mFolder.path() / "vulkan.trace");
+        mPayload = test::bytesOf(mFolder.path() / "vulkan.trace.bin");
+    }
+
+    FrameFolder mFolder;
+    std::string mManifest, mText, mPayload;
+};
+
+TEST_F(FrameFiles, AreReadAsTheyStand) {
+    EXPECT_TRUE(test::fuzzFrame(std::string(1, '\0') + mManifest));
+    EXPECT_TRUE(test::fuzzFrame('\1' + mText + '\0' + mPayload));
+}
+
+TEST_F(FrameFiles, SurviveEditsAnywhere) {
+    std::mt19937 random(20261126);
+    size_t refused = 0;
+    for (int round = 0; round < 1500; ++round) refused += !test::fuzzManifest(editedBytes(mManifest, random));
+    EXPECT_GT(refused, 500u);
+    size_t accepted = 0;
+    for (int round = 0; round < 150; ++round)
+        accepted += test::fuzzFrameTrace(editedBytes(mText, random) + '\0' + mPayload);
+    EXPECT_GT(accepted, 10u); // lines that are missing are no error of the text; the validator judges them
+}
+
+TEST_F(FrameFiles, AreNotMistakenForEachOther) {
+    EXPECT_FALSE(test::fuzzManifest(mText));
+    EXPECT_FALSE(test::fuzzFrameTrace(mManifest));
+    for (const char* text :
+         { "", "{}", "null", "filament-trace 1\n", "filament-trace 1\nStream\nBeginFrame frame=1\n" })
+        test::fuzzManifest(text), test::fuzzFrameTrace(text);
+}
+
+} // namespace
+} // namespace filament

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The lights of a scene file, one JSON object each. docs/conformance.md describes the fields.
+///   Fails   the reader keeps the first error: field, what is valid. Whatever is returned is fit for Scene::add.
+///   Thread  any; pure.
+#pragma once
+
+#include "toolkit/json/JsonReader.h"
+
+#include <filament/Light.h>
+
+#include <string>
+
+namespace filament::tools {
+
+SunLight readSun(JsonReader& reader);
+/// `profile`: the file of the light's profile, as the scene names it; empty: none.
+PointLight readPoint(JsonReader& reader, std::string& profile);
+SpotLight readSpot(JsonReader& reader, std::string& profile);
+RectLight readRect(JsonReader& reader);
+DiscLight readDisc(JsonReader& reader);
+TubeLight readTube(JsonReader& reader);
+
+/// A list of numbers from 0 to 7: the bits that are set.
+void readBits(JsonReader& reader, const char* name, uint8_t& bits);
+/// "channels": a list of numbers from 0 to 7, of a light or a copy.
+void readLightChannels(JsonReader& reader, LightChannels& channels);
+
+} // namespace filament::tools
