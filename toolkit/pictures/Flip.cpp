@@ -3,9 +3,8 @@
 
 #include "base/Assert.h"
 #include "base/math/Elementary.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Picture.h"
 
-#include <filament/Color.h>
 #include <filament/Math.h>
 
 #include <glm/common.hpp>
@@ -75,12 +74,9 @@ float3 huntLabFromRgb(float3 rgb) { return hunt(labFromXyz(kXyzFromRgb * rgb)); 
 
 Plane<float3> yccOf(Image const& image) {
     Plane<float3> plane(static_cast<int>(image.width), static_cast<int>(image.height));
-    for (size_t i = 0; i < plane.at.size(); ++i) {
-        const auto value = texel(image.format, image.pixels, i);
-        float3 rgb = glm::clamp(float3(value[0], value[1], value[2]), float3(0.0f), float3(1.0f));
-        if (image.format == Format::RGBA8) rgb = color::linearFromSrgb(rgb);
-        plane.at[i] = yccFromXyz(kXyzFromRgb * rgb);
-    }
+    const Picture light = pictureOf(image);
+    for (size_t i = 0; i < plane.at.size(); ++i)
+        plane.at[i] = yccFromXyz(kXyzFromRgb * glm::clamp(light.pixels[i], float3(0.0f), float3(1.0f)));
     return plane;
 }
 

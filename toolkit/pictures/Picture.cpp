@@ -4,6 +4,11 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "toolkit/pictures/Flip.h"
+#include "toolkit/pictures/Pixels.h"
+
+#include <filament/Color.h>
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +18,6 @@ namespace filament::tools {
 namespace {
 
 constexpr double kFloorOfMean = 0.01;
-
-// IEC 61966-2-1.
-float linearFromCode(std::byte code) {
-    const float c = static_cast<float>(std::to_integer<int>(code)) / 255;
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
-
-std::byte codeOf(float linear) {
-    const float c = std::clamp(linear, 0.0f, 1.0f);
-    const float code = c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
-    return static_cast<std::byte>(std::lround(code * 255));
-}
 
 bool isBackground(float3 const& pixel) { return pixel == float3(0.0f); }
 
@@ -64,17 +57,11 @@ double meanLength(Picture const& picture) {
 
 Picture pictureOf(Image const& image) {
     Picture picture{ image.width, image.height, {} };
-    const size_t count = size_t(image.width) * image.height;
-    picture.pixels.reserve(count);
-    for (size_t i = 0; i < count; ++i) {
-        if (image.format == Format::RGBA16F) {
-            uint16_t h[4];
-            std::memcpy(h, image.pixels.data() + i * 8, 8);
-            picture.pixels.emplace_back(floatFromHalf(h[0]), floatFromHalf(h[1]), floatFromHalf(h[2]));
-        } else {
-            const std::byte* c = image.pixels.data() + i * 4;
-            picture.pixels.emplace_back(linearFromCode(c[0]), linearFromCode(c[1]), linearFromCode(c[2]));
-        }
+    picture.pixels.reserve(pixelCount(image));
+    for (size_t i = 0; i < pixelCount(image); ++i) {
+        const std::array<float, 4> value = pixelAt(image, i);
+        const float3 rgb(value[0], value[1], value[2]);
+        picture.pixels.push_back(image.format == Format::RGBA16F ? rgb : color::linearFromSrgb(rgb));
     }
     return picture;
 }
@@ -82,8 +69,11 @@ Picture pictureOf(Image const& image) {
 Image displayImage(Picture const& picture) {
     Image image{ .width = picture.width, .height = picture.height, .format = Format::RGBA8 };
     image.pixels.reserve(picture.pixels.size() * 4);
-    for (float3 const& p : picture.pixels)
-        image.pixels.insert(image.pixels.end(), { codeOf(p.x), codeOf(p.y), codeOf(p.z), std::byte{ 255 } });
+    for (float3 const& pixel : picture.pixels) {
+        const float3 codes = color::srgbFromLinear(glm::clamp(pixel, float3(0.0f), float3(1.0f)));
+        for (int c = 0; c < 3; ++c) image.pixels.push_back(static_cast<std::byte>(std::lround(codes[c] * 255)));
+        image.pixels.push_back(std::byte{ 255 });
+    }
     return image;
 }
 

@@ -10,8 +10,9 @@
 ///   Cost    one frame per source, and one more for every step of the search.
 #pragma once
 
+#include "backend/layers/Captured.h"
 #include "base/Result.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <functional>
 

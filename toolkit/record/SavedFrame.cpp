@@ -4,7 +4,7 @@
 #include "backend/api/Format.h"
 #include "base/Hash.h"
 #include "toolkit/machine/Machine.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

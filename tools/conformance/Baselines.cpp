@@ -6,7 +6,7 @@
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
 #include "toolkit/pictures/Flip.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <filament/Color.h>
 

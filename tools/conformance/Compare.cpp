@@ -3,14 +3,8 @@
 
 #include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/pictures/Flip.h"
-#include "toolkit/pictures/ImageChecks.h"
 #include "toolkit/pictures/ImageCompare.h"
-
-#include <filament/Color.h>
-
-#include <glm/common.hpp>
-
-#include <cmath>
+#include "toolkit/pictures/Picture.h"
 
 namespace filament::conformance {
 namespace {
@@ -35,10 +29,10 @@ Result<Image> readPicture(std::filesystem::path const& path) {
     return Image{ .width = image->width, .height = image->height, .pixels = std::move(image->data) };
 }
 
-std::string firstPixel(Image const& a, Image const& b) {
-    const auto first = firstDifference(a.format, a.width, a.pixels, b.pixels);
-    if (!first) return {};
-    return fmt::format("pixel ({}, {}) is {} and {}", first->x, first->y, textOf(first->a), textOf(first->b));
+std::string firstPixel(ImageComparison const& compared) {
+    if (!compared.first) return {};
+    PixelDifference const& first = *compared.first;
+    return fmt::format("pixel ({}, {}) is {} and {}", first.x, first.y, textOf(first.a), textOf(first.b));
 }
 
 } // namespace
@@ -52,14 +46,14 @@ Comparator comparatorFor(Comparator const& asked, DeviceDescription const& a, De
 }
 
 Result<Comparison> comparePictures(Image const& reference, Image const& test, Comparator const& comparator) {
-    const Result<tools::ImageComparison> compared = tools::compareImages(reference, test);
+    const Result<ImageComparison> compared = compareImages(reference, test);
     if (!compared) return compared.error();
     Comparison result{ .differing = compared->pixels - compared->identical, .maxDifference = compared->maxDifference };
     if (result.differing > 0 || comparator.kind == ComparatorKind::Flip) {
         const FlipError error = flip(reference, test);
         result.flipMean = error.mean, result.flipP99 = error.p99;
     }
-    result.first = firstPixel(reference, test);
+    result.first = firstPixel(*compared);
     result.passed = agrees(result, comparator);
     return result;
 }
@@ -69,30 +63,19 @@ Result<void> compareFiles(std::filesystem::path const& out, std::string const& r
     const Result<Image> a = readPicture(out / reference), b = readPicture(drawn);
     if (!a) return a.error();
     if (!b) return b.error();
-    const Result<tools::ImageComparison> compared = tools::compareImages(*a, *b);
+    const Result<ImageComparison> compared = compareImages(*a, *b);
     if (!compared) return compared.error();
     comparison.differing = std::max<uint64_t>(1, compared->pixels - compared->identical);
     comparison.maxDifference = compared->maxDifference;
-    comparison.first = firstPixel(*a, *b);
+    comparison.first = firstPixel(*compared);
     std::string stem = std::filesystem::path(reference).stem().string() + "." + comparison.configuration;
     std::ranges::replace(stem, ' ', '.');
     comparison.image = fmt::format("images/{}.png", stem);
     comparison.difference = fmt::format("images/{}.difference.png", stem);
     if (Result<void> saved = savePng(out / comparison.image, *b); !saved) return saved;
-    return savePng(out / comparison.difference, tools::differenceImage(*a, *b));
+    return savePng(out / comparison.difference, differenceImage(*a, *b));
 }
 
-Image displayed(Image const& image) {
-    if (image.format == Format::RGBA8) return image;
-    Image result{ .width = image.width, .height = image.height };
-    for (size_t i = 0; i < size_t{ image.width } * image.height; ++i) {
-        const auto value = texel(image.format, image.pixels, i);
-        const float3 codes =
-                color::srgbFromLinear(glm::clamp(float3(value[0], value[1], value[2]), float3(0.0f), float3(1.0f)));
-        for (int c = 0; c < 3; ++c) result.pixels.push_back(static_cast<std::byte>(std::lround(codes[c] * 255)));
-        result.pixels.push_back(std::byte{ 255 });
-    }
-    return result;
-}
+Image displayed(Image const& image) { return image.format == Format::RGBA8 ? image : displayImage(pictureOf(image)); }
 
 } // namespace filament::conformance

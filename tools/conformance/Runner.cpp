@@ -6,6 +6,7 @@
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
 #include "toolkit/mutations/Mutations.h"
+#include "toolkit/pictures/ImageChecks.h"
 #include "toolkit/pictures/ImageCompare.h"
 #include "toolkit/record/Bisect.h"
 #include "tools/common/Console.h"

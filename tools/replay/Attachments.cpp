@@ -3,7 +3,7 @@
 
 #include "backend/api/Format.h"
 #include "filament_core/assets/image/ImageWriter.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Pixels.h"
 
 namespace filament::replay {
 namespace {

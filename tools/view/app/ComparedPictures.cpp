@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/ComparedPictures.h"
 
+#include "toolkit/pictures/Pixels.h"
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/Defects.h"
 #include "tools/view/app/TracedPicture.h"
-#include "tools/view/compare/Pixels.h"
 
 #include <fmt/format.h>
 
@@ -147,12 +147,12 @@ bool ComparedPictures::takeCompared() {
 ComparedPictures::Compared ComparedPictures::compareAll(OwnPicture const& own, Image const& other, CompareMode mode) {
     const std::optional<Image> picture = partOf(*own.window, own.offset, own.size);
     if (!picture) return {};
-    const Result<PictureComparison> result = compare(*picture, other);
+    const Result<ImageComparison> result = compareImages(*picture, other);
     if (!result) return {};
     Compared compared{ .result = *result };
     if (mode == CompareMode::Wipe) compared.overlay = other;
     if (mode == CompareMode::Difference)
-        if (Result<Image> map = differenceMap(*picture, other, amplificationFor(result->largestDifference)); map)
+        if (Result<Image> map = differenceMap(*picture, other, amplificationFor(result->maxDifference)); map)
             compared.overlay = std::move(*map);
     if (mode == CompareMode::Flip)
         if (Result<FlipMap> map = flipMap(*picture, other); map) compared.overlay = std::move(map->image);
@@ -213,8 +213,7 @@ void ComparedPictures::drawNumber(uint2 offset, uint2 size) const {
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing;
     if (ImGui::Begin("compared", nullptr, kFlags)) {
         const bool isAmplified = mode == CompareMode::Difference && mResult;
-        const std::string factor =
-                isAmplified ? fmt::format(" x{:.0f}", amplificationFor(mResult->largestDifference)) : "";
+        const std::string factor = isAmplified ? fmt::format(" x{:.0f}", amplificationFor(mResult->maxDifference)) : "";
         ImGui::Text("%s%s | %s", toString(mode), factor.c_str(), mOther ? mOther->name().c_str() : "starting");
         if (isDefective()) ImGui::TextColored(kInjectedColor, "DEFECT INJECTED: %s", whatOf(mOpenedDefect).c_str());
         if (mResult && mResultNumber == mNumber)
@@ -222,8 +221,8 @@ void ComparedPictures::drawNumber(uint2 offset, uint2 size) const {
         else
             ImGui::TextUnformatted("drawing ...");
         if (mResult && mResultNumber == mNumber && mResult->first) {
-            ImGui::Text("first difference at %u, %u; at most %u / 255", mResult->first->at.x, mResult->first->at.y,
-                        mResult->largestDifference);
+            ImGui::Text("first difference at %u, %u; at most %u / 255", mResult->first->x, mResult->first->y,
+                        mResult->maxDifference);
         }
     }
     ImGui::End();

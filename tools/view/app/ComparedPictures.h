@@ -48,7 +48,7 @@ public:
     void close(UiRenderer* ui);
 
     /// Of the newest pair of pictures that show the same document.
-    std::optional<PictureComparison> const& result() const { return mResult; }
+    std::optional<ImageComparison> const& result() const { return mResult; }
     /// Another picture, or a better one, is on its way.
     bool isWaiting() const {
         const bool isCurrent = mResult && mResultNumber == mNumber && mResultMode == mode && mIsFinal;
@@ -70,7 +70,7 @@ private:
         uint64_t number = 0;          ///< of its document
     };
     struct Compared {
-        std::optional<PictureComparison> result; ///< none: the window has changed its size meanwhile
+        std::optional<ImageComparison> result; ///< none: the window has changed its size meanwhile
         std::optional<Image> overlay;
     };
     bool openSource(EngineOptions const& options);
@@ -97,7 +97,7 @@ private:
     bool mComparingIsFinal = false;
     CompareMode mComparingMode = CompareMode::Off;
     Abandoned mAbandoned;
-    std::optional<PictureComparison> mResult;
+    std::optional<ImageComparison> mResult;
     uint64_t mResultNumber = 0;
     uint32_t mResultVersion = 0;
     bool mIsFinal = false;

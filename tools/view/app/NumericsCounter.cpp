@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/NumericsCounter.h"
 
-#include "tools/view/compare/Pixels.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -4,7 +4,7 @@
 #include "backend/api/Format.h"
 #include "toolkit/pictures/Flip.h"
 #include "toolkit/pictures/ImageCompare.h"
-#include "tools/view/compare/Pixels.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <fmt/format.h>
 
@@ -14,22 +14,6 @@
 
 namespace filament::view {
 namespace {
-
-/// RGBA8Srgb has codes as RGBA8 does.
-Image asCodes(Image const& image) {
-    Image copy = image;
-    if (copy.format == Format::RGBA8Srgb) copy.format = Format::RGBA8;
-    return copy;
-}
-
-Result<void> checkPair(Image const& a, Image const& b) {
-    if (Result<void> good = checkPicture(a); !good) return good;
-    if (Result<void> good = checkPicture(b); !good) return good;
-    if (a.width == b.width && a.height == b.height && a.format == b.format) return {};
-    return fail(ErrorCode::InvalidArgument, "{}x{} pixels of {} and {}x{} of {} cannot be compared: draw them alike",
-                a.width, a.height, backend::formatInfo(a.format).name, b.width, b.height,
-                backend::formatInfo(b.format).name);
-}
 
 uint8_t codeOf(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f); }
 
@@ -50,30 +34,7 @@ float amplified(float a, float b, float amplification) {
     return std::isnan(difference) ? 1 : difference;
 }
 
-std::optional<DifferingPixel> firstDifferent(Image const& a, Image const& b) {
-    const size_t stride = backend::formatInfo(a.format).bytesPerBlock;
-    const auto differs = std::mismatch(a.pixels.begin(), a.pixels.end(), b.pixels.begin());
-    if (differs.first == a.pixels.end()) return std::nullopt;
-    const size_t index = static_cast<size_t>(differs.first - a.pixels.begin()) / stride;
-    return DifferingPixel{ { static_cast<uint32_t>(index % a.width), static_cast<uint32_t>(index / a.width) },
-                           pixelAt(a, index),
-                           pixelAt(b, index) };
-}
-
 } // namespace
-
-std::string PictureComparison::percentage() const {
-    // Counts whole steps of 0.0001 %: rounding cannot turn one wrong pixel into 100 %.
-    const uint64_t steps = pixels ? identical * 1'000'000 / pixels : 0;
-    return fmt::format("{}.{:04} %", steps / 10'000, steps % 10'000);
-}
-
-Result<PictureComparison> compare(Image const& a, Image const& b) {
-    if (Result<void> good = checkPair(a, b); !good) return good.error();
-    const Result<tools::ImageComparison> counts = tools::compareImages(asCodes(a), asCodes(b));
-    if (!counts) return counts.error();
-    return PictureComparison{ counts->pixels, counts->identical, counts->maxDifference, firstDifferent(a, b) };
-}
 
 Result<double> rmsError(Image const& a, Image const& b) {
     if (Result<void> good = checkPair(a, b); !good) return good.error();
@@ -127,7 +88,7 @@ Result<FlipMap> flipMap(Image const& reference, Image const& test) {
     if (Result<void> good = checkPair(reference, test); !good) return good.error();
     if (reference.format == Format::RGB10A2)
         return fail(ErrorCode::InvalidArgument, "FLIP compares RGBA8 and RGBA16F; draw pictures of 8 bits for it");
-    const tools::FlipError error = tools::flip(asCodes(reference), asCodes(test));
+    const tools::FlipError error = tools::flip(reference, test);
     FlipMap map{ .image = emptyMap(reference), .mean = error.mean, .p99 = error.p99 };
     for (size_t i = 0; i < error.pixels.size(); ++i) setPixel(map.image, i, errorColor(error.pixels[i]));
     return map;

@@ -1,39 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Comparison: two pictures of one frame beside each other, as numbers and as pictures. No window.
+/// Comparison: two pictures of one frame beside each other, as pictures. compareImages() has the numbers. No window.
 ///   In      two images of one size and format: RGBA8, RGBA8Srgb, RGB10A2 or RGBA16F.
 ///   Out     numbers; images in RGBA8.
 ///   Thread  any; pure.
 ///   Fails   InvalidArgument in one line if the two cannot be compared.
-///   Cost    compare(): about 3 ms per megapixel; flipMap(): about 1.5 s.
+///   Cost    flipMap(): about 1.5 s per megapixel.
 #pragma once
 
-#include "base/Result.h"
-
-#include <filament/Image.h>
-#include <filament/Math.h>
-
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
+#include "toolkit/pictures/ImageCompare.h"
 
 namespace filament::view {
 
-struct DifferingPixel {
-    uint2 at{ 0 };                 ///< from the left and from the top
-    std::array<float, 4> a{}, b{}; ///< codes divided by the largest one, or light
-};
-
-struct PictureComparison {
-    uint64_t pixels = 0, identical = 0;  ///< all components have the same bits
-    uint32_t largestDifference = 0;      ///< of a component, in 1/255, rounded up; not-a-number: 255
-    std::optional<DifferingPixel> first; ///< in reading order
-
-    /// "100.0000 %": of identical pixels, rounded down, so that it means every pixel.
-    std::string percentage() const;
-};
-
-Result<PictureComparison> compare(Image const& a, Image const& b);
+using namespace tools; // the toolkit
 
 /// Root mean square of the differences of red, green and blue: codes divided by the largest one, or light. 0: they look
 /// the same. A component that is not a number counts as a difference of 1.

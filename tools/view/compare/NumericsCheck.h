@@ -7,17 +7,11 @@
 ///   Fails   InvalidArgument for other formats and byte counts.
 #pragma once
 
-#include "base/Result.h"
-
-#include <filament/Image.h>
-#include <filament/Math.h>
-
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <span>
+#include "toolkit/pictures/Pixels.h"
 
 namespace filament::view {
+
+using namespace tools; // the toolkit
 
 /// Ascending by harm.
 enum class NumericKind : uint8_t {

@@ -2,7 +2,7 @@
 #include "tools/view/compare/PixelReport.h"
 
 #include "backend/api/Format.h"
-#include "toolkit/pictures/ImageChecks.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <filament/Color.h>
 #include <fmt/format.h>

@@ -104,7 +104,7 @@ void expectDefectsOn(Backend backend, std::function<bool(std::string_view)> cons
     Document document = showcaseDocument(kSmallPicture);
     document.view.effects.vignette.enabled = true;
     const Image clean = drawWith(document, otherThan(backend), "");
-    EXPECT_EQ(compare(clean, drawWith(document, backend, ""))->percentage(), "100.0000 %");
+    EXPECT_EQ(compareImages(clean, drawWith(document, backend, ""))->percentage(), "100.0000 %");
     Document empty = document;
     empty.model.file.clear();
     const std::vector<bool> isModel = differing(clean, drawWith(empty, otherThan(backend), ""));
@@ -113,7 +113,8 @@ void expectDefectsOn(Backend backend, std::function<bool(std::string_view)> cons
         if (place == expectedPlaces().end() || !isAskedFor(defect.name)) continue;
         const Image image = drawWith(document, backend, defect.name);
         const std::vector<bool> pixels = differing(clean, image);
-        EXPECT_EQ(compare(clean, image)->percentage() == "100.0000 %", place->second == Place::Nowhere) << defect.name;
+        EXPECT_EQ(compareImages(clean, image)->percentage() == "100.0000 %", place->second == Place::Nowhere)
+                << defect.name;
         expectPlace(defect.name, place->second, pixels, isModel);
         expectMapOf(clean, image, pixels);
     }

@@ -3,7 +3,7 @@
 #include "tools/view/compare/Comparison.h"
 
 #include "base/math/Half.h"
-#include "tools/view/compare/Pixels.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,11 +42,11 @@ Image grey(uint32_t width, uint32_t height, uint8_t code) {
 TEST(Comparison, OfAPictureWithItselfIsEveryPixelInEveryFormat) {
     for (const Format format : kFormats) {
         const Image a = randomPicture(format, 13, 7, 1);
-        const auto same = compare(a, a);
+        const auto same = compareImages(a, a);
         ASSERT_TRUE(same.ok()) << same.error().message;
         EXPECT_EQ(same->percentage(), "100.0000 %");
         EXPECT_EQ(same->identical, 91u);
-        EXPECT_EQ(same->largestDifference, 0u);
+        EXPECT_EQ(same->maxDifference, 0u);
         EXPECT_FALSE(same->first);
         const auto map = differenceMap(a, a);
         ASSERT_TRUE(map.ok());
@@ -62,14 +62,14 @@ TEST(Comparison, FindsAnySingleBitOfAnyPixel) {
         for (size_t bit = 0; bit < 8 * a.pixels.size(); ++bit) {
             Image b = a;
             b.pixels[bit / 8] ^= std::byte(1u << bit % 8);
-            const auto differs = compare(a, b);
+            const auto differs = compareImages(a, b);
             ASSERT_TRUE(differs.ok());
             ASSERT_EQ(differs->identical, 14u) << bit;
             ASSERT_TRUE(differs->first) << bit;
             const size_t pixel = bit / 8 / stride;
-            EXPECT_EQ(differs->first->at, uint2(pixel % 5, pixel / 5)) << bit;
+            EXPECT_EQ(uint2(differs->first->x, differs->first->y), uint2(pixel % 5, pixel / 5)) << bit;
             EXPECT_EQ(differs->first->a, pixelAt(a, pixel));
-            EXPECT_GE(differs->largestDifference, 1u) << bit;
+            EXPECT_GE(differs->maxDifference, 1u) << bit;
             EXPECT_EQ(differs->percentage(), "93.3333 %");
         }
     }
@@ -79,18 +79,18 @@ TEST(Comparison, OnePixelOfAMillionIsNotAHundredPercent) {
     const Image a = grey(1500, 1000, 7);
     Image b = a;
     b.pixels.back() = std::byte{ 8 };
-    EXPECT_EQ(compare(a, b)->percentage(), "99.9999 %");
+    EXPECT_EQ(compareImages(a, b)->percentage(), "99.9999 %");
 }
 
 TEST(Comparison, RefusesPicturesThatAreNotAlike) {
     const Image a = grey(4, 4, 0);
-    EXPECT_THAT(compare(a, grey(4, 5, 0)).error().message, HasSubstr("4x4 pixels of RGBA8 and 4x5"));
-    EXPECT_THAT(compare(a, randomPicture(Format::RGBA16F, 4, 4, 1)).error().message, HasSubstr("RGBA16F"));
+    EXPECT_THAT(compareImages(a, grey(4, 5, 0)).error().message, HasSubstr("4x4 pixels of RGBA8 and 4x5"));
+    EXPECT_THAT(compareImages(a, randomPicture(Format::RGBA16F, 4, 4, 1)).error().message, HasSubstr("RGBA16F"));
     Image cut = a;
     cut.pixels.pop_back();
-    EXPECT_THAT(compare(a, cut).error().message, HasSubstr("63 bytes"));
+    EXPECT_THAT(compareImages(a, cut).error().message, HasSubstr("63 bytes"));
     EXPECT_THAT(wiped(cut, a, {}).error().message, HasSubstr("63 bytes"));
-    EXPECT_THAT(compare(Image{}, Image{}).error().message, HasSubstr("0x0"));
+    EXPECT_THAT(compareImages(Image{}, Image{}).error().message, HasSubstr("0x0"));
     cut.format = Format::R8;
     EXPECT_THAT(flipMap(cut, cut).error().message, HasSubstr("R8"));
     EXPECT_THAT(differenceMap(a, a, 0).error().message, HasSubstr("above 0"));

@@ -2,7 +2,7 @@
 #include "tools/view/compare/NumericsCheck.h"
 
 #include "base/math/Half.h"
-#include "tools/view/compare/Pixels.h"
+#include "toolkit/pictures/Pixels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

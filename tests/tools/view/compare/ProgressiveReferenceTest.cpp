@@ -165,9 +165,9 @@ TEST(ProgressiveReference, PicturesCompareWithThoseOfTheEngine) {
     const ReferenceImage traced = rendered(ballScene(), kSmallView, { .samplesPerPixel = 4 }, 0);
     const Image light = linearPicture(traced), display = displayPicture(traced, {});
     EXPECT_EQ(light.format, Format::RGBA16F);
-    EXPECT_EQ(compare(light, light)->percentage(), "100.0000 %");
+    EXPECT_EQ(compareImages(light, light)->percentage(), "100.0000 %");
     EXPECT_EQ(display.format, Format::RGBA8);
-    EXPECT_EQ(compare(display, display)->pixels, 16u * 12);
+    EXPECT_EQ(compareImages(display, display)->pixels, 16u * 12);
 }
 
 } // namespace
