@@ -10,8 +10,7 @@
 #pragma once
 
 #include "toolkit/pictures/Picture.h"
-#include "toolkit/scenes/MaterialModel.h"
-#include "toolkit/scenes/SceneAssets.h"
+#include "toolkit/scenes/ShownScene.h"
 #include "tools/accuracy/Settings.h"
 
 #include <filament/Renderer.h>
@@ -27,21 +26,11 @@ using namespace tools; // the toolkit
 /// The scene's own view: the settings to start from.
 Settings settingsOf(tools::SceneSpec const& spec);
 
-/// A loaded file, shared by takes.
-template <class T>
-struct Loaded {
-    std::shared_ptr<T> file;
-    bool isUsual = true; ///< with the default options
-};
-
 /// What a take draws, together with everything that must stay alive for it.
 struct TakeParts {
-    std::shared_ptr<Model> model;                   ///< or
-    std::shared_ptr<tools::MaterialStand> material; ///< where the scene's model is a material
-    std::shared_ptr<Environment> environment;       ///< none: the model's, if it has one
-    Scene scene;                                    ///< ends before model and environment
-    View view;
-    Owned<SwapChain> target;
+    ShownScene shown;
+    View view{};
+    Owned<SwapChain> target{};
     uint32_t frames = 1; ///< drawn for a picture: its effects may need those before
 };
 
@@ -80,10 +69,6 @@ private:
     struct Equipment; // one engine, and the files loaded for it
     Studio(Backend backend, tools::SceneFolders const& folders);
     Result<Equipment*> equipment(Settings const& settings);
-    Result<TakeParts> partsOf(Equipment& used, tools::SceneSpec const& spec, Settings const& settings);
-    Result<std::shared_ptr<Model>> model(Equipment& used, tools::SceneSpec const& spec, Settings const& settings);
-    Result<std::shared_ptr<Environment>> environment(Equipment& used, tools::SceneSpec const& spec,
-                                                     Settings const& settings);
 
     const Backend mBackend;
     const tools::SceneFolders mFolders;

@@ -9,11 +9,8 @@
 #include "backend/layers/Captured.h"
 #include "toolkit/mutations/DefectTrace.h"
 #include "toolkit/record/Bisect.h"
-#include "toolkit/scenes/MaterialModel.h"
-#include "toolkit/scenes/SceneAssets.h"
+#include "toolkit/scenes/ShownScene.h"
 
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
 #include <filament/Renderer.h>
 
 #include <memory>
@@ -62,30 +59,22 @@ private:
     Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture,
           DefectTrace* trace);
 
-    Result<void> loadModel(SceneSpec const& spec);
-    Result<void> placeModel(SceneSpec const& spec);
-    Result<void> loadSky(SceneSpec const& spec);
     Result<void> loadDirt(SceneSpec const& spec);
     /// Where everything is `frames` before the last one.
     void setBack(uint32_t frames);
     void drawOverlays();
 
-    const StageOptions mOptions;
     Engine mEngine;
     std::shared_ptr<backend::FrameCapture> mCapture;
     DefectTrace* mTrace; ///< that of mCapture; null: no edit
     Renderer mRenderer;
-    std::string mModelKey, mEnvironmentKey;
-    std::optional<Model> mModel;
-    std::optional<tools::MaterialStand> mMaterial; ///< instead of a model
-    std::optional<Environment> mEnvironment;
-    std::optional<Scene> mScene; // destroyed before model and environment
+    SceneLoader mLoader;
+    std::optional<ShownScene> mShown;
     Owned<SwapChain> mTarget;
     Owned<Texture> mDirt;
     View mView;
     Camera mLastCamera; ///< of the last frame
     SceneSpec mSpec;
-    std::vector<Node> mCopies;
 };
 
 /// For bisect(): frames of the case that was set. The stage must have been opened with capture, and outlive the result.
