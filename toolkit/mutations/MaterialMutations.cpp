@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "toolkit/mutations/Edits.h"
+
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/EngineMaterials.h"
+#include "shaders/package/Package.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace filament::tools {
+namespace {
+
+/// The lit glTF materials: their parameter blocks, and the layouts that identify their bind groups.
+std::vector<shader::MaterialPackage> const& litPackages() {
+    static const std::vector<shader::MaterialPackage> packages = [] {
+        std::vector<shader::MaterialPackage> read;
+        for (const char* name :
+             { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended", "gltf_transmissive_solid_opaque" }) {
+            if (auto package = shader::readPackage(shader::engineMaterial(name))) read.push_back(std::move(*package));
+        }
+        return read;
+    }();
+    return packages;
+}
+
+/// Whether the group has the package's parameter block and otherwise only bindings of the package. It may have fewer:
+/// textures that a material does not use are removed from its layout.
+bool isGroupOf(shader::MaterialPackage const& package, BindGroupDesc const& desc) {
+    BindGroupLayout const& whole = package.layout[shader::kGroupMaterial];
+    const auto bindings = std::span(whole.bindings).first(whole.count);
+    const auto isKnown = [&](BindingDesc const& binding) { return std::ranges::count(bindings, binding) > 0; };
+    const auto isBlock = [&](BindGroupEntry const& entry) {
+        return entry.buffer && entry.size == package.uniformBytes;
+    };
+    return std::ranges::all_of(std::span(desc.layout.bindings).first(desc.layout.count), isKnown) &&
+           std::ranges::any_of(desc.entries, isBlock);
+}
+
+/// Calls `found(package, entries)` for each bind group of a lit material.
+template <class Found>
+struct GroupFinder {
+    Found found;
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBindGroup const& command) {
+        for (shader::MaterialPackage const& package : litPackages()) {
+            if (isGroupOf(package, command.desc)) found(package, command.desc.entries);
+        }
+    }
+};
+
+template <class Found>
+void findLitGroups(CommandView commands, Found found) {
+    GroupFinder<Found> finder{ std::move(found) };
+    replay(commands, finder);
+}
+
+/// Multiplies a parameter of every lit material.
+class ParameterEdit final : public PayloadEdit {
+public:
+    ParameterEdit(std::string_view parameter, uint32_t components, float factor)
+            : mParameter(parameter), mComponents(components), mFactor(factor) {}
+
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mOffsets.clear();
+        std::map<BufferHandle, uint64_t> sizes;
+        findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
+            shader::Parameter const* parameter = package.findParameter(mParameter);
+            for (BindGroupEntry const& entry : entries) {
+                if (parameter && entry.buffer && entry.size == package.uniformBytes)
+                    mOffsets[entry.buffer] = parameter->offset;
+            }
+        });
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        const auto found = mOffsets.find(command.buffer);
+        if (found == mOffsets.end() || command.bytes.size() < found->second + 4 * mComponents) return;
+        Bytes& bytes = copy(command.bytes);
+        for (uint32_t i = 0; i < mComponents; ++i)
+            writeFloat(bytes, found->second + 4 * i, mFactor * readFloat(bytes, found->second + 4 * i));
+    }
+
+private:
+    const std::string_view mParameter;
+    const uint32_t mComponents;
+    const float mFactor;
+    std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, per block created in this stream
+};
+
+/// Inverts green in normal maps: the picture of a loader that assumes DirectX's convention.
+class NormalYEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mNormalMaps.clear();
+        findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
+            shader::Parameter const* map = package.findParameter("normalMap");
+            for (BindGroupEntry const& entry : entries) {
+                if (map && entry.texture && entry.binding == map->binding) mNormalMaps.insert(entry.texture);
+            }
+        });
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUploadTexture& command) override {
+        if (!mNormalMaps.contains(command.texture)) return;
+        Bytes& texels = copy(command.bytes); // the loader converts every normal map to RGBA8
+        for (size_t i = 1; i < texels.size(); i += 4) texels[i] = ~texels[i];
+    }
+
+private:
+    std::set<TextureHandle> mNormalMaps;
+};
+std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
+std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
+std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
+std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
+std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bumpFactor", 1, 1.05f); }
+std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
+
+constexpr Mutation kMaterialMutations[] = {
+    { "roughness", "roughness + 1 %", roughness }, { "normalY", "normal maps with y flipped", make<NormalYEdit> },
+    { "metallic", "metallic - 2 %", metallic },    { "emissive", "emission + 2 %", emissive },
+    { "cutoff", "alpha cutoff + 5 %", cutoff },    { "thickness", "thickness of solids + 5 %", thickness },
+    { "bump", "bumps 5 % higher", bump },
+};
+
+} // namespace
+
+std::span<const Mutation> materialMutations() { return kMaterialMutations; }
+
+} // namespace filament::tools
