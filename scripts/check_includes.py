@@ -80,7 +80,7 @@ TOOLKIT = {
     "tools/materials": ["tools/packages", "tools/paths", "tools/showcase"],
     "toolkit/record": ["toolkit/machine", "toolkit/json", "toolkit/pictures"],
     "toolkit/scenes": ["tools/showcase", "tools/materials", "toolkit/json"],
-    "tools/reference": ["tools/common", "toolkit/machine"],  # the path tracer, and a program around it
+    "tools/reference": ["tools/common", "toolkit/machine", "toolkit/json"],  # the path tracer, and a program around it
 }
 # Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
 PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff", "tools/ltcfit", "tools/matc",

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Effect.h"
 
-#include "filament_core/assets/files/FileBytes.h"
-#include "toolkit/json/JsonReader.h"
+#include "toolkit/json/JsonFile.h"
 #include "tools/accuracy/Settings.h"
 
 #include <fmt/ranges.h>
@@ -165,14 +164,12 @@ std::string describe(Reference const& reference) {
 }
 
 Result<std::vector<Effect>> readEffects(std::filesystem::path const& file) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    const Json json = Json::parse(text, text + bytes->size(), nullptr, false);
-    if (!json.is_array()) return fail(ErrorCode::Corrupt, "{}: not a JSON list of effects", file.string());
+    const Result<Json> json = readJson(file);
+    if (!json) return json.error();
+    if (!json->is_array()) return fail(ErrorCode::Corrupt, "{}: not a JSON list of effects", file.string());
     std::vector<Effect> effects;
-    for (size_t i = 0; i < json.size(); ++i) {
-        Result<Effect> effect = readEffect(json[i], fmt::format("{}: effect {}", file.filename().string(), i + 1));
+    for (size_t i = 0; i < json->size(); ++i) {
+        Result<Effect> effect = readEffect((*json)[i], fmt::format("{}: effect {}", file.filename().string(), i + 1));
         if (!effect) return effect.error();
         if (std::ranges::find(effects, effect->name, &Effect::name) != effects.end())
             return fail(ErrorCode::InvalidArgument, "{}: two effects are called '{}'", file.string(), effect->name);

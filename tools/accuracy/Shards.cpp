@@ -3,6 +3,7 @@
 
 #include "base/Suggest.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +16,7 @@
 namespace filament::accuracy {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 namespace fs = std::filesystem;
 
 /// What shards of one run have in common.
@@ -44,16 +45,14 @@ Data dataOf(fs::path const& file, Json json) {
 
 Result<Data> read(fs::path const& given) {
     const fs::path file = fs::is_directory(given) ? given / "results.json" : given;
-    const auto bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    const Json json = Json::parse(text, text + bytes->size(), nullptr, false);
-    if (!json.is_object()) return fail(ErrorCode::Corrupt, "{}: no JSON object; run this shard again", file.string());
-    if (!json.contains("shard"))
+    const Result<Json> json = readJson(file);
+    if (!json) return json.error();
+    if (!json->is_object()) return fail(ErrorCode::Corrupt, "{}: no JSON object; run this shard again", file.string());
+    if (!json->contains("shard"))
         return fail(ErrorCode::InvalidArgument, "{}: not of a shard; give the results of runs with --shard",
                     file.string());
     try {
-        return dataOf(file, json);
+        return dataOf(file, *json);
     } catch (Json::exception const& error) {
         return fail(ErrorCode::Corrupt, "{}: {}; run this shard again", file.string(), error.what());
     }

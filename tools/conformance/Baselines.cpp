@@ -3,6 +3,7 @@
 
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
 #include "toolkit/pictures/Flip.h"
@@ -73,17 +74,15 @@ Image thumbnailOf(Image const& image) {
 Result<Baselines> Baselines::read(std::filesystem::path const& file) {
     Baselines baselines;
     if (!std::filesystem::exists(file)) return baselines;
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
+    const Result<Json> json = readJson(file);
+    if (!json) return fail(json.error().code, "{}; restore the file or use --update-baselines", json.error().message);
     try {
-        const auto* text = reinterpret_cast<const char*>(bytes->data());
-        const Json json = Json::parse(text, text + bytes->size());
-        Json const& machine = json.at("machine");
+        Json const& machine = json->at("machine");
         baselines.mMachine = { machine.at("device"), machine.at("driver"), machine.at("cpuFeatures") };
-        const Json versions = json.value("versions", Json::object());
+        const Json versions = json->value("versions", Json::object());
         for (auto const& [version, others] : versions.items())
             baselines.mVersions[version] = others.get<std::map<std::string, std::string>>();
-        for (auto const& [name, entry] : json.at("cases").items())
+        for (auto const& [name, entry] : json->at("cases").items())
             baselines.mEntries[name] = { entry.at("hash"), entry.at("thumbnail") };
     } catch (Json::exception const& error) {
         return fail(ErrorCode::Corrupt, "{}: {}; restore the file or use --update-baselines", file.string(),

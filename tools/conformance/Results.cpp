@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Results.h"
 
-#include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 #include "toolkit/mutations/Mutations.h"
 #include "tools/conformance/Machines.h"
 
@@ -88,20 +88,6 @@ Result<void> checkShards(std::vector<Results> const& parts) {
         shards.push_back(part.shard->shard);
     }
     return tools::checkComplete(std::move(shards));
-}
-
-Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
-    const std::string text = json.dump(2) + '\n';
-    return assets::replaceFile(path, std::as_bytes(std::span(text)));
-}
-
-Result<Json> readJson(std::filesystem::path const& path) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
-    if (!bytes) return bytes.error();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    Json json = Json::parse(text, text + bytes->size(), nullptr, false);
-    if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON", path.string());
-    return json;
 }
 
 } // namespace

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/Output.h"
 
-#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/tables/DisplayColor.h"
 #include "shaders/lib/LibCpp.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +16,7 @@ namespace {
 
 namespace lib = shader::lib;
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 // Like shaders/post/tonemap.mat, followed by the conversion to UNORM.
 float3 ditheredColor(float3 result, bool dither, float2 pixelCenter) {
@@ -28,11 +28,6 @@ double largestError(ReferenceImage const& image) {
     float largest = 0;
     for (float3 const& error : image.standardError) largest = std::max({ largest, error.x, error.y, error.z });
     return double(largest);
-}
-
-Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
-    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    return assets::replaceFile(path, std::as_bytes(std::span(text)));
 }
 
 } // namespace
@@ -83,8 +78,8 @@ Result<void> writeReport(Options const& options, ReferenceImage const& image,
                        { "rays", statistics.rays },
                        { "lostSamples", statistics.lostSamples },
                        { "warnings", warnings } };
-    if (auto written = writeJson(options.out / "report.json", report); !written) return written;
-    return writeJson(options.out / "times.json", { { "seconds", statistics.seconds } });
+    if (auto written = tools::writeJson(options.out / "report.json", report); !written) return written;
+    return tools::writeJson(options.out / "times.json", { { "seconds", statistics.seconds } });
 }
 
 } // namespace filament::reference

@@ -110,7 +110,7 @@ TEST_F(AccuracyShards, ThatAreNoCompleteRunAreRefused) {
     std::ofstream(mFolder / "whole.json") << jsonOf(resultsOf(mRows)).dump();
     EXPECT_THAT(complaintAbout({ mFolder / "whole.json" }), HasSubstr("whole.json: not of a shard"));
     std::ofstream(mFolder / "bad.json") << "[";
-    EXPECT_THAT(complaintAbout({ mFolder / "bad.json" }), HasSubstr("bad.json: no JSON object"));
+    EXPECT_THAT(complaintAbout({ mFolder / "bad.json" }), HasSubstr("bad.json: this is no JSON text"));
     EXPECT_THAT(rowsOf(tools::Shard{ 5, 6 }, mRows).error().message, HasSubstr("at most 5 shards"));
 }
 

@@ -85,7 +85,7 @@ TEST(EffectTable, AWrongRowIsRefusedWithFieldAndCure) {
     EXPECT_THAT(messageOf(rowWith(R"(, "choice": "fresnel", "qestion": "q")")), HasSubstr("question"));
     EXPECT_THAT(messageOf(rowWith(R"(, "choice": "fresnel", "reference": {"kind": "scene"})")), HasSubstr("scene"));
     EXPECT_THAT(messageOf("{}"), HasSubstr("not a JSON list"));
-    EXPECT_THAT(messageOf("[1"), HasSubstr("not a JSON list"));
+    EXPECT_THAT(messageOf("[1"), HasSubstr("no JSON text"));
     const std::string twice = rowWith(R"(, "choice": "fresnel")");
     EXPECT_THAT(messageOf("[" + twice.substr(1, twice.size() - 2) + "," + twice.substr(1)), HasSubstr("two effects"));
 }

@@ -2,8 +2,7 @@
 #include "tools/accuracy/comparison/Comparison.h"
 
 #include "base/Suggest.h"
-#include "filament_core/assets/files/FileBytes.h"
-#include "toolkit/json/JsonReader.h"
+#include "toolkit/json/JsonFile.h"
 #include "toolkit/pictures/Flip.h"
 #include "tools/accuracy/References.h"
 #include "tools/accuracy/TracedPicture.h"
@@ -200,15 +199,13 @@ Result<void> keepChosen(std::vector<ComparisonRow>& rows, std::vector<std::strin
 } // namespace
 
 Result<std::vector<ComparisonRow>> readComparisonRows(std::filesystem::path const& file) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
-    if (!bytes) return bytes.error();
-    const Json json = Json::parse(reinterpret_cast<const char*>(bytes->data()),
-                                  reinterpret_cast<const char*>(bytes->data() + bytes->size()), nullptr, false);
-    if (!json.is_array() || json.empty()) {
+    const Result<Json> json = readJson(file);
+    if (!json) return json.error();
+    if (!json->is_array() || json->empty()) {
         return fail(ErrorCode::InvalidArgument, "{}: must be a JSON list of rows", file.string());
     }
     std::vector<ComparisonRow> rows;
-    for (Json const& element : json) {
+    for (Json const& element : *json) {
         JsonReader reader(element, fmt::format("{}: row {}", file.string(), rows.size()));
         rows.push_back(readRow(reader));
         if (const Result<void> done = reader.finish(); !done) return done.error();

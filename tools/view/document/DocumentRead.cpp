@@ -2,6 +2,7 @@
 /// documentFromJson(): strict, and for any bytes. The first thing that is wrong is what the error says.
 #include "base/Result.h"
 #include "base/Suggest.h"
+#include "toolkit/json/JsonFile.h"
 #include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/Fields.h"
 #include "tools/view/document/TextForms.h"
@@ -16,7 +17,7 @@
 namespace filament::view {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 std::string textOf(Json const& json) { return json.get<std::string>(); }
 
@@ -185,19 +186,6 @@ void Reader::read(std::string const& place, Json const& json, T& value) {
     }
 }
 
-/// The tree, or what is wrong with the text, with the byte.
-Result<Json> parsed(std::string_view text, std::string_view name) {
-    if (text.size() > kLongestText) return fail(ErrorCode::Unsupported, "{}: longer than 64 MiB", name);
-    try {
-        return Json::parse(text);
-    } catch (nlohmann::json::parse_error const& error) {
-        return fail(ErrorCode::Corrupt, "{}: this is no JSON text: byte {} of {} is wrong", name, error.byte,
-                    text.size());
-    } catch (nlohmann::json::exception const&) {
-        return fail(ErrorCode::Corrupt, "{}: this is no JSON text: it has a number that is out of range", name);
-    }
-}
-
 Result<void> checkVersion(Json const& json, std::string_view name) {
     if (!json.is_object()) return fail(ErrorCode::Corrupt, "{}: expected an object", name);
     const auto version = json.find("version");
@@ -238,7 +226,8 @@ Result<T> valueOf(Json const& json, const char* member, std::string_view name) {
 
 /// The tree of a text that this program can read.
 Result<Json> parsedVersion(std::string_view text, std::string_view name) {
-    Result<Json> json = parsed(text, name);
+    if (text.size() > kLongestText) return fail(ErrorCode::Unsupported, "{}: longer than 64 MiB", name);
+    Result<Json> json = tools::parseJson(text, name);
     if (!json) return json;
     if (const Result<void> known = checkVersion(*json, name); !known) return known.error();
     return json;
