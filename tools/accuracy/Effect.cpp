@@ -164,7 +164,7 @@ std::string describe(Reference const& reference) {
 }
 
 Result<std::vector<Effect>> readEffects(std::filesystem::path const& file) {
-    const Result<Json> json = readJson(file);
+    const Result<Json> json = tools::readJson(file);
     if (!json) return json.error();
     if (!json->is_array()) return fail(ErrorCode::Corrupt, "{}: not a JSON list of effects", file.string());
     std::vector<Effect> effects;
