@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 struct ApiCallInfo {
     const char* function = nullptr; ///< "Scene::add(RenderableDesc)"; null: none
@@ -36,4 +36,4 @@ private:
 /// FILAMENT_ASSERT also says where in the engine a rule is.
 [[noreturn]] void misused(std::string_view what);
 
-} // namespace filament
+} // namespace filament_core

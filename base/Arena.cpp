@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 size_t paddingFor(const std::byte* at, size_t alignment) {
@@ -57,4 +57,4 @@ size_t Arena::bytesReserved() const {
     return sum;
 }
 
-} // namespace filament
+} // namespace filament_core

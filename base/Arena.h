@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 class Arena {
 public:
@@ -79,4 +79,4 @@ private:
     size_t mCurrent = 0; // index of the block being filled
 };
 
-} // namespace filament
+} // namespace filament_core

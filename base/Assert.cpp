@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 [[noreturn]] void abortWith(std::string const& message) {
@@ -35,4 +35,4 @@ void assertionFailed(const char* file, int line, const char* condition, const ch
     abortWith(message);
 }
 
-} // namespace filament
+} // namespace filament_core

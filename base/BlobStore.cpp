@@ -17,7 +17,7 @@
 #include <optional>
 #include <system_error>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -151,4 +151,4 @@ void BlobStore::save() {
     fs::remove(unfinished, failed);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 class BlobStore {
 public:
@@ -48,4 +48,4 @@ private:
     bool mHasChanged = false;
 };
 
-} // namespace filament
+} // namespace filament_core

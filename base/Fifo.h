@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 template <class T>
 class Fifo {
@@ -51,4 +51,4 @@ private:
     size_t mFirst = 0, mSize = 0;
 };
 
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 
 #include "base/Assert.h"
 
-#include <filament/Handle.h>
+#include <filament_core/Handle.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include <new>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 /// As many objects of one type as can have handles. Code that handles missing memory handles this; OutOfMemory.h tells
 /// them apart.
@@ -76,4 +76,4 @@ private:
     std::vector<uint32_t> mFree;
 };
 
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr uint64_t kSecretA = 0x9E3779B97F4A7C15ull; // 2^64 / golden ratio
@@ -37,4 +37,4 @@ uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed) {
     return fold(fold(low ^ kSecretB, high ^ state), bytes.size() ^ kSecretA);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed = 0);
 
@@ -27,4 +27,4 @@ uint64_t hashValue(T const& value, uint64_t seed = 0) {
 /// Order matters: combine(a, b) != combine(b, a).
 uint64_t hashCombine(uint64_t a, uint64_t b);
 
-} // namespace filament
+} // namespace filament_core

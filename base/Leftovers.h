@@ -18,7 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns the number of deleted files.
 template <class WriterOf>
@@ -42,4 +42,4 @@ size_t removeLeftoverFiles(const char* folder, WriterOf&& writerOf) {
     return removed;
 }
 
-} // namespace filament
+} // namespace filament_core

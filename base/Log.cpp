@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 std::mutex gSinkMutex;
@@ -49,4 +49,4 @@ void logLine(Severity severity, std::string_view line) {
 
 void logLineIsMissing() noexcept { std::fputs("error: out of memory, a line of the log is missing\n", stderr); }
 
-} // namespace filament
+} // namespace filament_core

@@ -12,7 +12,7 @@
 #include <new>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 enum class Severity : unsigned char { Debug, Info, Warning, Error };
 
@@ -39,4 +39,4 @@ void log(Severity severity, fmt::format_string<Args...> format, Args&&... args) 
     }
 }
 
-} // namespace filament
+} // namespace filament_core

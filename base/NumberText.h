@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 template <class T>
 std::optional<T> numberOf(std::string_view text) {
@@ -22,4 +22,4 @@ inline std::optional<float> numberOf(std::string_view text, float least, float m
     return number && *number >= least && *number <= most ? number : std::nullopt;
 }
 
-} // namespace filament
+} // namespace filament_core

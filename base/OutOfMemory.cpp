@@ -4,7 +4,7 @@
 #include "base/Handle.h"
 #include "base/Result.h"
 
-namespace filament {
+namespace filament_core {
 
 Error outOfMemory(std::string_view doing, std::string_view object, std::bad_alloc const& cause) noexcept {
     const bool lacksHandles = dynamic_cast<OutOfHandles const*>(&cause) != nullptr;
@@ -18,4 +18,4 @@ Error outOfMemory(std::string_view doing, std::string_view object, std::bad_allo
     }
 }
 
-} // namespace filament
+} // namespace filament_core

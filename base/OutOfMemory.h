@@ -6,7 +6,7 @@
 ///   Fails   never; other exceptions pass through.  Cost: a try block.
 #pragma once
 
-#include <filament/Result.h>
+#include <filament_core/Result.h>
 
 #include <new>
 #include <stdexcept>
@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 /// "loading 'a.glb': out of memory; free some and try again". If `cause` is OutOfHandles, the text names that instead.
 Error outOfMemory(std::string_view doing, std::string_view object = {}, std::bad_alloc const& cause = {}) noexcept;
@@ -32,4 +32,4 @@ auto orOutOfMemory(std::string_view doing, std::string_view object, F&& function
     }
 }
 
-} // namespace filament
+} // namespace filament_core

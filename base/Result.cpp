@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Result.h"
 
-namespace filament {
+namespace filament_core {
 
 const char* toString(ErrorCode code) {
     switch (code) {
@@ -31,4 +31,4 @@ const char* toString(ErrorCode code) {
     return "unknown error";
 }
 
-} // namespace filament
+} // namespace filament_core

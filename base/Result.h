@@ -3,15 +3,15 @@
 ///   fail() builds an Error from a format string: `return fail(ErrorCode::NotFound, "no file '{}'", path);`
 #pragma once
 
-#include <filament/Result.h>
+#include <filament_core/Result.h>
 
 #include <fmt/core.h>
 
-namespace filament {
+namespace filament_core {
 
 template <class... Args>
 Error fail(ErrorCode code, fmt::format_string<Args...> format, Args&&... args) {
     return { code, fmt::vformat(format, fmt::make_format_args(args...)) };
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 double quantileOfSorted(std::span<const double> sorted, double p) {
@@ -41,4 +41,4 @@ std::vector<double> pairedRatios(std::span<const double> a, std::span<const doub
     return ratios;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 /// The middle value, or the mean of the two middle ones.
 double median(std::vector<double> values);
@@ -27,4 +27,4 @@ Quartiles quartiles(std::vector<double> values);
 /// within a round is steadier than the ratio of the medians. Rounds with b[i] == 0 are left out.
 std::vector<double> pairedRatios(std::span<const double> a, std::span<const double> b);
 
-} // namespace filament
+} // namespace filament_core

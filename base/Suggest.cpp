@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 bool sameLetter(char a, char b) {
@@ -42,4 +42,4 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
     return nearest.empty() ? std::string() : "; did you mean '" + std::string(nearest) + "'?";
 }
 
-} // namespace filament
+} // namespace filament_core

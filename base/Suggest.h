@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> known);
 
@@ -21,4 +21,4 @@ std::vector<std::string_view> namesOf(Items const& items) {
     return names;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 /// Bytes of the UTF-8 sequence at the start of `text`; 0 if it is invalid. Unicode Standard, table 3-7.
 inline size_t utf8Length(std::string_view text) {
@@ -27,4 +27,4 @@ inline size_t utf8Length(std::string_view text) {
     return 0;
 }
 
-} // namespace filament
+} // namespace filament_core

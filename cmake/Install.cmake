@@ -24,16 +24,16 @@ set(generated ${CMAKE_BINARY_DIR}/package)
 if(BUILD_SHARED_LIBS)
     install(TARGETS filament_core EXPORT filament_coreTargets
         LIBRARY COMPONENT runtime NAMELINK_COMPONENT development)
-    install(EXPORT filament_coreTargets NAMESPACE filament:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT development)
+    install(EXPORT filament_coreTargets NAMESPACE filament_core:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT development)
 endif()
 install(TARGETS filament_core_static EXPORT filament_coreStaticTargets ARCHIVE COMPONENT development)
-install(EXPORT filament_coreStaticTargets NAMESPACE filament:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT development)
+install(EXPORT filament_coreStaticTargets NAMESPACE filament_core:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT development)
 install(TARGETS filament_jobsystem EXPORT filament_coreJobsystemTargets ARCHIVE COMPONENT jobsystem)
-install(EXPORT filament_coreJobsystemTargets NAMESPACE filament:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT jobsystem)
+install(EXPORT filament_coreJobsystemTargets NAMESPACE filament_core:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT jobsystem)
 
 # ---- headers. Those of the job system include each other as this tree's files do; they are in a folder of their own.
 foreach(folder IN LISTS FILAMENT_PUBLIC_INCLUDES)
-    install(DIRECTORY ${folder}/filament DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+    install(DIRECTORY ${folder}/filament_core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
 endforeach()
 set(jobsystem_headers AffinityPolicy.h Atomics.h Cancellation.h Completion.h Job.h JobSystem.h JobSystem.inl JobTrace.h ParkingLot.h)
@@ -41,8 +41,8 @@ list(TRANSFORM jobsystem_headers PREPEND ${CMAKE_SOURCE_DIR}/jobsystem/)
 set(jobsystem_include ${CMAKE_INSTALL_INCLUDEDIR}/filament_jobsystem)
 install(FILES ${jobsystem_headers} DESTINATION ${jobsystem_include}/jobsystem COMPONENT jobsystem)
 install(FILES ${CMAKE_SOURCE_DIR}/base/Assert.h DESTINATION ${jobsystem_include}/base COMPONENT jobsystem)
-install(FILES ${CMAKE_SOURCE_DIR}/base/include/filament/Result.h ${CMAKE_SOURCE_DIR}/base/include/filament/Version.h
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/filament COMPONENT jobsystem)
+install(FILES ${CMAKE_SOURCE_DIR}/base/include/filament_core/Result.h ${CMAKE_SOURCE_DIR}/base/include/filament_core/Version.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/filament_core COMPONENT jobsystem)
 
 # ---- find_package(): each of the two components can do without the other
 configure_package_config_file(${templates}/filament_coreConfig.cmake.in ${generated}/filament_coreConfig.cmake
@@ -76,7 +76,7 @@ endif()
 
 # ---- tools
 install(TARGETS ${FILAMENT_TOOLS} EXPORT filament_coreToolsTargets RUNTIME COMPONENT tools)
-install(EXPORT filament_coreToolsTargets NAMESPACE filament:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT tools)
+install(EXPORT filament_coreToolsTargets NAMESPACE filament_core:: DESTINATION ${FILAMENT_PACKAGE_DIR} COMPONENT tools)
 
 # ---- the Python module: below the prefix where Debian's Python looks
 if(FILAMENT_PYTHON)

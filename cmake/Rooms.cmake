@@ -2,7 +2,7 @@
 # A room is a folder: all .cpp files in it form one library of the same name, and its headers are included from the
 # repository root, so that every include shows the layer.
 
-# A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
+# A public header lies in the lowest room that uses it; users see one folder, <filament_core/...>.
 set(FILAMENT_PUBLIC_INCLUDES ${CMAKE_SOURCE_DIR}/base/include ${CMAKE_SOURCE_DIR}/shaders/package/include
     ${CMAKE_SOURCE_DIR}/filament_core/include)
 

@@ -5,9 +5,9 @@ file(SHA256 ${COMPILER} hash)
 file(WRITE ${OUTPUT} "// Written by cmake/WriteCompilerIdentity.cmake.
 #include \"tools/packages/PackageCache.h\"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 std::string_view compilerIdentity() { return \"${hash}\"; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools
 ")

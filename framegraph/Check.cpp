@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 struct Size {
@@ -252,4 +252,4 @@ void checkDeclarations(FrameGraph const& graph) {
     }
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

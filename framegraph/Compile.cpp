@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using backend::DeviceInfo;
@@ -68,4 +68,4 @@ void describePasses(FrameGraph const& graph, PassOrder const& order, std::span<P
     }
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -6,7 +6,7 @@
 
 #include "framegraph/CompiledGraph.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// Every rule that a graph must keep, checked once (Check.cpp).
 void checkDeclarations(FrameGraph const& graph);
@@ -47,4 +47,4 @@ std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const
 /// Names and pass layouts of the groups (Compile.cpp).
 void describePasses(FrameGraph const& graph, PassOrder const& order, std::span<PassGroup> groups);
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

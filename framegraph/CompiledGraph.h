@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 inline constexpr uint32_t kNone = ~0u;
 
@@ -140,4 +140,4 @@ void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::ve
 /// needs. Asserts that no pass records anything (PassContext::isRehearsal()).
 void rehearse(CompiledGraph const& plan);
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -2,7 +2,7 @@
 #include "framegraph/CompileSteps.h"
 #include "framegraph/Subresources.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 /// Whether the contents of a level and layer are still needed by the rest of the frame.
@@ -110,4 +110,4 @@ PassOrder cullUnreadPasses(FrameGraph const& graph) {
     return { decisions, order };
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -7,7 +7,7 @@
 
 #include <iterator>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using backend::LoadOp;
@@ -325,4 +325,4 @@ std::string toGraphviz(CompiledGraph const& plan) {
     return result;
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -10,11 +10,11 @@
 
 #include <string>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// The reason of one pass, by declaration: "runs: it writes output 'output'; merged with the pass before it".
 std::string describePass(CompiledGraph const& plan, size_t pass);
 std::string toText(CompiledGraph const& plan);
 std::string toGraphviz(CompiledGraph const& plan);
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

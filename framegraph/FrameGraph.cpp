@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 Previous previousOf(bool clears, bool overwrites) {
@@ -185,4 +185,4 @@ void PassBuilder::writeBuffer(BufferId buffer, BufferUse use, Previous previous)
 
 void PassBuilder::sideEffect() { mGraph.declareSideEffect(mPass); }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

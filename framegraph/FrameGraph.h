@@ -27,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// A texture as the graph sees it; its usage is derived from the passes that use it.
 struct GraphTextureDesc {
@@ -256,4 +256,4 @@ private:
     std::vector<BufferAccess> mBufferAccesses;
 };
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

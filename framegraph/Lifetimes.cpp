@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using backend::BufferUsage;
@@ -197,4 +197,4 @@ std::span<BufferPlan> assignBuffers(FrameGraph const& graph, PassOrder const& or
     return plans;
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "framegraph/CompileSteps.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using backend::LoadOp;
@@ -66,4 +66,4 @@ void deriveLoadAndStore(FrameGraph const& graph, PassOrder const& order, std::sp
     }
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 namespace {
 
@@ -56,4 +56,4 @@ uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass) {
     return bytes;
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// Of all levels, layers and samples.
 uint64_t bytesOf(GraphTextureDesc const& desc);
@@ -23,4 +23,4 @@ AttachmentMemory attachmentMemory(CompiledGraph const& plan);
 /// not run.
 uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass);
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

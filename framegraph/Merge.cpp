@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 uint8_t withBit(uint8_t mask, uint32_t bit) { return static_cast<uint8_t>(mask | 1u << bit); }
@@ -173,4 +173,4 @@ std::span<PassGroup> mergePasses(FrameGraph const& graph, PassOrder const& order
     return groups.first(count);
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 void PassContext::requireDeclared(TextureId id) const {
     Pass const& pass = mPlan.graph->passes()[mPass];
@@ -111,4 +111,4 @@ backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& 
     return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -18,11 +18,11 @@
 #include <type_traits>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 class CommandStream;
 }
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 struct CompiledGraph;
 struct GraphTextureDesc;
@@ -155,4 +155,4 @@ PassCode makePassCode(Arena& arena, BeforePass&& beforePass, Execute&& execute) 
     };
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -21,7 +21,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// The ranges [0, grain), [grain, 2 grain), ... in sequence; the last one ends at `count`.
 template <class Body>
@@ -75,4 +75,4 @@ private:
     std::vector<Lane> mLanes;
 };
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using namespace backend;
@@ -126,4 +126,4 @@ void rehearse(CompiledGraph const& plan) {
     }
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

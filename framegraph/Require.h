@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <string>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// A format string that remembers who passed it.
 struct Rule {
@@ -32,4 +32,4 @@ void require(bool condition, Rule rule, Args const&... args) {
     assertionFailed(rule.file, rule.line, "frame graph", message.c_str());
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 class Subresources {
 public:
@@ -62,4 +62,4 @@ private:
 /// What a resolve writes.
 inline constexpr backend::TextureRange kResolved{ 0, 1, 0, 1 };
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 bool isSameButForTheName(backend::DeviceTextureDesc const& a, backend::DeviceTextureDesc const& b) {
@@ -246,4 +246,4 @@ void TransientPool::destroyAll(backend::CommandBuffer& commands) {
     recordEvictions(commands);
 }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -22,11 +22,11 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 class CommandStream;
 }
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 /// From the first to the last use of a transient: groups of the graph.
 struct UseInterval {
@@ -145,4 +145,4 @@ private:
     std::vector<PooledBindGroup> mBindGroups;
 };
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

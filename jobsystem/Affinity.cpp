@@ -13,7 +13,7 @@
 #include <memory>
 #include <tuple>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 bool contains(std::span<const int> cores, int core) {
@@ -211,4 +211,4 @@ void WorkerPlacement::placeBackgroundThread() const {
     if (!mUnpinnedCores.empty()) bindThisThread(mUnpinnedCores);
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

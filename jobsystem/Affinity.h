@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// The processors that a policy allows for workers; never empty, because a policy that allows none is ignored.
 std::vector<Cpu> allowedCpus(AffinityPolicy const& policy, Topology const& topology);
@@ -112,4 +112,4 @@ private:
     std::vector<int> mUnpinnedCores; // for threads started by a pinned thread; empty: they inherit its mask
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

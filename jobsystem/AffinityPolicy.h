@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 struct AffinityPolicy {
     enum class Kind : uint8_t {
@@ -32,4 +32,4 @@ struct AffinityPolicy {
     bool isNone() const { return kind == Kind::None && avoidedCores.empty(); }
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

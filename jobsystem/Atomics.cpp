@@ -6,7 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 static_assert(sizeof(std::atomic<uint32_t>) == 4 && std::atomic<uint32_t>::is_always_lock_free, "a futex word");
@@ -22,4 +22,4 @@ void StdAtomics::wait(std::atomic<uint32_t>& word, uint32_t old) { futex(word, F
 void StdAtomics::notifyOne(std::atomic<uint32_t>& word) { futex(word, FUTEX_WAKE, 1); }
 void StdAtomics::notifyAll(std::atomic<uint32_t>& word) { futex(word, FUTEX_WAKE, INT_MAX); }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -10,7 +10,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 struct StdAtomics {
     template <class T>
@@ -25,4 +25,4 @@ struct StdAtomics {
     static void notifyAll(std::atomic<uint32_t>& word);
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

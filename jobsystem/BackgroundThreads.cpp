@@ -11,7 +11,7 @@
 #include <new>
 #include <system_error>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 BackgroundThreads::BackgroundThreads(Scheduler& scheduler, uint32_t limit, std::string name)
         : mScheduler(scheduler), mLimit(limit), mName(std::move(name)), mBells(std::make_unique<ParkingLot[]>(limit)),
@@ -137,4 +137,4 @@ void BackgroundThreads::sleepUntilDoneOrPushed(Completion& completion) {
     if (job) run(*job);
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

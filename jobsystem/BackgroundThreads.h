@@ -25,7 +25,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class Scheduler;
 
@@ -72,4 +72,4 @@ private:
     bool mStopping = false;
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -11,7 +11,7 @@
 
 #include <atomic>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class Cancellation {
 public:
@@ -26,4 +26,4 @@ private:
     std::atomic<bool> mRequested{ false };
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -16,7 +16,7 @@
 #include <ostream>
 #include <string_view>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 constexpr int kProcess = 1; // the file has only one; its number is arbitrary
@@ -97,4 +97,4 @@ Result<void> writeChromeTrace(std::vector<TraceTrack> const& tracks, std::filesy
                 file.string(), errno != 0 ? std::strerror(errno) : "writing stopped");
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

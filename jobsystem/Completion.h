@@ -22,7 +22,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// Identifies one stay of one thread on a seat; every stay has a different value. 0: nobody.
 using Occupant = uint64_t;
@@ -151,4 +151,4 @@ private:
 
 using Completion = BasicCompletion<StdAtomics>;
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// The largest configuration of Linux; the kernel refuses a mask shorter than its own.
 inline constexpr int kMaxCores = 8192;
@@ -26,4 +26,4 @@ inline CpuMask makeCpuMask() {
     return mask;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

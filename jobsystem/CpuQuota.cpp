@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,4 +132,4 @@ double cpuQuota(fs::path const& root) {
     return quota;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -13,9 +13,9 @@
 
 #include <filesystem>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// `root`: where /proc and the mounts are; tests pass a directory of their own.
 double cpuQuota(std::filesystem::path const& root = "/");
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 constexpr size_t kStackBytes = size_t(8) << 20;
@@ -100,4 +100,4 @@ void callOnFreshStack(void (*call)(void*), void* argument) {
     FILAMENT_ASSERT(done, "jobs are nested so deeply that the system refuses memory for more stack");
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -16,7 +16,7 @@
 
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// Finds the end of the calling thread's stack; once per thread.
 void measureStack();
@@ -34,4 +34,4 @@ void callOnFreshStack(F& function) {
     callOnFreshStack([](void* erased) { (*static_cast<F*>(erased))(); }, &function);
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

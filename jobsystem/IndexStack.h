@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 template <class Policy = StdAtomics>
 class IndexStack {
@@ -56,4 +56,4 @@ private:
     alignas(64) Atomic<uint64_t> mHead{ kNone }; // changes << 32 | top
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

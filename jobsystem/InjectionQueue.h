@@ -19,7 +19,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class InjectionQueue {
 public:
@@ -43,4 +43,4 @@ private:
     alignas(kCacheLineBytes) std::atomic<int64_t> mCount{ 0 };
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

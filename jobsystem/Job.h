@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 inline constexpr size_t kCacheLineBytes = 64;
 inline constexpr size_t kJobCaptureBytes = 48;
@@ -137,4 +137,4 @@ void Job::set(F&& function) {
     type = &detail::kJobType<Callable, kName>;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

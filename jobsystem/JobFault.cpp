@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <exception>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 void reportThrow(const char* jobName, std::exception const& thrown) {
     std::fprintf(stderr, "job \"%s\" threw \"%s\": a job handles its exceptions itself\n", jobName, thrown.what());
@@ -26,4 +26,4 @@ void reportThrow(const char* jobName) {
     std::abort();
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

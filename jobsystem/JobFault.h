@@ -8,10 +8,10 @@
 
 #include <exception>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// Call inside a catch block: reports what was thrown.
 [[noreturn]] void reportThrow(const char* jobName);
 [[noreturn]] void reportThrow(const char* jobName, std::exception const& thrown);
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/JobStorage.h"
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 JobStorage::JobStorage(uint32_t capacity)
         : mJobs(std::make_unique_for_overwrite<Job[]>(capacity)),
@@ -53,4 +53,4 @@ void JobStorage::releaseShared(Cache* cache, uint32_t job) {
     mBatches.push(job);
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

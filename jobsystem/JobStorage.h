@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class JobStorage {
 public:
@@ -55,4 +55,4 @@ private:
     IndexStack<> mBatches; // each batch is named by its first job
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

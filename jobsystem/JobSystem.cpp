@@ -3,7 +3,7 @@
 
 #include "jobsystem/Scheduler.h"
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 Occupant occupantHere(Scheduler const& scheduler) {
@@ -31,4 +31,4 @@ JobGroup::JobGroup(JobSystem& jobs, Priority priority)
 
 void JobGroup::waitInside() { mScheduler.wait(mCompletion); }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

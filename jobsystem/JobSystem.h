@@ -34,7 +34,7 @@
 #include <string>
 #include <utility>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class JobTrace;
 class Scheduler;
@@ -160,6 +160,6 @@ void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body);
 template <JobName kName = "loop", class Body>
 void parallelFor(JobSystem& jobs, Priority priority, size_t count, size_t grain, Body&& body);
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs
 
 #include "jobsystem/JobSystem.inl"

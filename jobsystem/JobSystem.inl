@@ -2,7 +2,7 @@
 /// The templates of JobSystem.h.
 #pragma once
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 // The scheduler functions that the templates need; the rest of the scheduler is private.
 namespace detail {
@@ -169,4 +169,4 @@ void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body) {
     parallelFor<kName>(jobs, detail::inheritedPriority(), count, grain, std::forward<Body>(body));
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

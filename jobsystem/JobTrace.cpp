@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <tuple>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 uint64_t nextId() {
@@ -165,4 +165,4 @@ std::vector<TraceTrack> JobTrace::snapshot() const {
     return tracks;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -15,7 +15,7 @@
 ///   Source  "Trace Event Format", Google 2016: complete events ("X") and thread names ("M").
 #pragma once
 
-#include <filament/Result.h>
+#include <filament_core/Result.h>
 
 #include <atomic>
 #include <chrono>
@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 struct TraceEvent {
     enum class Kind : uint8_t { Job, StolenJob, Span };
@@ -89,4 +89,4 @@ private:
 void writeChromeTrace(std::vector<TraceTrack> const& tracks, std::ostream& out);
 Result<void> writeChromeTrace(std::vector<TraceTrack> const& tracks, std::filesystem::path const& file);
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

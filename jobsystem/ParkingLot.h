@@ -16,7 +16,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 template <class Policy>
 class BasicParkingLot {
@@ -68,4 +68,4 @@ private:
 
 using ParkingLot = BasicParkingLot<StdAtomics>;
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -15,7 +15,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 inline int64_t nanosecondsNow() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -90,4 +90,4 @@ private:
     Sighting mSighting; // at this look
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -6,7 +6,7 @@
 
 #include <new>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 /// Sets what the calling thread is doing, for the lifetime of this object.
@@ -190,4 +190,4 @@ void Scheduler::close(Completion& completion) {
     if (sleeper) sleeper->wakeAll();
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 // About the cost of falling asleep. Longer spinning would heat idle cores; with less, workers would sleep between two
@@ -214,4 +214,4 @@ Priority inheritedPriority() { return tThread.priority; }
 bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority) { return scheduler.isHungry(seat, priority); }
 
 } // namespace detail
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -28,7 +28,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class Scheduler {
 public:
@@ -158,4 +158,4 @@ private:
     } mThreadEnd{ *this };
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

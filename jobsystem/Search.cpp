@@ -2,7 +2,7 @@
 // Where the scheduler looks for work, in which order, and how often.
 #include "jobsystem/Scheduler.h"
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 // Marsaglia 2003, "Xorshift RNGs": period 2^32 - 1. The first victim affects only the speed.
@@ -132,4 +132,4 @@ Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* u
     return {};
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Seat.h"
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 SeatTable::SeatTable(Scheduler& scheduler, uint32_t workers)
         : mWorkers(workers), mSeats(std::make_unique<Seat[]>(workers + kGuestSeats)), mInUse(workers),
@@ -41,4 +41,4 @@ void SeatTable::getUp(Seat& seat) {
     seat.taken.store(false, std::memory_order_release);
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

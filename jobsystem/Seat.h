@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class BackgroundThreads;
 class Scheduler;
@@ -85,4 +85,4 @@ struct ThreadState {
 
 inline constinit thread_local ThreadState tThread;
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

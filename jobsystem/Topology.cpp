@@ -15,7 +15,7 @@
 #include <memory>
 #include <string_view>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 struct FreeTopology {
@@ -177,4 +177,4 @@ std::string rangesOf(std::span<const int> cores) {
     return text;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

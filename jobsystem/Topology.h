@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// One hardware thread: a CPU to the operating system, a core in the options of the engine.
 struct Cpu {
@@ -58,4 +58,4 @@ Topology readTopology(TopologySource const& source = {});
 /// "0-3,8" for messages; `cores` is ascending.
 std::string rangesOf(std::span<const int> cores);
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 // The last job usually ends soon, and a wake-up takes about this long. A waiter that spins for as long as a wake-up
@@ -76,4 +76,4 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion, 
     hunt.passesOn = true;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -19,7 +19,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 template <class T, uint32_t kSlots, class Policy = StdAtomics>
 class WorkStealingDeque {
@@ -88,4 +88,4 @@ private:
     alignas(kCacheLineBytes) std::array<Atomic<T*>, kSlots> mSlots{};
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384;
@@ -199,4 +199,4 @@ PictureArray pictureOf(py::handle array, const char* name) {
     return picture;
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -7,9 +7,9 @@
 
 #include "python/Errors.h"
 
-#include <filament/Box.h>
-#include <filament/Image.h>
-#include <filament/Math.h>
+#include <filament_core/Box.h>
+#include <filament_core/Image.h>
+#include <filament_core/Math.h>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::python {
+namespace filament_core::python {
 
 /// A finite number in [least, most].
 double numberIn(double value, const char* name, double least, double most);
@@ -62,4 +62,4 @@ struct PictureArray {
 };
 PictureArray pictureOf(py::handle array, const char* name);
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -5,10 +5,10 @@
 #include "python/Arrays.h"
 #include "python/Owner.h"
 
-#include <filament/Animator.h>
-#include <filament/Gltf.h>
-#include <filament/ModelCopy.h>
-#include <filament/Renderer.h>
+#include <filament_core/Animator.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/ModelCopy.h>
+#include <filament_core/Renderer.h>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -20,7 +20,7 @@
 #include <string>
 #include <utility>
 
-namespace filament::python {
+namespace filament_core::python {
 
 using ModelObject = Held<Model>;
 using EnvironmentObject = Held<Environment>;
@@ -77,4 +77,4 @@ ParameterValue parameterOf(ParameterDescription const& parameter, py::handle val
 /// Of samplers by name: filter "nearest", "bilinear" or "trilinear"; wrap "repeat", "mirror" or "clamp".
 Sampler samplerOf(std::string const& filter, std::string const& wrap, int anisotropy);
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 struct Comparison {
@@ -145,4 +145,4 @@ void bindCompare(py::module_& module) {
                "Reads a PNG or JPEG of 8 bits as uint8 codes, any other picture as linear light in float32.");
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -2,7 +2,7 @@
 // What the engine counts and declares, as dictionaries.
 #include "python/Bindings.h"
 
-namespace filament::python {
+namespace filament_core::python {
 
 py::dict dictOfCounts(std::initializer_list<std::pair<const char*, uint64_t>> counts) {
     py::dict dict;
@@ -22,4 +22,4 @@ py::list listOf(std::span<const ParameterDescription> parameters) {
     return list;
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

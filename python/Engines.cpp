@@ -4,11 +4,11 @@
 
 #include "tools/materials/PlainMaterials.h"
 
-#include <filament/Environment.h>
-#include <filament/Options.h>
-#include <filament/Version.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Options.h>
+#include <filament_core/Version.h>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 constexpr int kMaxWorkers = 256;
@@ -219,4 +219,4 @@ EngineClass bindEngine(py::module_& module) {
     return engine;
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 enum class Kind : uint8_t { Any, Invalid, NotFound, Unreadable, Corrupt, Unsupported, Device, Memory, Thread, Closed };
@@ -103,4 +103,4 @@ void raise(Error const& error) { raiseKind(kindOf(error.code), error.message, to
 void raiseThreadError(std::string_view message) { raiseKind(Kind::Thread, message, "wrong thread"); }
 void raiseClosedError(std::string_view message) { raiseKind(Kind::Closed, message, "closed"); }
 
-} // namespace filament::python
+} // namespace filament_core::python

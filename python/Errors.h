@@ -12,7 +12,7 @@
 #include <string_view>
 #include <utility>
 
-namespace filament::python {
+namespace filament_core::python {
 
 namespace py = pybind11;
 
@@ -41,4 +41,4 @@ inline void check(Result<void> const& result) {
     if (!result) raise(result.error());
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

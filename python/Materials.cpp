@@ -6,9 +6,9 @@
 #include "python/Bindings.h"
 #include "shaders/compiler/MaterialCompiler.h"
 
-#include <filament/BuiltInMaterials.h>
+#include <filament_core/BuiltInMaterials.h>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ void bindMaterials(py::module_& module, EngineClass& engine) {
                  "A material of the library: lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors.");
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

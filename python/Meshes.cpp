@@ -2,10 +2,10 @@
 // Meshes: simple shapes, and triangles from arrays.
 #include "python/Bindings.h"
 
-#include <filament/Mesh.h>
-#include <filament/Primitives.h>
+#include <filament_core/Mesh.h>
+#include <filament_core/Primitives.h>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 std::shared_ptr<MeshObject> upload(EngineObject const& self, Mesh const& mesh) {
@@ -120,4 +120,4 @@ void bindMeshes(py::module_& module, EngineClass& engine) {
                     "A ball around the origin.");
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

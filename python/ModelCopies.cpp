@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 struct CopyObject {
@@ -180,4 +180,4 @@ void bindModelCopies(py::module_& module, SceneClass& scene) {
             "largest side becomes 1 first, as filament-render does.");
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

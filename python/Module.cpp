@@ -3,7 +3,7 @@
 #include "python/Bindings.h"
 
 PYBIND11_MODULE(_core, module) {
-    using namespace filament::python;
+    using namespace filament_core::python;
     module.doc() = "The engine of filament_core: import filament_core instead.";
     bindErrors(module);
     EngineClass engine = bindEngine(module);

@@ -8,7 +8,7 @@
 
 #include <chrono>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 bool gExits = false; // the interpreter does: no new engines, no calls
@@ -117,4 +117,4 @@ void Owner::closeAll() {
     }
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -12,7 +12,7 @@
 
 #include "python/Errors.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <sys/types.h>
 
@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::python {
+namespace filament_core::python {
 
 /// Calls without the interpreter's lock. A daemon thread that comes back after the interpreter has ended does not
 /// return: it is unwound, which pybind11's own guard does not allow.
@@ -129,4 +129,4 @@ inline void requireSame(Owner const& owner, HeldBase const& part, std::string_vi
     if (part.owner().get() != &owner) raiseInvalid("the {} belongs to another engine", what);
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 constexpr double kMostFloat = std::numeric_limits<float>::max();
@@ -96,4 +96,4 @@ Sampler samplerOf(std::string const& filter, std::string const& wrap, int anisot
     return sampler;
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 constexpr int64_t kMaxFrames = 1'000'000;
@@ -178,4 +178,4 @@ void bindRenderer(py::module_& module) {
                  "of the same name count together.");
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

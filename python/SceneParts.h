@@ -4,7 +4,7 @@
 
 #include "python/Bindings.h"
 
-namespace filament::python {
+namespace filament_core::python {
 
 using SceneClass = py::class_<SceneObject, std::shared_ptr<SceneObject>>;
 
@@ -32,4 +32,4 @@ struct LightObject {
 /// Scene.add(), and the class ModelCopy.
 void bindModelCopies(py::module_& module, SceneClass& scene);
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 std::shared_ptr<ShapeObject> addMesh(std::shared_ptr<SceneObject> const& self, std::shared_ptr<MeshObject> const& mesh,
@@ -212,4 +212,4 @@ void bindScene(py::module_& module) {
     bindModelCopies(module, scene);
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

@@ -3,15 +3,15 @@
 #include "base/Suggest.h"
 #include "python/Bindings.h"
 
-#include <filament/Look.h>
-#include <filament/RenderPreset.h>
+#include <filament_core/Look.h>
+#include <filament_core/RenderPreset.h>
 
 #include <fmt/ranges.h>
 
 #include <array>
 #include <utility>
 
-namespace filament::python {
+namespace filament_core::python {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384;
@@ -64,13 +64,13 @@ const char* elsewhere(std::string_view name) {
 
 void setOption(ViewObject& self, std::string const& name, py::handle given) {
     const std::string value = optionText(given, name.c_str());
-    const Result<void> done = filament::setOption(self.view, name, value);
+    const Result<void> done = filament_core::setOption(self.view, name, value);
     if (!done && done.error().code == ErrorCode::NotFound) raiseUnknown(name);
     check(done);
 }
 
 std::string optionValue(ViewObject const& self, std::string const& name) {
-    if (auto value = filament::optionValue(self.view, name)) return *value;
+    if (auto value = filament_core::optionValue(self.view, name)) return *value;
     raiseUnknown(name);
 }
 
@@ -83,7 +83,7 @@ py::dict allOptions() {
 py::dict optionsOfView(ViewObject const& self) {
     py::dict values;
     for (Option const& option : optionsOf<View>())
-        values[py::str(std::string(option.name))] = filament::optionValue(option, &self.view);
+        values[py::str(std::string(option.name))] = filament_core::optionValue(option, &self.view);
     return values;
 }
 
@@ -96,11 +96,11 @@ void lookAt(ViewObject& self, py::object const& eye, py::object const& at, doubl
     self.view.camera = Camera::lookAt(from, to, lens, self.view.camera.exposure, double3(directionOf(up, "up")));
 }
 
-void setParallel(ViewObject& self, double height, double nearMeters, double farMeters) {
+void setOrthographic(ViewObject& self, double height, double nearMeters, double farMeters) {
     Lens& lens = self.view.camera.lens;
     const double n = numberIn(nearMeters, "near", 0, 1e9), f = numberIn(farMeters, "far", 1e-6, 1e12);
     if (static_cast<float>(f) <= static_cast<float>(n)) raiseInvalid("far: {} is not beyond near, {}", f, n);
-    lens.parallelMeters = static_cast<float>(numberIn(height, "height", 1e-6, 1e9));
+    lens.orthographicHeight = static_cast<float>(numberIn(height, "height", 1e-6, 1e9));
     lens.nearMeters = static_cast<float>(n);
     lens.farMeters = static_cast<float>(f);
 }
@@ -155,11 +155,11 @@ void bindOptions(py::class_<ViewObject, std::shared_ptr<ViewObject>>& view) {
             .def(
                     "load_look",
                     [](ViewObject& self, std::filesystem::path const& path) {
-                        self.view.colorGrading.look = valueOf(loadLook(path));
+                        self.view.display.look = valueOf(loadLook(path));
                     },
                     py::arg("path"), "A table of display values, a .cube file, applied after the tone mapper.")
             .def(
-                    "remove_look", [](ViewObject& self) { self.view.colorGrading.look = nullptr; },
+                    "remove_look", [](ViewObject& self) { self.view.display.look = nullptr; },
                     "No table after the tone mapper any more.")
             .def_property(
                     "bloom_dirt", [](ViewObject const& self) { return self.dirt; },
@@ -171,9 +171,9 @@ void bindCamera(py::class_<ViewObject, std::shared_ptr<ViewObject>>& view) {
     view.def("look_at", &lookAt, py::arg("eye"), py::arg("at"), py::kw_only(), py::arg("fov_degrees") = 40.0,
              py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = 0.01,
              "A perspective camera at `eye` that looks at `at`; metres, vertical field of view in degrees.")
-            .def("parallel", &setParallel, py::arg("height"), py::kw_only(), py::arg("near") = 0.0,
+            .def("orthographic", &setOrthographic, py::arg("height"), py::kw_only(), py::arg("near") = 0.0,
                  py::arg("far") = 1000.0,
-                 "A parallel (orthographic) lens that shows `height` metres; the camera stays where it is.")
+                 "An orthographic lens that shows `height` metres; the camera stays where it is.")
             .def("exposure", &setExposure, py::arg("aperture") = 16.0, py::arg("shutter_seconds") = 1.0 / 125,
                  py::arg("iso") = 100.0, "How the camera is exposed.")
             .def_property_readonly(
@@ -221,4 +221,4 @@ void bindView(py::module_& module) {
     bindCamera(view);
 }
 
-} // namespace filament::python
+} // namespace filament_core::python

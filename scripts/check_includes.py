@@ -87,10 +87,10 @@ PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filamen
             "tools/matinfo", "tools/numerics", "tools/replay", "tools/tables", "tools/view"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
-# A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
-PUBLIC = ["base/include/filament", "shaders/package/include/filament", "filament_core/include/filament"]
+# A public header lies in the lowest room that uses it; users see one folder, <filament_core/...>.
+PUBLIC = ["base/include/filament_core", "shaders/package/include/filament_core", "filament_core/include/filament_core"]
 # Public headers whose objects are the engine's; the rest are value types.
-PUBLIC_ENGINE = ["filament.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
+PUBLIC_ENGINE = ["filament_core.h", "Animator.h", "BuiltInMaterials.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
 PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "toolkit", "tools", "python", "samples", "tests", "bench"]
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
@@ -165,13 +165,13 @@ def quoted_rule(root, path, room, target):
         return f'"{target}" is not a path from the repository root'
     target_room = room_of(target)
     if is_public(path):
-        return f'public headers include only the standard library, GLM and <filament/...>, not "{target}"'
+        return f'public headers include only the standard library, GLM and <filament_core/...>, not "{target}"'
     if is_public(target):
-        return "public headers are included as <filament/...>"
+        return "public headers are included as <filament_core/...>"
     if target_room == room:
         return None
     if room == "samples":
-        return "samples see only the public headers <filament/...>"
+        return "samples see only the public headers <filament_core/...>"
     if target_room is None or user_of(target_room) in (*USERS, "samples"):
         # users may include each other: tests use the tools' libraries, benches use the test scenes
         if user_of(room) not in USERS or target_room in (None, "samples"):
@@ -189,11 +189,11 @@ def quoted_rule(root, path, room, target):
 def public_rule(root, room, name):
     owners = [room_of(f"{folder}/{name}") for folder in PUBLIC if (root / folder / name).is_file()]
     if len(owners) != 1:
-        return f"<filament/{name}> " + ("does not exist" if not owners else f"exists {len(owners)} times")
+        return f"<filament_core/{name}> " + ("does not exist" if not owners else f"exists {len(owners)} times")
     if name in PUBLIC_ENGINE and user_of(room) not in PUBLIC_ENGINE_USERS:
-        return f"<filament/{name}> names the engine; {room} is below it"
+        return f"<filament_core/{name}> names the engine; {room} is below it"
     if room != "samples" and not may_see(room, owners[0]):
-        return f"<filament/{name}> belongs to {owners[0]}, which {room} may not include"
+        return f"<filament_core/{name}> belongs to {owners[0]}, which {room} may not include"
     return None
 
 
@@ -222,8 +222,8 @@ def check_file(root, path):
         quote, target = match.groups()
         if quote == '"':
             rule = quoted_rule(root, relative, room, target)
-        elif target.startswith("filament/"):
-            rule = public_rule(root, room, target.removeprefix("filament/"))
+        elif target.startswith("filament_core/"):
+            rule = public_rule(root, room, target.removeprefix("filament_core/"))
         else:
             rule = library_rule(relative, room, target)
         if rule:

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 // clang-format off
 // Objects [O]. Destroying an object that earlier commands use is fine: the driver keeps it until the GPU is done.
@@ -193,4 +193,4 @@ void replay(CommandView view, D& driver) {
     progress.leave();
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 bool isUniform(BindingType type) {
@@ -40,4 +40,4 @@ uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding
     return 0xFF;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

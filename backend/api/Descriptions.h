@@ -7,8 +7,8 @@
 #include "backend/api/Handles.h"
 #include "backend/api/TextureRange.h"
 
-#include <filament/NativeWindow.h>
-#include <filament/Sampler.h>
+#include <filament_core/NativeWindow.h>
+#include <filament_core/Sampler.h>
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 inline constexpr uint32_t kMaxColorAttachments = 8;
 inline constexpr uint32_t kMaxSubpasses = 4;
@@ -98,9 +98,9 @@ struct DeviceTextureDesc {
 /// Of all levels, layers and samples, tightly packed.
 uint64_t textureBytes(DeviceTextureDesc const& desc);
 
-using filament::Filter;
-using filament::MipFilter;
-using filament::WrapMode;
+using filament_core::Filter;
+using filament_core::MipFilter;
+using filament_core::WrapMode;
 
 /// `None`: an ordinary sampler without comparison.
 enum class CompareOp : uint8_t { None, Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
@@ -367,4 +367,4 @@ struct SurfaceDesc {
     std::string_view debugName;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

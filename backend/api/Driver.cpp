@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/api/Driver.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 const char* toString(BackendType type) {
     switch (type) {
@@ -15,4 +15,4 @@ const char* toString(BackendType type) {
     return "unknown";
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

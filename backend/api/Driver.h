@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 enum class BackendType : uint8_t { Null, Vulkan, Gles };
 const char* toString(BackendType type);
@@ -121,4 +121,4 @@ struct DriverOptions {
 };
 inline constexpr uint64_t kProgramCacheBytes = 64u << 20;
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using enum FormatKind;
@@ -91,4 +91,4 @@ uint32_t fullMipCount(uint32_t width, uint32_t height) {
     return static_cast<uint32_t>(std::bit_width(std::max({ width, height, 1u })));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

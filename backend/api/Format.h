@@ -2,16 +2,16 @@
 /// formatInfo(f), vertexFormatInfo(f): the only table about formats; a backend adds only its native enum.
 #pragma once
 
-#include <filament/Format.h>
+#include <filament_core/Format.h>
 
 #include <cstdint>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
-using filament::Format;
-using filament::IndexFormat;
-using filament::PrimitiveType;
-using filament::VertexFormat;
+using filament_core::Format;
+using filament_core::IndexFormat;
+using filament_core::PrimitiveType;
+using filament_core::VertexFormat;
 
 enum class FormatKind : uint8_t { Color, UnsignedInteger, SignedInteger, Depth, DepthStencil };
 
@@ -55,4 +55,4 @@ struct VertexFormatInfo {
 
 VertexFormatInfo const& vertexFormatInfo(VertexFormat format);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

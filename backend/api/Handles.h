@@ -5,7 +5,7 @@
 
 #include "base/Handle.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 using BufferHandle = Handle<struct BufferTag>;
 using TextureHandle = Handle<struct TextureTag>;
@@ -23,9 +23,11 @@ struct Ticket {
     friend auto operator<=>(Ticket, Ticket) = default;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend
 
 template <>
-struct std::hash<filament::backend::Ticket> {
-    size_t operator()(filament::backend::Ticket ticket) const noexcept { return std::hash<uint64_t>{}(ticket.value); }
+struct std::hash<filament_core::backend::Ticket> {
+    size_t operator()(filament_core::backend::Ticket ticket) const noexcept {
+        return std::hash<uint64_t>{}(ticket.value);
+    }
 };

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class ReplayProgress {
 public:
@@ -40,4 +40,4 @@ private:
     ReplayProgress* mBefore;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 template <class H, class T>
 class Slots {
@@ -52,4 +52,4 @@ private:
     std::vector<Slot> mSlots;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

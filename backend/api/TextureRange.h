@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// A count of 0 reaches to the last level or layer; the default is everything.
 struct TextureRange {
@@ -44,4 +44,4 @@ constexpr bool contains(TextureRange const& outer, TextureRange const& inner) {
            outer.layer <= inner.layer && inner.layer + inner.layerCount <= outer.layer + outer.layerCount;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

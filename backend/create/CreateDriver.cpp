@@ -10,7 +10,7 @@
 #include <iterator>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 Result<std::unique_ptr<Driver>> makeDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
@@ -41,4 +41,4 @@ std::vector<DeviceInfo> listDevices() {
     return devices;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// `sink` must outlive the driver.
 Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions const& options, ResultSink& sink);
@@ -19,4 +19,4 @@ Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions con
 /// Every device of every backend of this build. A backend without a driver installed is simply absent.
 std::vector<DeviceInfo> listDevices();
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string_view>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
@@ -92,4 +92,4 @@ void applyMesaEnvironment() {
     });
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

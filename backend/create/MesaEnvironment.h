@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 struct EnvironmentChange {
     std::string name, value;
@@ -34,4 +34,4 @@ MesaEnvironment mesaEnvironment(std::function<const char*(const char*)> const& l
 /// Makes the changes, once a process, and logs the note.
 void applyMesaEnvironment();
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr uint32_t kSide = 8;
@@ -335,4 +335,4 @@ Result<std::unique_ptr<Driver>> makeTestedDriver(MakeDriver const& make, ResultS
     return std::unique_ptr<Driver>(std::make_unique<TestedDriver>(std::move(results), std::move(*driver)));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -16,7 +16,7 @@
 #include <functional>
 #include <memory>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 using MakeDriver = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
 
@@ -25,4 +25,4 @@ using MakeDriver = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
 Result<std::unique_ptr<Driver>> makeTestedDriver(MakeDriver const& make, ResultSink& sink,
                                                  std::filesystem::path const& notes);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

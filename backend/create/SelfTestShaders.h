@@ -6,9 +6,9 @@
 
 #include <string_view>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// The shader of that file as SPIR-V or as text, without copying; empty if there is none of that name.
 std::span<const std::byte> selfTestShader(std::string_view file, ShaderLanguage language);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

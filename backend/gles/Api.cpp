@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 __eglMustCastToProperFunctionPointerType findSuffixed(Api::Lookup lookup, const char* name) {
@@ -30,4 +30,4 @@ const char* Api::load(Lookup lookup) {
     return nullptr;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

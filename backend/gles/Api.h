@@ -10,7 +10,7 @@
 
 #include <GLES2/gl2ext.h>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // OpenGL ES 3.1
 // clang-format off
@@ -66,4 +66,4 @@ struct Api {
     const char* load(Lookup lookup);
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

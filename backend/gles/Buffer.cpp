@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Buffer.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // Not part of vertex arrays or uniform slots, so binding it disturbs nothing that ContextState tracks.
 static constexpr GLenum kEditTarget = GL_COPY_WRITE_BUFFER;
@@ -55,4 +55,4 @@ Buffer const* Buffers::find(BufferHandle handle) const {
     return buffer && buffer->name ? buffer : nullptr;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -8,7 +8,7 @@
 #include "backend/api/Slots.h"
 #include "backend/gles/Device.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct Buffer {
     GLuint name = 0; ///< 0: creation failed
@@ -35,4 +35,4 @@ private:
     Slots<BufferHandle, Buffer> mBuffers;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

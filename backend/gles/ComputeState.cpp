@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/ComputeState.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 void ComputeState::reset() {
     mPipeline = {};
@@ -19,4 +19,4 @@ bool ComputeState::prepareDispatch() {
     return mDescriptors.apply();
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

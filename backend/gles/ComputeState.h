@@ -10,7 +10,7 @@
 #include "backend/gles/Descriptors.h"
 #include "backend/gles/Pipeline.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class ComputeState {
 public:
@@ -35,4 +35,4 @@ private:
     std::array<CmdBindGroup, kMaxBindGroups> mGroups{};
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Context.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 struct ContextWish {
@@ -68,4 +68,4 @@ bool Context::makeCurrent(EGLSurface surface) const {
     return mEgl->MakeCurrent(display(), surface, surface, mContext) == EGL_TRUE;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

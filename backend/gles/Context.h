@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Context {
 public:
@@ -36,4 +36,4 @@ private:
     EGLContext mContext;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // The members start with the initial values of the specification, so only differing values are set here.
 ContextState::ContextState(Api const& gl, Quirks const& quirks) : mGl(gl), mQuirks(quirks) {
@@ -227,4 +227,4 @@ void ContextState::setConstantAttribute(uint32_t location, GLenum scalarType) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

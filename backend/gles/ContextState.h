@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 inline constexpr uint32_t kMaxUniformSlots = kMaxBindGroups * kMaxBindings;
 inline constexpr uint32_t kMaxStorageSlots = kMaxBindGroups * kMaxBindings;
@@ -92,4 +92,4 @@ private:
     bool mPolygonOffset = false, mDepthClamp = false, mAlphaToCoverage = false, mSrgb = true;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

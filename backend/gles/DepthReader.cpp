@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/DepthReader.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 constexpr std::string_view kFragmentText = R"(#version 310 es
@@ -61,4 +61,4 @@ GLuint DepthReader::copy(Texture const& texture, uint32_t level, uint32_t layer,
     return mProgram.draw(target, all, GL_TEXTURE_2D, mDepth.name, {}) ? target : 0;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -9,7 +9,7 @@
 #include "backend/gles/Framebuffers.h"
 #include "backend/gles/FullScreenProgram.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class DepthReader {
 public:
@@ -30,4 +30,4 @@ private:
     Texture mDepth, mFloat;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

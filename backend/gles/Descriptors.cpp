@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
@@ -102,4 +102,4 @@ void Descriptors::applyGroup(uint32_t index) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -12,7 +12,7 @@
 #include "backend/gles/Sampler.h"
 #include "backend/gles/Texture.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct BindGroup {
     struct Slot {
@@ -56,4 +56,4 @@ private:
     uint32_t mPending = 0; // bit i: group i is not in its slots
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

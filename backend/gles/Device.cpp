@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 // Errors, undefined behaviour and anything severe. Performance hints are not the caller's bug, and the messages of the
@@ -128,4 +128,4 @@ void Device::label(GLenum type, GLuint object, std::string_view name) {
     if (messages && !name.empty()) gl.ObjectLabel(type, object, static_cast<GLsizei>(name.size()), name.data());
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

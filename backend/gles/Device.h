@@ -13,7 +13,7 @@
 
 #include <optional>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct OpenDevice {
     Context context;
@@ -62,4 +62,4 @@ struct Device {
     bool lost = false;                   ///< the context is gone: nothing works any more
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

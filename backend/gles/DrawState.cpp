@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/DrawState.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 void DrawState::beginSubpass() {
     mPipeline = nullptr;
@@ -47,4 +47,4 @@ bool DrawState::prepareDraw(bool indexed, DrawBase base) {
     return mDescriptors.apply() && mVertices.bind(*mPipeline->vertices, mSources, indexed, base);
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class DrawState {
 public:
@@ -45,4 +45,4 @@ private:
     uint8_t mStencilFront = 0, mStencilBack = 0;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

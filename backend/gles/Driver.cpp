@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 Result<std::unique_ptr<Driver>> createGlesDriver(DriverOptions const& options, ResultSink& sink) {
     auto executor = gles::Executor::create(options, sink);
@@ -31,4 +31,4 @@ std::vector<DeviceInfo> listGlesDevices() {
     return devices;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

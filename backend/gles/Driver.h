@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// `sink` must outlive the driver.
 Result<std::unique_ptr<Driver>> createGlesDriver(DriverOptions const& options, ResultSink& sink);
@@ -22,4 +22,4 @@ Result<std::unique_ptr<Driver>> createGlesDriver(DriverOptions const& options, R
 /// Usable devices, the default one first; empty without libEGL or a driver.
 std::vector<DeviceInfo> listGlesDevices();
 
-} // namespace filament::backend
+} // namespace filament_core::backend

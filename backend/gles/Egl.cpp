@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 constexpr const char* kInstall = "install libegl1, libegl-mesa0 and libgl1-mesa-dri";
@@ -93,4 +93,4 @@ ThreadBindingGuard::~ThreadBindingGuard() {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -7,7 +7,7 @@
 
 #include "base/Result.h"
 
-#include <filament/NativeWindow.h>
+#include <filament_core/NativeWindow.h>
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // Every EGL function the driver calls.
 // clang-format off
@@ -77,4 +77,4 @@ private:
     EGLSurface mDraw, mRead;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 // Blits and mip chains are framebuffer blits, whose fixed-function filter is also that of vkCmdBlitImage, so the bits
@@ -79,4 +79,4 @@ void Executor::execute(CmdPresent const& command) {
     mDevice.statistics.lastPresent = std::chrono::steady_clock::now();
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Executor.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // ---------------------------------------------------------------------------------------------- create
 
@@ -45,4 +45,4 @@ void Executor::execute(CmdDestroyTexture const& command) {
     mTextures.destroy(*texture);
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

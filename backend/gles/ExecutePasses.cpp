@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Executor.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 // ---------------------------------------------------------------------------------------------- begin and end
 
@@ -104,4 +104,4 @@ void Executor::execute(CmdDispatch const& command) {
     ++mDevice.statistics.dispatches;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

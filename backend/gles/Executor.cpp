@@ -5,7 +5,7 @@
 
 #include <new>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 struct Dispatch {
@@ -116,4 +116,4 @@ void Executor::execute(CmdPopGroup const&) {
     if (mDevice.messages) mDevice.gl.PopDebugGroup();
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -22,7 +22,7 @@
 #include <memory>
 #include <mutex>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Executor final : public Driver {
 public:
@@ -130,4 +130,4 @@ private:
     DriverStatistics mPublished;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

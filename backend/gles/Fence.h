@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Fence {
 public:
@@ -45,4 +45,4 @@ private:
     GLsync mSync = nullptr;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

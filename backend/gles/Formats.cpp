@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Formats.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 constexpr std::array<GlFormat, static_cast<size_t>(Format::Count)> kFormats{ {
@@ -160,4 +160,4 @@ const char* glErrorName(GLenum error) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

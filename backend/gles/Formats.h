@@ -6,7 +6,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/gles/Api.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// How a format is stored and how its texels travel: exactly the bytes that Format.h promises.
 struct GlFormat {
@@ -37,4 +37,4 @@ inline GLenum glFrontFace(FrontFace face) { return face == FrontFace::CounterClo
 /// "GL_OUT_OF_MEMORY" and the like.
 const char* glErrorName(GLenum error);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 ImageKey imageOf(Texture const& texture, uint32_t level, uint32_t layer) {
@@ -109,4 +109,4 @@ void Framebuffers::forget(GLuint texture) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

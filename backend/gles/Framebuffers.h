@@ -9,7 +9,7 @@
 
 #include <unordered_map>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// One image of a texture. All keys here have no padding, so that their bytes can be hashed.
 struct ImageKey {
@@ -63,4 +63,4 @@ private:
     std::array<Single, 4> mSingles{}; // by side and by colour or depth
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

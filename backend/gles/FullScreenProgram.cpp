@@ -3,7 +3,7 @@
 
 #include "backend/gles/ShaderObject.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 constexpr std::string_view kVertexText = R"(#version 310 es
@@ -49,4 +49,4 @@ bool FullScreenProgram::draw(GLuint framebuffer, Rect const& rect, GLenum target
     return true;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -9,7 +9,7 @@
 
 #include <string_view>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class FullScreenProgram {
 public:
@@ -34,4 +34,4 @@ private:
     GLuint mProgram = 0, mVertexArray = 0;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <mutex>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 struct Holders {
@@ -62,4 +62,4 @@ HeldDisplay::~HeldDisplay() {
     table.held.erase(known);
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

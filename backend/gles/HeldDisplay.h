@@ -16,7 +16,7 @@
 
 #include <utility>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class HeldDisplay {
 public:
@@ -35,4 +35,4 @@ private:
     EGLDisplay mDisplay; ///< none: moved from
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

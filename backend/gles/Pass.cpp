@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 // A blit may return any value between those of the samples (OpenGL ES 3.1, 16.2.1). Vulkan offers sample 0 on every
@@ -163,4 +163,4 @@ void Pass::resolveDepth() {
     mDepthResolve.draw(target, mDesc.area, from->target, from->name, kWriteAlways);
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -9,7 +9,7 @@
 #include "backend/gles/Framebuffers.h"
 #include "backend/gles/FullScreenProgram.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Pass {
 public:
@@ -55,4 +55,4 @@ private:
     bool mOpen = false;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 bool providesLocation(VertexLayout const& layout, uint8_t location) {
@@ -64,4 +64,4 @@ void applyPipeline(ContextState& state, Pipeline const& pipeline, uint8_t frontR
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -10,7 +10,7 @@
 
 #include <memory>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct Pipeline {
     std::shared_ptr<Program const> program; ///< null or name 0: draws are skipped
@@ -30,4 +30,4 @@ Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> p
 /// Sets everything except the vertex buffers and bind groups.
 void applyPipeline(ContextState& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

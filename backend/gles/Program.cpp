@@ -6,7 +6,7 @@
 #include <bit>
 #include <limits>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 // ES links no program without a fragment shader, not even one that only writes depth.
@@ -168,4 +168,4 @@ void Program::readOutputs() {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// The lines that define the constants.
 std::string constantDefinitions(std::span<const ConstantValue> constants);
@@ -53,4 +53,4 @@ private:
     uint32_t mOutputMask = 0;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 void openProgramCache(Device& device, std::filesystem::path const& directory) {
     if (directory.empty()) return;
@@ -50,4 +50,4 @@ void keepProgramBinary(Device& device, uint64_t key, GLuint program) {
     device.programs->put(key, std::span(blob).first(sizeof(format) + static_cast<size_t>(written)));
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// Opens Device::programs; leaves it empty if it was not requested or the implementation returns no binaries.
 void openProgramCache(Device& device, std::filesystem::path const& directory);
@@ -18,4 +18,4 @@ GLuint loadProgramBinary(Device& device, uint64_t key);
 /// For a program linked with GL_PROGRAM_BINARY_RETRIEVABLE_HINT.
 void keepProgramBinary(Device& device, uint64_t key, GLuint program);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

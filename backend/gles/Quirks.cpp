@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Extensions = std::set<std::string, std::less<>>;
@@ -133,4 +133,4 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     return info;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -7,7 +7,7 @@
 #include "backend/gles/Api.h"
 #include "base/Result.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct Quirks {
     bool baseVertex = false;       ///< ES 3.2; else vertex buffers are bound at an offset (Vertices.cpp)
@@ -33,4 +33,4 @@ struct Quirks {
 /// The properties of the current context.
 DeviceInfo describeDevice(Api const& gl, Quirks const& quirks);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

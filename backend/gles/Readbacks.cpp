@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 /// Samplers multiply by a rounded 1 / 65535; the contract promises the correctly rounded quotient, as Vulkan's copies
@@ -148,4 +148,4 @@ void Readbacks::answer(size_t count) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

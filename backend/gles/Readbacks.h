@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Readbacks {
 public:
@@ -63,4 +63,4 @@ private:
     std::vector<std::byte> mPacked;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstring>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 template <class T>
@@ -79,4 +79,4 @@ void repack(Format format, std::span<const std::byte> generic, std::span<std::by
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

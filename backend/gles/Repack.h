@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// Bytes of a generic texel: 4 for UNORM formats, 16 for integers and floats.
 uint32_t genericBytes(Format format);
@@ -24,4 +24,4 @@ void repack(Format format, std::span<const std::byte> generic, std::span<std::by
 /// Bits of a half that holds `value` exactly; infinities and NaN too.
 uint16_t exactHalfBits(float value);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 Samplers::~Samplers() {
     mSamplers.forEach([this](GLuint& sampler) { mDevice.gl.DeleteSamplers(1, &sampler); });
@@ -42,4 +42,4 @@ GLuint Samplers::find(SamplerHandle handle) const {
     return sampler ? *sampler : 0;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

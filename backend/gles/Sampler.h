@@ -8,7 +8,7 @@
 #include "backend/api/Slots.h"
 #include "backend/gles/Device.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Samplers {
 public:
@@ -27,4 +27,4 @@ private:
     Slots<SamplerHandle, GLuint> mSamplers;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -7,7 +7,7 @@
 #include <array>
 #include <string>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 std::string firstLine(std::string log) {
@@ -98,4 +98,4 @@ GLuint linkProgram(Device& device, std::span<const StageText> stages, std::strin
     return program;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

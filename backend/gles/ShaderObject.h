@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 /// The text of one stage in pieces, for glShaderSource.
 struct StageText {
@@ -21,4 +21,4 @@ struct StageText {
 /// The linked program, or 0 (reported under `name`). Device::programs, if present, provides it or stores it.
 GLuint linkProgram(Device& device, std::span<const StageText> stages, std::string_view name);
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

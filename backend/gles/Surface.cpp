@@ -7,7 +7,7 @@
 #include <array>
 #include <iterator>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 /// libwayland-egl, opened at run time: EGL takes its windows, not those of Wayland.
@@ -168,4 +168,4 @@ void Surface::reportOnce(Device& device, const char* what) {
                  mName, what, error);
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Surface {
 public:
@@ -43,4 +43,4 @@ private:
     std::string mName;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

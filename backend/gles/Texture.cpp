@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 // Creation and uploads bind to this unit. ContextState knows, and draws rebind what they need.
@@ -173,4 +173,4 @@ GLuint Textures::createView(Texture const& texture, TextureRange const& range, s
     return 0;
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct Texture {
     GLuint name = 0; ///< 0: creation failed
@@ -51,4 +51,4 @@ private:
     Slots<TextureHandle, Texture> mTextures;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 Timers::~Timers() {
     for (Timer const& timer : mOpen) mSpare.push_back(timer.begin);
@@ -68,4 +68,4 @@ void Timers::poll(bool wait) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class Timers {
 public:
@@ -36,4 +36,4 @@ private:
     std::vector<GLuint> mSpare;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

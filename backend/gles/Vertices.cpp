@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Vertices.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 Vertices::~Vertices() {
     for (auto const& array : mArrays) {
@@ -79,4 +79,4 @@ void Vertices::forget(GLuint buffer) {
     }
 }
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

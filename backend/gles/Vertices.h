@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 struct VertexArray {
     struct Slot {
@@ -56,4 +56,4 @@ private:
     std::vector<std::unique_ptr<VertexArray>> mArrays;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 // Marks tickets of the layer's own read-backs; an application's tickets count up from one.
@@ -232,4 +232,4 @@ Result<std::unique_ptr<Driver>> captured(std::shared_ptr<FrameCapture> capture, 
     return std::unique_ptr<Driver>(std::move(driver));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 inline constexpr uint32_t kAllDraws = ~0u;
 
@@ -112,4 +112,4 @@ using DriverMaker = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
 Result<std::unique_ptr<Driver>> captured(std::shared_ptr<FrameCapture> capture, ResultSink& sink,
                                          DriverMaker const& make);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -13,7 +13,7 @@
 #include <optional>
 #include <string_view>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 using std::string_view_literals::operator""sv;
 
@@ -127,4 +127,4 @@ std::optional<size_t> enumIndex(std::string_view name) {
     return std::nullopt;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 template <class C>
@@ -177,4 +177,4 @@ std::unique_ptr<Driver> faulty(std::unique_ptr<Driver> inner, std::shared_ptr<Fa
     return std::make_unique<FaultyDriver>(std::move(inner), std::move(injector), sink);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

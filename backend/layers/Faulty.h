@@ -19,7 +19,7 @@
 #include <mutex>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// Zero: never.
 struct Faults {
@@ -55,4 +55,4 @@ private:
 std::unique_ptr<Driver> faulty(std::unique_ptr<Driver> inner, std::shared_ptr<FaultInjector> injector,
                                ResultSink& sink);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 template <class Tag, class Object>
 class ObjectTable {
@@ -79,4 +79,4 @@ private:
     std::vector<Change> mChanges;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

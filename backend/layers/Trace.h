@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 struct TraceText {
     std::string text;
@@ -36,4 +36,4 @@ void writeTrace(CommandView commands, TraceText& out, size_t blobBase = 0);
 /// One command buffer for each submission of the trace.
 Result<std::vector<CommandBuffer>> readTrace(std::string_view text, std::span<const std::byte> blob);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr size_t kMaxListLength = 4096; // entries of a bind group, constants of a program
@@ -298,4 +298,4 @@ Result<std::vector<CommandBuffer>> readTrace(std::string_view text, std::span<co
     return streams;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

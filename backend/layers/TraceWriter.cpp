@@ -10,7 +10,7 @@
 #include <cstring>
 #include <iterator>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr size_t kMaxInlineBytes = 64;
@@ -165,4 +165,4 @@ void writeTrace(CommandView commands, TraceText& out, size_t blobBase) {
     replay(commands, writer);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 std::filesystem::path blobPath(std::filesystem::path const& path) { return path.string() + ".bin"; }
@@ -110,4 +110,4 @@ Result<std::vector<Ticket>> replayTrace(std::filesystem::path const& path, Comma
     return tickets;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

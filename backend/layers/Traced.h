@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 Result<std::unique_ptr<Driver>> trace(std::unique_ptr<Driver> inner, std::filesystem::path const& path);
 
@@ -26,4 +26,4 @@ Result<std::vector<CommandBuffer>> loadTrace(std::filesystem::path const& path);
 ///   Returns the tickets requested by the trace, in order.
 Result<std::vector<Ticket>> replayTrace(std::filesystem::path const& path, CommandStream& to);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

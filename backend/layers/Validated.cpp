@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class Validated final : public Driver {
@@ -31,4 +31,4 @@ std::unique_ptr<Driver> validate(std::unique_ptr<Driver> inner, ResultSink& sink
     return std::make_unique<Validated>(std::move(inner), sink);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -13,9 +13,9 @@
 
 #include <memory>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// `sink` receives the broken rules and must outlive the result; the inner driver keeps its own sink.
 std::unique_ptr<Driver> validate(std::unique_ptr<Driver> inner, ResultSink& sink);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/layers/Validator.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 template <class F>
 void Validator::forEachTable(F&& visit) {
@@ -58,4 +58,4 @@ void Validator::report(Harm harm, std::string const& rule) {
     mSink.onError(DriverErrorKind::Validation, fmt::format("{}: {}", where, rule));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

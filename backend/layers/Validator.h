@@ -17,7 +17,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class Validator {
 public:
@@ -233,4 +233,4 @@ Object const* Validator::need(ObjectTable<Tag, Object> const& table, Handle<Tag>
     return nullptr;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 uint32_t levelSize(uint32_t size, uint32_t level) { return std::max(1u, size >> level); }
@@ -173,4 +173,4 @@ void Validator::execute(CmdPresent const& command) {
             "texture '{}' is {}; a window shows RGBA8 or RGB10A2", texture->name, formatInfo(format).name);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

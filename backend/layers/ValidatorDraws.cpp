@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 // ---------------------------------------------------------------------------------------------- state
 
@@ -220,4 +220,4 @@ void Validator::checkVertexRange(PipelineModel const& pipeline, uint64_t lastVer
     }
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstring>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr uint32_t kSpirvMagic = 0x07230203; // SPIR-V 1.x, section 2.3
@@ -409,4 +409,4 @@ void Validator::execute(CmdCreateSurface const& command) {
     if (!mCommandCrashes) mSurfaces.create(command.handle, { std::string(desc.debugName) });
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

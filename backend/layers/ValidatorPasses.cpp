@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 bool covers(DeviceTextureDesc const& desc, uint32_t level, Rect const& area) {
@@ -256,4 +256,4 @@ void Validator::execute(CmdPopGroup const&) {
         mOpenGroups.pop_back();
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 // Depth formats read back as D32F floats, whatever their format.
@@ -184,4 +184,4 @@ private:
 
 std::unique_ptr<Driver> createNullDriver(ResultSink& sink) { return std::make_unique<NullDriver>(sink); }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

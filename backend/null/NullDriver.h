@@ -12,9 +12,9 @@
 
 #include <memory>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// `sink` must outlive the driver. Limits and features are generous: everything that some accepted device can do.
 std::unique_ptr<Driver> createNullDriver(ResultSink& sink);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

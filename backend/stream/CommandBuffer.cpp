@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 /// Reserves room for `extra` more elements, so that adding them cannot fail; grows like push_back().
@@ -182,4 +182,4 @@ size_t CommandBuffer::bytesReserved() const {
     return sum;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class CommandBuffer {
 public:
@@ -162,4 +162,4 @@ private:
     size_t mPayloadBytes = 0;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 template <class S, class T>
 struct Field {
@@ -255,4 +255,4 @@ inline constexpr bool kIsHandle = false;
 template <class Tag>
 inline constexpr bool kIsHandle<Handle<Tag>> = true;
 
-} // namespace filament::backend
+} // namespace filament_core::backend

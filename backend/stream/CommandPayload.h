@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 namespace detail {
 
@@ -61,4 +61,4 @@ void adoptPayload(T& value, Memory& memory) {
     }
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <atomic>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 std::atomic<uint64_t> gLastTicket{ 0 }; // tickets are never reused within a process
@@ -127,4 +127,4 @@ bool CommandStream::isDeviceLost() const { return mState->mailbox.deviceLost(); 
 std::optional<uint64_t> CommandStream::takeTimer(Ticket ticket) { return mState->mailbox.takeTimer(ticket); }
 std::vector<DriverError> CommandStream::takeErrors() { return mState->mailbox.takeErrors(); }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

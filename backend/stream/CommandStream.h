@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// Runs on the driver thread; creates the driver that the thread will own.
 using DriverFactory = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
@@ -199,4 +199,4 @@ private:
     CommandBuffer& mCommands;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -15,7 +15,7 @@
 #include <sched.h>
 #endif
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 int64_t now() {
@@ -304,4 +304,4 @@ LatencyStatistics DriverThread::latency() const {
     return copy.summary();
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

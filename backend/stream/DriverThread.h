@@ -24,7 +24,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class DriverThread {
 public:
@@ -95,4 +95,4 @@ private:
     bool mEnded = false;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

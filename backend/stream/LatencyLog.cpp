@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 void LatencyLog::add(FrameTiming const& timing) {
     const auto at = static_cast<size_t>(mCount++ % kFrames);
@@ -31,4 +31,4 @@ LatencyDistribution LatencyLog::distributionOf(Column const& column) const {
     return { .min = sorted[0], .median = quantile(50), .p99 = quantile(99), .max = sorted[count - 1] };
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class LatencyLog {
 public:
@@ -27,4 +27,4 @@ private:
     uint64_t mCount = 0;                                                  // ever added
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

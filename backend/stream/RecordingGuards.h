@@ -6,7 +6,7 @@
 
 #include "backend/stream/CommandBuffer.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// Records a command at the end of the scope, whatever happens in it.
 template <class C>
@@ -33,4 +33,4 @@ private:
     bool mIsComplete = false;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

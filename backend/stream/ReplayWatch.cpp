@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 /// Updates `names` as the pipelines of a stream are created and destroyed.
@@ -198,4 +198,4 @@ std::string ReplayWatch::frameText() const {
     return fmt::format("{} {}", mIsNumberedByApp ? "frame" : "submission", mFrame);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

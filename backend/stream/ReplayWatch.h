@@ -19,7 +19,7 @@
 #include <string>
 #include <unordered_map>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class ReplayWatch {
 public:
@@ -69,4 +69,4 @@ private:
     PipelineNames mPipelineNames;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 // Falls back to a message that fits the string's internal buffer if there is no memory for the full one.
@@ -146,4 +146,4 @@ bool ResultMailbox::deviceLost() const {
     return mDeviceLost;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -18,7 +18,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 class ResultMailbox final : public ResultSink {
 public:
@@ -66,4 +66,4 @@ private:
     bool mDeviceLost = false;
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend

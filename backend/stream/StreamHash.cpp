@@ -8,7 +8,7 @@
 #include <bit>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class StreamHasher {
@@ -66,4 +66,4 @@ uint64_t hashStream(CommandView commands) {
     return hasher.result();
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

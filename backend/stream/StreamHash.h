@@ -12,8 +12,8 @@
 
 #include <cstdint>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 uint64_t hashStream(CommandView commands);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct MemoryBlock {
     MemoryChunk chunk;
@@ -96,4 +96,4 @@ void Allocator::releaseBlock(MemoryBlock& block) {
     mSource.release(block.chunk);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -19,7 +19,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct MemoryChunk {
     uint64_t id = 0;             ///< a VkDeviceMemory
@@ -92,4 +92,4 @@ private:
     std::vector<Pool> mPools; // index: memory type * 2 + kind
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

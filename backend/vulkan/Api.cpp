@@ -3,7 +3,7 @@
 #define VOLK_IMPLEMENTATION
 #include "backend/vulkan/Api.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 namespace {
 
@@ -67,4 +67,4 @@ Error errorFromResult(VkResult result, std::string_view what) {
     return fail(code, "{}: {}", what, toString(result));
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -10,7 +10,7 @@
 
 #include <string_view>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// "VK_ERROR_DEVICE_LOST" and the like.
 std::string toString(VkResult result);
@@ -44,4 +44,4 @@ uint64_t bitsOf(H handle) {
     return (uint64_t)handle; // a pointer on 64-bit targets, an integer on 32-bit ones
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
@@ -230,4 +230,4 @@ void Barriers::flush(VolkDeviceTable const& fn, VkCommandBuffer commands) {
     mHasMemoryBarrier = false;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

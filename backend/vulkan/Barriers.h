@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Buffer;
 class Texture;
@@ -136,4 +136,4 @@ private:
     VkPipelineStageFlags mReaders = 0; // that have read buffers since a writer last waited for them
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Buffer.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 VkBufferUsageFlags usageFlags(BufferUsage usage) {
@@ -52,4 +52,4 @@ Buffer::~Buffer() {
     if (mAllocation.bytes > 0) mDevice.memory().free(mAllocation);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

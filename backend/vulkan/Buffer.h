@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct BufferOptions {
     uint64_t bytes = 0;
@@ -53,4 +53,4 @@ private:
     uint64_t mWriteEpoch = 0, mWriteBegin = 0, mWriteEnd = 0;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

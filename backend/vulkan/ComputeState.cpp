@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/ComputeState.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 void ComputeState::reset() {
     mPipeline = {};
@@ -31,4 +31,4 @@ void ComputeState::bind(VolkDeviceTable const& fn, VkCommandBuffer commands) con
     }
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@
 
 #include <array>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class ComputeState {
 public:
@@ -41,4 +41,4 @@ private:
     std::array<BindGroup const*, kMaxBindGroups> mFoundGroups{};
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// The number of descriptors per type for `sets` sets of the layout, including those added by spareBindings().
@@ -220,4 +220,4 @@ Result<std::unique_ptr<BindGroup>> BindGroup::create(Device& device, SetLayout& 
     return std::unique_ptr<BindGroup>(new BindGroup(layout, set));
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

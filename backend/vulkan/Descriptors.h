@@ -17,7 +17,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// One VkDescriptorSetLayout and the sets made for it.
 class SetLayout {
@@ -102,4 +102,4 @@ private:
     VkDescriptorSet mSet;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

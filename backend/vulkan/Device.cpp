@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 VkResult createHandle(Instance const& instance, PhysicalDevice const& physical, VkDevice& handle) {
@@ -96,4 +96,4 @@ void Device::setNameBits(VkObjectType type, uint64_t handle, std::string_view na
     mInstance->fn().vkSetDebugUtilsObjectNameEXT(mHandle, &info);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string_view>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Device {
 public:
@@ -47,4 +47,4 @@ private:
     std::unique_ptr<Memory> mMemory;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

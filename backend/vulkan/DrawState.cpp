@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// Vulkan has no negative scissor offsets: the part beyond the left and top edges of the image is clipped.
@@ -171,4 +171,4 @@ void DrawState::emitRaster() {
     mIsRasterEmitted = true;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -12,7 +12,7 @@
 
 #include <array>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct BoundGroup {
     BindGroup const* group = nullptr;
@@ -97,4 +97,4 @@ private:
     bool mIsDrawable = false;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -3,7 +3,7 @@
 
 #include "backend/vulkan/Executor.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 Result<std::unique_ptr<Driver>> createVulkanDriver(DriverOptions const& options, ResultSink& sink) {
     auto executor = vulkan::Executor::create(options, sink);
@@ -21,4 +21,4 @@ std::vector<DeviceInfo> listVulkanDevices() {
     return list;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

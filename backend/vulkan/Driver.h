@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 /// `sink` must outlive the driver. Takes the named device, else a GPU, else a CPU device.
 Result<std::unique_ptr<Driver>> createVulkanDriver(DriverOptions const& options, ResultSink& sink);
@@ -20,4 +20,4 @@ Result<std::unique_ptr<Driver>> createVulkanDriver(DriverOptions const& options,
 /// Cost: one instance made and destroyed; no device is created.
 std::vector<DeviceInfo> listVulkanDevices();
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 VkBufferImageCopy copyRegion(Texture const& texture, uint64_t bufferOffset, SubresourceRange const& range,
@@ -209,4 +209,4 @@ void Executor::execute(CmdPresent const& command) {
     mStatistics.lastPresent = std::chrono::steady_clock::now();
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

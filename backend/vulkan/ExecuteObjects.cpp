@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Executor.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 template <class H, class T>
 void Executor::store(Slots<H, T>& slots, H handle, Result<std::unique_ptr<T>> made, DriverErrorKind kind) {
@@ -106,4 +106,4 @@ void Executor::execute(CmdDestroyBindGroup const& command) { mSubmissions->keep(
 
 void Executor::execute(CmdDestroySurface const& command) { mSurfaces.take(command.handle); } // waits for the device
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 // ---------------------------------------------------------------------------------------------- begin and end
 
@@ -96,4 +96,4 @@ void Executor::execute(CmdDispatch const& command) {
     ++mStatistics.dispatches;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <new>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// Counts commands, and drops the rest of the stream once the device is lost.
@@ -190,4 +190,4 @@ void Executor::endLabel() {
     if (mDevice->instance().hasValidation()) mDevice->instance().fn().vkCmdEndDebugUtilsLabelEXT(commands());
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -34,7 +34,7 @@
 #include <mutex>
 #include <optional>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Executor final : public Driver {
 public:
@@ -159,4 +159,4 @@ private:
     DriverStatistics mPublished;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -10,7 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr size_t kHeaderWords = 5, kBoundWord = 3;
@@ -407,4 +407,4 @@ std::vector<uint32_t> foldConstants(std::vector<uint32_t> words, std::span<const
     return out;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -19,8 +19,8 @@
 #include <span>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 std::vector<uint32_t> foldConstants(std::vector<uint32_t> words, std::span<const ConstantValue> constants);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

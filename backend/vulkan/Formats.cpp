@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Formats.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr std::array<VkFormat, static_cast<size_t>(Format::Count)> kFormats{
@@ -189,4 +189,4 @@ VkImageAspectFlags copyAspectOf(Format format) {
 
 VkSampleCountFlagBits sampleBits(uint32_t samples) { return static_cast<VkSampleCountFlagBits>(samples); }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -5,7 +5,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/vulkan/Api.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 VkFormat native(Format format);       ///< VK_FORMAT_UNDEFINED for None
 VkFormat native(VertexFormat format); ///< VK_FORMAT_UNDEFINED for None
@@ -34,4 +34,4 @@ VkImageAspectFlags copyAspectOf(Format format);
 
 VkSampleCountFlagBits sampleBits(uint32_t samples);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

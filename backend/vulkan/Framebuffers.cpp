@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 size_t Framebuffers::Hash::operator()(FramebufferKey const& key) const {
     uint64_t hash = hashBytes(std::as_bytes(std::span(key.views.data(), key.viewCount)), bitsOf(key.pass));
@@ -42,4 +42,4 @@ std::vector<std::unique_ptr<Framebuffer>> Framebuffers::take(Texture const& text
     return taken;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct FramebufferKey {
     VkRenderPass pass = VK_NULL_HANDLE;
@@ -51,4 +51,4 @@ private:
     std::unordered_map<FramebufferKey, std::unique_ptr<Framebuffer>, Hash> mFramebuffers;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

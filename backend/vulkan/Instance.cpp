@@ -5,7 +5,7 @@
 #include <cstring>
 #include <mutex>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -180,4 +180,4 @@ std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
     return devices;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

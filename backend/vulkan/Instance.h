@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// The functions that we call on the instance and its physical devices. Those of surfaces are null without a display,
 /// those of debug utils without validation.
@@ -65,4 +65,4 @@ private:
     InstanceFunctions mFunctions;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

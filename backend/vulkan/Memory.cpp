@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -82,4 +82,4 @@ std::optional<MemoryChunk> Memory::allocate(uint32_t memoryType, uint64_t bytes)
 
 void Memory::release(MemoryChunk chunk) { mFn.vkFreeMemory(mDevice, (VkDeviceMemory)chunk.id, nullptr); }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

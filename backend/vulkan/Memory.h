@@ -8,7 +8,7 @@
 #include "backend/vulkan/Allocator.h"
 #include "backend/vulkan/Api.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// The purpose of the memory; determines the order in which types are tried.
 enum class MemoryPurpose : uint8_t {
@@ -46,4 +46,4 @@ private:
     Allocator mAllocator;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

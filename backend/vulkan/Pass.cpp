@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 Contents contentsFor(LoadOp load) { return load == LoadOp::Load ? Contents::Keep : Contents::Discard; }
@@ -120,4 +120,4 @@ void Pass::recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFrameb
     mDevice.fn().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -12,7 +12,7 @@
 
 #include <array>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Pass {
 public:
@@ -53,4 +53,4 @@ private:
     bool mOpen = false, mUsable = false;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -9,7 +9,7 @@
 #include <limits>
 #include <optional>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 class ExtensionList {
@@ -225,4 +225,4 @@ Result<size_t> chooseDevice(std::span<const PhysicalDevice> devices, std::string
                 list);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct PhysicalDevice {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
@@ -50,4 +50,4 @@ bool gainsByMerging(PhysicalDevice const& device);
 /// CPUs. DeviceUnavailable lists the devices and why they are unsuitable.
 Result<size_t> chooseDevice(std::span<const PhysicalDevice> devices, std::string_view required);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

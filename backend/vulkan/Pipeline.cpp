@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// Specialisation constants of both stages, 32 bits each.
@@ -243,4 +243,4 @@ Result<std::unique_ptr<Pipeline>> Pipeline::createCompute(Device& device, VkPipe
     return pipeline;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

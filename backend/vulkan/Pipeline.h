@@ -13,7 +13,7 @@
 
 #include <memory>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Pipeline final : public DeviceObject {
 public:
@@ -45,4 +45,4 @@ private:
     bool mIsCompute = false;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

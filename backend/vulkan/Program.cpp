@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// The words of a module, aligned; empty if the bytes are not whole words.
@@ -81,4 +81,4 @@ Program::~Program() {
     mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mCompute, nullptr);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

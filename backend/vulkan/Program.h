@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Program final : public DeviceObject {
 public:
@@ -43,4 +43,4 @@ private:
     std::string mName;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

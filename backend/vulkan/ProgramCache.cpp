@@ -7,7 +7,7 @@
 #include <new>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 ProgramCache::ProgramCache(Device& device, std::filesystem::path const& directory) : mDevice(device) {
     auto info = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
@@ -39,4 +39,4 @@ void ProgramCache::save() {
     }
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

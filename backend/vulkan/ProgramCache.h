@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class ProgramCache {
 public:
@@ -31,4 +31,4 @@ private:
     std::optional<BlobStore> mKept; ///< none: disabled
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

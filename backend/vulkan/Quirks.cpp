@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 uint32_t uniformBuffersIn(BindGroupLayout const& layout, ShaderStage stage, bool dynamicOnly) {
@@ -51,4 +51,4 @@ uint32_t colorReferences(Quirks const& quirks, PassLayout const& layout) {
     return quirks.clearsIndependentBlend && layout.colorCount == 0 ? 1 : layout.colorCount;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct Quirks {
     /// Driver  lavapipe, found in Mesa 22.3.6.
@@ -70,4 +70,4 @@ uint32_t spareBindings(BindGroupLayout const& layout,
 /// clearsIndependentBlend.
 uint32_t colorReferences(Quirks const& quirks, PassLayout const& layout);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 uint64_t alignUp(uint64_t value, uint64_t alignment) { return (value + alignment - 1) & ~(alignment - 1); }
@@ -149,4 +149,4 @@ uint32_t RangeAllocator::mergeWithNext(uint32_t node) {
     return node;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class RangeAllocator {
 public:
@@ -71,4 +71,4 @@ private:
     std::vector<uint32_t> mUnusedNodes;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// Bytes per texel in a copy: the depth aspect without stencil, D16 before it is widened.
@@ -58,4 +58,4 @@ void Readbacks::answer(uint64_t finishedSerial, ResultSink& sink) {
     }
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -14,7 +14,7 @@
 #include <deque>
 #include <memory>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Readbacks {
 public:
@@ -40,4 +40,4 @@ private:
     std::deque<Waiting> mWaiting;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

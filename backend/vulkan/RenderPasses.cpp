@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr VkPipelineStageFlags kAttachmentStages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
@@ -317,4 +317,4 @@ VkRenderPass RenderPasses::get(RenderPassKey const& key) {
     return pass;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

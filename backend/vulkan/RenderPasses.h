@@ -19,7 +19,7 @@
 #include <array>
 #include <unordered_map>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 inline constexpr uint32_t kMaxAttachments = 2 * kMaxColorAttachments + 2;
 
@@ -63,4 +63,4 @@ private:
     std::unordered_map<RenderPassKey, VkRenderPass, Hash> mPasses;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/RingCursor.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 std::optional<uint64_t> RingCursor::allocate(uint64_t bytes, uint64_t alignment, uint64_t serial) {
     if (bytes > mSize) return std::nullopt;
@@ -25,4 +25,4 @@ void RingCursor::release(uint64_t finishedSerial) {
     if (mMarks.empty()) mHead = mTail = 0; // an empty ring starts again at 0, so that the whole size is available
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class RingCursor {
 public:
@@ -38,4 +38,4 @@ private:
     Fifo<Mark> mMarks;             // ascending
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

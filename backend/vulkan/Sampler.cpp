@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 Result<std::unique_ptr<Sampler>> Sampler::create(Device& device, SamplerDesc const& desc) {
     auto info = make<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
@@ -33,4 +33,4 @@ Result<std::unique_ptr<Sampler>> Sampler::create(Device& device, SamplerDesc con
 
 Sampler::~Sampler() { mDevice.fn().vkDestroySampler(mDevice.handle(), mHandle, nullptr); }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

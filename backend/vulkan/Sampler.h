@@ -8,7 +8,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/vulkan/Device.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Sampler final : public DeviceObject {
 public:
@@ -24,4 +24,4 @@ private:
     VkSampler mHandle = VK_NULL_HANDLE;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

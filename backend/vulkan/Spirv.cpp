@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr uint32_t kMagic = 0x07230203;
@@ -166,4 +166,4 @@ Result<ShaderEdges> readEdges(std::span<const uint32_t> words, ShaderStage stage
     return module.edges();
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

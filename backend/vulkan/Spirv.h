@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 enum class ScalarKind : uint8_t { Float, Int, UInt };
 
@@ -33,4 +33,4 @@ struct ShaderEdges {
 /// `stage` is Vertex, Fragment or Compute, which has no edges. Corrupt names what is wrong with the module.
 Result<ShaderEdges> readEdges(std::span<const uint32_t> words, ShaderStage stage);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

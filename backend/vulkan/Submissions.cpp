@@ -4,7 +4,7 @@
 #include <limits>
 #include <new>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 VkResult Submissions::initialize() {
     for (Slot& slot : mSlots) {
@@ -127,4 +127,4 @@ void Submissions::finish(uint64_t serial) {
     while (!mKept.empty() && mKept.front().serial <= serial) mKept.pop_front();
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@
 #include <deque>
 #include <memory>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Submissions {
 public:
@@ -66,4 +66,4 @@ private:
     std::deque<Kept> mKept; // ascending
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@ using VisualID = unsigned long;
 #include <vulkan/vulkan_wayland.h>
 #include <vulkan/vulkan_xlib.h>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 template <class F>
@@ -311,4 +311,4 @@ VkResult Surface::present(Target const& target) {
     return result;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

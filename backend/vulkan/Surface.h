@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Surface {
 public:
@@ -77,4 +77,4 @@ private:
     std::vector<Acquisition> mAcquisitions;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

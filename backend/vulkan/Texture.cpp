@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr VkImageUsageFlags kAttachmentUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
@@ -194,4 +194,4 @@ Texture::~Texture() {
     if (mMemory && hasMemory()) mMemory->user = nullptr;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

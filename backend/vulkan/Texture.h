@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Texture;
 
@@ -103,4 +103,4 @@ private:
     std::string mName;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

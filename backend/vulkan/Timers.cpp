@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 Timers::~Timers() {
     for (VkQueryPool pool : mPools) mDevice.fn().vkDestroyQueryPool(mDevice.handle(), pool, nullptr);
@@ -77,4 +77,4 @@ void Timers::recycle(Timer const& timer) {
     if (timer.end != kNone) mFree.push_back(timer.end);
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 class Timers {
 public:
@@ -50,4 +50,4 @@ private:
     Fifo<Timer> mWaiting; // ascending serials
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

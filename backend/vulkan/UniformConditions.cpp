@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr size_t kModuleHeader = 5, kBound = 3;
@@ -359,4 +359,4 @@ std::vector<uint32_t> hideUniformConditions(std::vector<uint32_t> words, ShaderS
     return Rewriter(std::move(words), stage).result();
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

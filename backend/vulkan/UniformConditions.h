@@ -20,8 +20,8 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 std::vector<uint32_t> hideUniformConditions(std::vector<uint32_t> words, ShaderStage stage);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

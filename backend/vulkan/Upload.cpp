@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 std::optional<StagedBytes> Upload::stage(std::span<const std::byte> bytes) {
     const std::optional<StagedBytes> staged = reserve(bytes.size());
@@ -53,4 +53,4 @@ std::unique_ptr<Buffer> Upload::makeBuffer(uint64_t bytes) const {
     return std::move(buffer).value();
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

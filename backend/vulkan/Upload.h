@@ -14,7 +14,7 @@
 
 #include <optional>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 struct StagedBytes {
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -47,4 +47,4 @@ private:
     RingCursor mCursor{ 0 };
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

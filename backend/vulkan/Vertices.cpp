@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 VkFormat zeroFormat(ScalarKind kind) {
@@ -49,4 +49,4 @@ VertexInput vertexInputOf(VertexLayout const& layout, std::span<const ShaderInpu
     return result;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

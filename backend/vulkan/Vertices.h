@@ -12,7 +12,7 @@
 #include <array>
 #include <span>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 inline constexpr uint32_t kZeroBufferSlot = kMaxVertexBuffers;
 
@@ -25,4 +25,4 @@ struct VertexInput {
 };
 VertexInput vertexInputOf(VertexLayout const& layout, std::span<const ShaderInput> inputs);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

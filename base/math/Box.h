@@ -4,7 +4,7 @@
 
 #include "base/math/Math.h"
 
-namespace filament {
+namespace filament_core {
 
 /// A closed box; a half extent of zero is a point.
 struct CenteredBox {
@@ -26,4 +26,4 @@ inline float3 transformedHalfExtent(double4x4 const& transform, float3 halfExten
     return float3(result);
 }
 
-} // namespace filament
+} // namespace filament_core

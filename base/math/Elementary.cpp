@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace filament::elementary {
+namespace filament_core::elementary {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -240,4 +240,4 @@ double asin(double x) { return std::abs(x) <= 1 ? atan2(x, std::sqrt((1 - x) * (
 
 double acos(double x) { return std::abs(x) <= 1 ? atan2(std::sqrt((1 - x) * (1 + x)), x) : kNan; }
 
-} // namespace filament::elementary
+} // namespace filament_core::elementary

@@ -15,7 +15,7 @@
 
 #include <concepts>
 
-namespace filament::elementary {
+namespace filament_core::elementary {
 
 double exp(double x);
 double exp2(double x);
@@ -54,4 +54,4 @@ inline float atan2(float y, float x) { return static_cast<float>(atan2(static_ca
 // An integer would be ambiguous: write 10.0.
 void pow(std::integral auto x, auto y) = delete;
 
-} // namespace filament::elementary
+} // namespace filament_core::elementary

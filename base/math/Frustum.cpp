@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/math/Frustum.h"
 
-namespace filament {
+namespace filament_core {
 
 Frustum frustumFromClip(float4x4 const& clipFromWorld) {
     const float4x4 rows = glm::transpose(clipFromWorld);
@@ -11,4 +11,4 @@ Frustum frustumFromClip(float4x4 const& clipFromWorld) {
     return frustum;
 }
 
-} // namespace filament
+} // namespace filament_core

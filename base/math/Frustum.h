@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace filament {
+namespace filament_core {
 
 struct Frustum {
     /// left, right, bottom, top, near: dot(xyz, p) + w >= 0 inside. Normals are unit length.
@@ -66,4 +66,4 @@ inline bool intersectsSphere(Frustum const& frustum, float3 center, float radius
     return true;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 // Newton's iteration towards the roots of Legendre's polynomial. Press et al. 2007, "Numerical Recipes", section 4.6.1.
 std::vector<QuadratureNode> gaussLegendre(int count) {
@@ -28,4 +28,4 @@ std::vector<QuadratureNode> gaussLegendre(int count) {
     return nodes;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 struct QuadratureNode {
     double x = 0; // in (0, 1)
@@ -16,4 +16,4 @@ struct QuadratureNode {
 /// count > 0. Ordered from the node nearest to 1 downwards.
 std::vector<QuadratureNode> gaussLegendre(int count);
 
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 // Rounds a finite float in [0, maximum] to an unsigned float with 5 exponent bits (bias 15) and `mantissaBits`.
@@ -58,4 +58,4 @@ float3 unpackR11G11B10F(uint32_t bits) {
              expandSmallFloat(bits >> 22, 5) };
 }
 
-} // namespace filament
+} // namespace filament_core

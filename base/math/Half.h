@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 
 inline constexpr float kMaxHalf = 65504.0f;
 inline constexpr float kMaxFloat11 = 65024.0f; ///< 6 bits of mantissa
@@ -21,4 +21,4 @@ float floatFromHalf(uint16_t bits);
 uint32_t packR11G11B10F(float3 value);
 float3 unpackR11G11B10F(uint32_t bits);
 
-} // namespace filament
+} // namespace filament_core

@@ -2,7 +2,7 @@
 /// The public math aliases plus the GLM functions that the engine uses: dot, cross, normalize, inverse, ...
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,8 +11,8 @@
 
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 
 inline constexpr float kPi = std::numbers::pi_v<float>;
 
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 float lightOf(float x) { return x > 0 ? x : 0.0f; } // NaN is not greater than 0
@@ -29,4 +29,4 @@ float3 unpackRgbd(uint32_t bits) {
     return divisor > 0 ? float3(code(0) / divisor, code(8) / divisor, code(16) / divisor) : float3(0.0f);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 
 inline constexpr float kMaxRgbd = 255.0f; ///< per component
 
@@ -19,4 +19,4 @@ uint32_t packRgbd(float3 radiance);
 /// Black for the divisor 0, which no radiance has.
 float3 unpackRgbd(uint32_t bits);
 
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 float nonNegative(float x) { return x > 0 ? x : 0.0f; } // NaN is not greater than 0
@@ -33,4 +33,4 @@ float3 unpackRgbm(uint32_t bits) {
     return root * root;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 
 inline constexpr float kRgbmRange = 16.0f;                 ///< as in shaders/lib/ibl.glsl
 inline constexpr float kMaxRgbm = kRgbmRange * kRgbmRange; ///< per component
@@ -20,4 +20,4 @@ inline constexpr float kMaxRgbm = kRgbmRange * kRgbmRange; ///< per component
 uint32_t packRgbm(float3 radiance);
 float3 unpackRgbm(uint32_t bits);
 
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr int kMantissaBits = 9, kBias = 15;
@@ -33,4 +33,4 @@ float3 unpackRgb9E5(uint32_t bits) {
     return { component(0), component(9), component(18) };
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 
 inline constexpr float kMaxRgb9E5 = 65408.0f; ///< (2^9 - 1) / 2^9 * 2^(31 - 15)
 
@@ -17,4 +17,4 @@ inline constexpr float kMaxRgb9E5 = 65408.0f; ///< (2^9 - 1) / 2^9 * 2^(31 - 15)
 uint32_t packRgb9E5(float3 value);
 float3 unpackRgb9E5(uint32_t bits);
 
-} // namespace filament
+} // namespace filament_core

@@ -17,7 +17,7 @@
 #include <emmintrin.h>
 #endif
 
-namespace filament::simd {
+namespace filament_core::simd {
 
 inline constexpr size_t kLanes = 8;
 
@@ -102,4 +102,4 @@ inline uint32_t bitOfEachByte(uint64_t bytes, uint32_t bit) {
     return static_cast<uint32_t>((((bytes >> bit) & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56);
 }
 
-} // namespace filament::simd
+} // namespace filament_core::simd

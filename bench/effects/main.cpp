@@ -8,7 +8,7 @@
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@
 
 namespace {
 
-using namespace filament;
+using namespace filament_core;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
@@ -230,7 +230,7 @@ std::function<void(Scene&, View&)> withEffects(std::function<void(View&)> const&
 void addFinish(std::vector<Pair>& all, const char* file) {
     const auto plain = withEffects([](View&) {});
     const auto look = [](View& view) {
-        view.effects.grading = { .enabled = true, .temperature = 0.1f, .contrast = 1.1f, .saturation = 1.1f };
+        view.effects.colorGrading = { .enabled = true, .temperature = 0.1f, .contrast = 1.1f, .saturation = 1.1f };
     };
     all.push_back({ "grading", file, plain, withEffects(look) });
     all.push_back({ "grading by table32", file, plain, withEffects([look](View& view) {
@@ -244,7 +244,7 @@ void addFinish(std::vector<Pair>& all, const char* file) {
     all.push_back({ "auto exposure", file, plain,
                     withEffects([](View& view) { view.effects.autoExposure.enabled = true; }) });
     all.push_back({ "grading without a change", file, plain,
-                    withEffects([](View& view) { view.effects.grading.enabled = true; }), true });
+                    withEffects([](View& view) { view.effects.colorGrading.enabled = true; }), true });
     const auto focused = [](float meters, float scale) {
         return withEffects([=](View& view) {
             view.effects.depthOfField = { .enabled = true, .focusMeters = meters, .blurScale = scale };
@@ -523,7 +523,7 @@ void print(Pair const& pair, Backend backend, Measured const& m) {
 } // namespace
 
 int main(int argc, char** argv) {
-    filament::tools::CommandLine app("What effects cost where they are seen, and where they are not");
+    filament_core::tools::CommandLine app("What effects cost where they are seen, and where they are not");
     Options options{ .assets = tools::assetDir() };
     std::string size = "1280x720", json, only;
     bool isUnseenOnly = false;

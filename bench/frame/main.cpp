@@ -3,7 +3,7 @@
 // figures of a comparable engine on the same software stack (a quiet machine, minimum of 24 frames, 1280x720,
 // environment + skybox + ACES, no anti-aliasing). Absolute times drift with the machine: read the ratio between the
 // APIs first, then the distance to the published figure.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@
 
 namespace {
 
-using namespace filament;
+using namespace filament_core;
 using Clock = std::chrono::steady_clock;
 
 struct Subject {
@@ -96,7 +96,7 @@ void print(Subject const& subject, Backend backend, Measured const& m) {
 } // namespace
 
 int main(int argc, char** argv) {
-    filament::tools::CommandLine app("Whole frames of real models on both APIs");
+    filament_core::tools::CommandLine app("Whole frames of real models on both APIs");
     int frames = 24;
     std::string size = "1280x720", json, assets = tools::assetDir();
     app.option("--frames", frames, "frames a measurement").inRange(1, 10'000);

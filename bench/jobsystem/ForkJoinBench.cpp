@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -96,4 +96,4 @@ BENCHMARK(parallelForOverMath)
         ->UseManualTime();
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

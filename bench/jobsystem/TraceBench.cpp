@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 /// The part of a traced job other than its clock reads.
@@ -87,4 +87,4 @@ void topology(benchmark::State& state) {
 BENCHMARK(topology)->Unit(benchmark::kMicrosecond);
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

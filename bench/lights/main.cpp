@@ -10,7 +10,7 @@
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@
 #include <memory>
 #include <random>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 struct Options {
@@ -186,12 +186,12 @@ Result<void> run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::bench
+} // namespace filament_core::bench
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     bench::Options options;
-    filament::tools::CommandLine app{ "Frames with many small lamps, beside a frame with one." };
+    filament_core::tools::CommandLine app{ "Frames with many small lamps, beside a frame with one." };
     app.option("--rounds", options.rounds, "rounds; each draws every number of lamps").inRange(1, 1000);
     app.option("--frames", options.frames, "frames a measurement").inRange(1, 1000);
     app.option("--lamps", options.lamps, "numbers of lamps").inRange(0, 100'000);

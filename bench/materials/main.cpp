@@ -13,7 +13,7 @@
 #include "tools/materials/MaterialTerms.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <nlohmann/json.hpp>
 
@@ -25,7 +25,7 @@
 
 #include <time.h>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -250,13 +250,13 @@ Result<void> run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::bench
+} // namespace filament_core::bench
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     bench::Options options;
     std::string size = "1280x720";
-    filament::tools::CommandLine app{
+    filament_core::tools::CommandLine app{
         "What each term of a material costs over a full screen, beside the standard model."
     };
     app.option("--rounds", options.rounds, "rounds; each draws every material once").inRange(1, 10'000);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr uint32_t kRounds = 31;
@@ -66,13 +66,14 @@ bool measure(Backend backend) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core
 
 int main(int argc, char**) {
     if (argc > 1) {
         std::puts("quality_bench: measures on both APIs; it has no options");
         return 0;
     }
-    const bool isWhole = filament::measure(filament::Backend::Vulkan) && filament::measure(filament::Backend::Gles);
+    const bool isWhole = filament_core::measure(filament_core::Backend::Vulkan) &&
+                         filament_core::measure(filament_core::Backend::Gles);
     return isWhole ? 0 : 1;
 }

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 void settle() {
     constexpr int kMostMilliseconds = 100;
@@ -17,4 +17,4 @@ void settle() {
     }
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

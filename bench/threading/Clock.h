@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 inline int64_t nanosecondsOf(clockid_t clock) {
     timespec now{};
@@ -56,4 +56,4 @@ private:
 /// after their last job (libgomp), and the next contender must not pay for that.
 void settle();
 
-} // namespace filament::bench
+} // namespace filament_core::bench

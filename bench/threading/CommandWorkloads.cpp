@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 using namespace backend;
@@ -109,4 +109,4 @@ void addCommandWorkloads(WorkloadList& list, Settings const& settings) {
                     } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

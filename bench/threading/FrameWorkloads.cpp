@@ -9,7 +9,7 @@
 #include "bench/threading/Workloads.h"
 #include "shaders/package/EngineMaterials.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 #include <cstring>
 #include <span>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 struct GridSize {
@@ -200,4 +200,4 @@ void addFrameWorkloads(WorkloadList& list, Settings const& settings) {
     }
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 void sleepWhile(std::atomic<uint32_t>& word, uint32_t value) {
@@ -56,4 +56,4 @@ int64_t FutexSleeper::wakeUp(int64_t idle) {
     return awake - start;
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

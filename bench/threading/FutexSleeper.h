@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <thread>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 class FutexSleeper {
 public:
@@ -29,4 +29,4 @@ private:
     std::thread mThread;
 };
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 std::shared_ptr<Runtime> runtimeOf(RuntimeKind kind, Settings const& settings) {
@@ -98,4 +98,4 @@ void addJobWorkloads(WorkloadList& list, Settings const& settings) {
     list.push_back({ "relay_10k", [=] { return chain(settings, "relay_10k", "jobs", &Runtime::relay, {}); } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 struct Loop {
@@ -47,4 +47,4 @@ void addLoopWorkloads(WorkloadList& list, Settings const& settings) {
     for (Loop const& loop : loops) list.push_back({ loop.name, [=] { return makeLoop(settings, loop); } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -16,7 +16,7 @@
 #include <deque>
 #include <map>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 uint32_t forkTree(uint32_t depth) {
@@ -171,4 +171,4 @@ std::unique_ptr<Runtime> makeOneTbbRuntime(RuntimeOptions const& options) {
     return std::make_unique<OneTbbRuntime>(options);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

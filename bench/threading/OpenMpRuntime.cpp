@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 uint32_t forkTree(uint32_t depth) {
@@ -141,4 +141,4 @@ std::unique_ptr<Runtime> makeOpenMpRuntime(RuntimeOptions const& options) {
     return std::make_unique<OpenMpRuntime>(options);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

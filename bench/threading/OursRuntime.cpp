@@ -8,7 +8,7 @@
 #include <deque>
 #include <optional>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 using jobs::JobGroup;
@@ -131,4 +131,4 @@ std::unique_ptr<Runtime> makeOursRuntime(RuntimeOptions const& options) {
     return std::make_unique<OursRuntime>(options);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -13,7 +13,7 @@
 #include <span>
 #include <thread>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 bool restrictTo(std::span<const int> cores) {
@@ -86,4 +86,4 @@ void HogProcess::relent() {
     waitpid(mChild, nullptr, WUNTRACED);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 /// Logical cores that this process could use when it started, ascending; queried once.
 std::vector<int> const& allowedCores();
@@ -46,4 +46,4 @@ private:
     pid_t mChild = -1;
 };
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <fstream>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 constexpr int kTitleWidth = 36, kFigureWidth = 9, kOursWidth = 25;
@@ -171,4 +171,4 @@ Result<void> writeJson(std::filesystem::path const& path, MachineDescription con
     return {};
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

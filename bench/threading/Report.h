@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 using MachineDescription = std::vector<std::pair<std::string, std::string>>;
 
@@ -33,4 +33,4 @@ private:
 Result<void> writeJson(std::filesystem::path const& path, MachineDescription const& machine, Settings const& settings,
                        std::span<const Measured> results);
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/threading/Runtime.h"
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 const char* toString(RuntimeKind kind) {
     switch (kind) {
@@ -35,4 +35,4 @@ std::unique_ptr<Runtime> makeRuntime(RuntimeKind kind, RuntimeOptions const& opt
     return makeSerialRuntime();
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

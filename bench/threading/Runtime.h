@@ -16,7 +16,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 enum class RuntimeKind : uint8_t { Ours, OneTbb, OpenMp, StdAsync, Serial };
 inline constexpr RuntimeKind kAllRuntimes[] = { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp,
@@ -65,4 +65,4 @@ std::unique_ptr<Runtime> makeOpenMpRuntime(RuntimeOptions const& options);
 std::unique_ptr<Runtime> makeStdAsyncRuntime(RuntimeOptions const& options);
 std::unique_ptr<Runtime> makeSerialRuntime();
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 Workload scaling(Settings const& settings, const char* what, unsigned workers, RepeatedWork const& work, double items,
@@ -51,4 +51,4 @@ void addScalingWorkloads(WorkloadList& list, Settings const& settings) {
                         } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

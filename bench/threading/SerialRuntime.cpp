@@ -2,7 +2,7 @@
 // The serial loop: the cost of the work without any runtime. An empty job is a call that is not inlined.
 #include "bench/threading/Runtime.h"
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 [[gnu::noinline]] void emptyJob() { asm volatile(""); }
@@ -45,4 +45,4 @@ public:
 
 std::unique_ptr<Runtime> makeSerialRuntime() { return std::make_unique<SerialRuntime>(); }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

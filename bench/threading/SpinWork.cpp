@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 /// The fastest of many short loops, because disturbances only make them longer.
@@ -37,4 +37,4 @@ double stepsFor(double nanoseconds) {
     return nanoseconds / kStepNs;
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

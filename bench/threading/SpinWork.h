@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 /// `steps` additions from `value` on.
 uint64_t spinSteps(uint64_t value, uint64_t steps);
@@ -40,4 +40,4 @@ private:
     }
 };
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 uint32_t forkTree(uint32_t depth) {
@@ -115,4 +115,4 @@ std::unique_ptr<Runtime> makeStdAsyncRuntime(RuntimeOptions const& options) {
     return std::make_unique<StdAsyncRuntime>(options);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

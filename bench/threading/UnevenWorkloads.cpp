@@ -11,7 +11,7 @@
 #include <numeric>
 #include <random>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 // ---------------------------------------------------------------------------------------------------- power law
@@ -146,4 +146,4 @@ void addUnevenWorkloads(WorkloadList& list, Settings const& settings) {
         list.push_back({ hogged.name, [=] { return hoggedCore(settings, hogged); } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 struct WakeUp {
@@ -71,4 +71,4 @@ void addWakeUpWorkloads(WorkloadList& list, Settings const& settings) {
         list.push_back({ what.name, [=] { return wakeUp(settings, what); } });
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

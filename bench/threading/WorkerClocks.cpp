@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 /// The clock that pthread_getcpuclockid() returns for a thread, from its number in /proc. Linux,
@@ -39,4 +39,4 @@ int64_t cpuNanosecondsOf(std::vector<pid_t> const& threads) {
     return sum;
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 /// Threads of this process with this name in debuggers; at most 15 bytes.
 std::vector<pid_t> threadsNamed(std::string_view wanted);
@@ -19,4 +19,4 @@ std::vector<pid_t> threadsNamed(std::string_view wanted);
 /// Total nanoseconds that these threads have run on a core since they started.
 int64_t cpuNanosecondsOf(std::vector<pid_t> const& threads);
 
-} // namespace filament::bench
+} // namespace filament_core::bench

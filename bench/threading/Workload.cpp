@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 Verdict judge(Target const& target, Measured const& measured) {
@@ -90,4 +90,4 @@ Measured Rounds::finish() && {
     return measured;
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 struct Settings {
     int rounds = 31;
@@ -91,4 +91,4 @@ private:
     std::vector<Series> mSeries;
 };
 
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 /// Wakes the threads, and brings the core back to full speed after settle() slept.
@@ -72,4 +72,4 @@ std::string scaledNote(uint32_t done, uint32_t wanted, const char* what) {
     return done >= wanted ? std::string() : fmt::format("{} of {} {}, scaled", done, wanted, what);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

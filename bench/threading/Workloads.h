@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 struct WorkloadEntry {
     std::string name;
@@ -44,4 +44,4 @@ double timeOnce(Runtime& runtime, std::function<void(Runtime&)> const& work);
 /// "64 of 1024 jobs, scaled", or empty if nothing was scaled.
 std::string scaledNote(uint32_t done, uint32_t wanted, const char* what);
 
-} // namespace filament::bench
+} // namespace filament_core::bench

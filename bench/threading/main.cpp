@@ -23,8 +23,8 @@
 
 namespace {
 
-using namespace filament;
-using namespace filament::bench;
+using namespace filament_core;
+using namespace filament_core::bench;
 
 struct Options {
     Settings settings;
@@ -139,7 +139,8 @@ int main(int argc, char** argv) {
     Options options;
     Settings& settings = options.settings;
     int workers = static_cast<int>(allowedCores().size()) - 1;
-    filament::tools::CommandLine app("Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns");
+    filament_core::tools::CommandLine app(
+            "Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns");
     app.option("--filter", options.filter, "only workloads whose name matches this regular expression");
     app.option("--rounds", settings.rounds, "rounds: every contender once").inRange(1, 10'000);
     app.option("--workers", workers, "threads besides the caller; default: one less than the allowed cores")

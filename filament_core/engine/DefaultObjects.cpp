@@ -13,7 +13,7 @@
 #include <mutex>
 #include <numeric>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using namespace backend;
@@ -50,9 +50,8 @@ Texture createDfg(Engine::Impl& engine, uint32_t size) {
 
 /// One of few: without numbers of its user.
 bool isPlain(engine::ToneTable const& table) {
-    return !table.key.grading &&
-           table.key.colorGrading == ColorGrading{ .toneMapper = table.key.colorGrading.toneMapper,
-                                                   .agxLook = table.key.colorGrading.agxLook };
+    return !table.key.grading && table.key.display == DisplayTransform{ .toneMapper = table.key.display.toneMapper,
+                                                                        .agxLook = table.key.display.agxLook };
 }
 
 } // namespace
@@ -99,15 +98,15 @@ Texture Engine::Impl::toneTable(engine::ToneTableKey const& key) {
         tables.erase(oldest);
     }
     const assets::Image colors =
-            assets::bakeToneTable(jobs, key.colorGrading, key.size, key.grading ? &*key.grading : nullptr);
+            assets::bakeToneTable(jobs, key.display, key.size, key.grading ? &*key.grading : nullptr);
     tables.push_back({ .key = key, .texture = {} }); // found again only with its texture
     try {
-        tables.back().texture = createTexture(
-                { .format = colors.format,
-                  .width = colors.width,
-                  .height = colors.height,
-                  .pixels = colors.data,
-                  .name = fmt::format("tone table {} {}", toString(key.colorGrading.toneMapper), key.size) });
+        tables.back().texture =
+                createTexture({ .format = colors.format,
+                                .width = colors.width,
+                                .height = colors.height,
+                                .pixels = colors.data,
+                                .name = fmt::format("tone table {} {}", toString(key.display.toneMapper), key.size) });
     } catch (std::bad_alloc const&) {
         tables.pop_back();
         throw;
@@ -142,4 +141,4 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     engine.engineMaterials.clear();
 }
 
-} // namespace filament
+} // namespace filament_core

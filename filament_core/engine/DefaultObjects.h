@@ -4,10 +4,10 @@
 
 #include "filament_core/engine/EngineImpl.h"
 
-namespace filament {
+namespace filament_core {
 
 void createDefaultObjects(Engine::Impl& engine);
 /// Also the engine's own materials. Afterwards only objects remain that the user did not destroy.
 void destroyDefaultObjects(Engine::Impl& engine);
 
-} // namespace filament
+} // namespace filament_core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/DeviceNeeds.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 Result<void> checkDevice(backend::DeviceInfo const& device) {
     if (device.limits.maxFragmentStorageBuffers >= kFragmentStorageBuffers) return {};
@@ -12,4 +12,4 @@ Result<void> checkDevice(backend::DeviceInfo const& device) {
             kFragmentStorageBuffers);
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

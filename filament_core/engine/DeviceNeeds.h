@@ -6,11 +6,11 @@
 #include "backend/api/Driver.h"
 #include "base/Result.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// Storage buffers of the View group: lights and froxels.
 inline constexpr uint32_t kFragmentStorageBuffers = 2;
 
 Result<void> checkDevice(backend::DeviceInfo const& device);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 scene::Material const& EffectMaterialCache::get(std::string_view name,
                                                 std::span<const passes::EffectConstant> constants,
@@ -24,4 +24,4 @@ scene::Material const& EffectMaterialCache::get(std::string_view name,
     return material;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class EffectMaterialCache final : public passes::EffectMaterials {
 public:
@@ -29,4 +29,4 @@ private:
     std::vector<Entry> mEntries;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include "backend/create/CreateDriver.h"
 #include "backend/layers/Captured.h"
@@ -15,7 +15,7 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "jobsystem/JobTrace.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using namespace backend;
@@ -330,4 +330,4 @@ void Engine::waitIdle() {
     mImpl->stream->waitIdle();
 }
 
-} // namespace filament
+} // namespace filament_core

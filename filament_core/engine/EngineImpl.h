@@ -19,10 +19,10 @@
 #include "jobsystem/Affinity.h"
 #include "jobsystem/JobSystem.h"
 
-#include <filament/Engine.h>
-#include <filament/Quality.h>
-#include <filament/Scene.h>
-#include <filament/View.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Quality.h>
+#include <filament_core/Scene.h>
+#include <filament_core/View.h>
 
 #include <array>
 #include <chrono>
@@ -33,14 +33,14 @@
 #include <type_traits>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 struct IesFile;
 }
-namespace filament::passes {
+namespace filament_core::passes {
 struct FullScreenInterface;
 }
 
-namespace filament {
+namespace filament_core {
 namespace engine {
 
 struct TextureState {
@@ -108,9 +108,9 @@ struct SwapChainState {
 
 /// Input of a table of colours: a tone mapper with its options, and the grading before it.
 struct ToneTableKey {
-    ColorGrading colorGrading{}; ///< without fields that change no entry
+    DisplayTransform display{}; ///< without fields that change no entry
     uint32_t size = 0;
-    std::optional<Grading> grading{};
+    std::optional<ColorGrading> grading{};
     friend bool operator==(ToneTableKey const&, ToneTableKey const&) = default;
 };
 
@@ -327,4 +327,4 @@ void Engine::Impl::removeNow(engine::HandleTable<Tag, State>& table, ObjectHandl
     aUseEnded = true;
 }
 
-} // namespace filament
+} // namespace filament_core

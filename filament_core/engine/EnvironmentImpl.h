@@ -7,13 +7,13 @@
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/engine/EngineImpl.h"
 
-#include <filament/Environment.h>
+#include <filament_core/Environment.h>
 
 #include <cstddef>
 #include <memory>
 #include <string>
 
-namespace filament {
+namespace filament_core {
 
 struct Environment::Impl {
     Engine::Impl& engine; ///< while the link is alive
@@ -52,4 +52,4 @@ assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, Enviro
 Environment uploadEnvironment(Engine& engine, assets::EnvironmentData data, std::string name);
 
 } // namespace engine
-} // namespace filament
+} // namespace filament_core

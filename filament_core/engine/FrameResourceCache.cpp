@@ -4,9 +4,9 @@
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/prepare/DebugViews.h"
 
-#include <filament/DebugDraw.h>
+#include <filament_core/DebugDraw.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using passes::FrameResources;
@@ -22,13 +22,13 @@ uint32_t toneTableSize(ToneMapping mapping) {
 }
 
 /// Without fields that change no colour, so that equal tables are shared.
-ColorGrading keyOf(ColorGrading const& grading) {
+DisplayTransform keyOf(DisplayTransform const& grading) {
     constexpr ToneCurve kCurve{};
-    ColorGrading key = clamped(grading);
+    DisplayTransform key = clamped(grading);
     key.dither = false;
     if (key.toneMapper != ToneMapper::Agx) key.agxLook = AgxLook::Base;
     if (key.toneMapper != ToneMapper::Generic) key.toneCurve = kCurve;
-    if (key.outputSpace != OutputSpace::Rec2020Pq) key.whiteNits = ColorGrading{}.whiteNits;
+    if (key.outputSpace != OutputSpace::Rec2020Pq) key.whiteNits = DisplayTransform{}.whiteNits;
     return key;
 }
 
@@ -128,13 +128,13 @@ passes::DirtTexture FrameResourceCache::dirt(prepare::FramePacket const& packet)
 /// None: the view computes its tones.
 backend::TextureHandle FrameResourceCache::toneTable(View const& view, prepare::FramePacket const& packet) {
     const ToneMapping mapping = view.quality.toneMapping;
-    const bool hasFormula = view.colorGrading.toneMapper != ToneMapper::AcesReference && !view.colorGrading.look;
+    const bool hasFormula = view.display.toneMapper != ToneMapper::AcesReference && !view.display.look;
     if (mapping == ToneMapping::Analytic && hasFormula) return {};
-    const bool isGraded = packet.demand.needs(prepare::Effect::Grading);
-    return mEngine.textureHandle(
-            mEngine.toneTable({ .colorGrading = keyOf(view.colorGrading),
-                                .size = toneTableSize(mapping),
-                                .grading = isGraded ? std::optional(packet.settings.effects.grading) : std::nullopt }));
+    const bool isGraded = packet.demand.needs(prepare::Effect::ColorGrading);
+    return mEngine.textureHandle(mEngine.toneTable(
+            { .display = keyOf(view.display),
+              .size = toneTableSize(mapping),
+              .grading = isGraded ? std::optional(packet.settings.effects.colorGrading) : std::nullopt }));
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class FrameResourceCache {
 public:
@@ -41,4 +41,4 @@ private:
     EffectMaterialCache mEffects;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 namespace {
 
@@ -137,13 +137,13 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
     return text;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine
 
-namespace filament {
+namespace filament_core {
 
 const char* toString(EffectDecision::State state) {
     static constexpr std::array<const char*, 4> kWords{ "needed", "not needed", "ran", "culled" };
     return kWords[static_cast<size_t>(state)];
 }
 
-} // namespace filament
+} // namespace filament_core

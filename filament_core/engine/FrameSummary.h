@@ -7,14 +7,14 @@
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/CompiledGraph.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <array>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 struct FrameSummary {
     /// Views of one kind together.
@@ -39,4 +39,4 @@ std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::C
 std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
                     std::span<const PassTiming> times = {});
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -7,7 +7,7 @@
 #include <bit>
 #include <new>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using namespace std::chrono;
@@ -148,4 +148,4 @@ std::vector<PassTiming> FrameTimingLog::latestPasses() const {
     return passes;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -12,14 +12,14 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "framegraph/CompiledGraph.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class FrameTimingLog {
 public:
@@ -93,4 +93,4 @@ private:
     std::vector<backend::FrameTiming> mReplays; ///< of the last collection
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 template <class Tag, class State>
 class HandleTable {
@@ -146,4 +146,4 @@ private:
     ObjectHandle<Tag> mHandle;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

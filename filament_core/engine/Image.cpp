@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 Result<Image> decodeAsOptionsSay(std::span<const std::byte> file, std::string_view name,
@@ -60,4 +60,4 @@ Result<void> saveExr(std::filesystem::path const& path, Image const& image) {
     return assets::writeExr(path, image.width, image.height, std::span<const std::byte>(image.pixels));
 }
 
-} // namespace filament
+} // namespace filament_core

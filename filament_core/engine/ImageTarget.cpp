@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/ImageTarget.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 SwapChain ImageTarget::of(uint2 size) {
     if (mChain && mEngine.swapChains.get(mChain).size == size) return mChain;
@@ -10,4 +10,4 @@ SwapChain ImageTarget::of(uint2 size) {
     return mChain;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -8,7 +8,7 @@
 
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class ImageTarget {
 public:
@@ -25,4 +25,4 @@ private:
     SwapChain mChain;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

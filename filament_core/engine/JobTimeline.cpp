@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // jobTimeline(): events of the job system's trace, in seconds of the engine.
-#include <filament/JobTimeline.h>
+#include <filament_core/JobTimeline.h>
 
 #include "filament_core/engine/EngineImpl.h"
 #include "jobsystem/JobTrace.h"
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 JobSpan::Kind kindOf(jobs::TraceEvent::Kind kind) {
@@ -54,4 +54,4 @@ std::vector<JobTrack> jobTimeline(Engine& engine, double seconds) {
     return tracks;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light profiles: photometric files -> the words that shaders read.
-#include <filament/LightProfile.h>
+#include <filament_core/LightProfile.h>
 
 #include "base/OutOfMemory.h"
 #include "filament_core/assets/files/FileBytes.h"
@@ -10,7 +10,7 @@
 
 #include <bit>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -65,4 +65,4 @@ Result<LightProfile> loadLightProfile(Engine& engine, std::filesystem::path cons
     });
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -3,14 +3,14 @@
 
 #include "base/math/Elementary.h"
 
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using scene::LightRecord;
 
@@ -165,4 +165,4 @@ LightRecord recordOf(Engine::Impl const&, TubeLight const& light) {
     return record;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

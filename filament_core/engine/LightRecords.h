@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LightRecords: lights as apps describe them -> as scenes keep them. Directions and axes become unit vectors.
-///   Fails   a value out of the range that <filament/Light.h> gives ends the process.
+///   Fails   a value out of the range that <filament_core/Light.h> gives ends the process.
 ///   Thread  the app thread.
 #pragma once
 
 #include "filament_core/engine/EngineImpl.h"
 
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 scene::LightRecord recordOf(Engine::Impl const& engine, SunLight const& light);
 scene::LightRecord recordOf(Engine::Impl const& engine, PointLight const& light);
@@ -17,4 +17,4 @@ scene::LightRecord recordOf(Engine::Impl const& engine, RectLight const& light);
 scene::LightRecord recordOf(Engine::Impl const& engine, DiscLight const& light);
 scene::LightRecord recordOf(Engine::Impl const& engine, TubeLight const& light);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

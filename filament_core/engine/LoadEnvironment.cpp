@@ -6,7 +6,7 @@
 #include <new>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -143,4 +143,4 @@ Result<Environment> loadEnvironment(Engine& engine, std::span<const std::byte> f
     });
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -5,13 +5,13 @@
 #include "base/Result.h"
 #include "jobsystem/JobSystem.h"
 
-#include <filament/LoadTicket.h>
+#include <filament_core/LoadTicket.h>
 
 #include <chrono>
 #include <exception>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// One poll() begins no step after this; a step takes well below a millisecond.
@@ -146,14 +146,14 @@ std::optional<Error> LoadTask::error() const {
     case LoadStage::Failed:
         return mError;
     case LoadStage::Cancelled:
-        return filament::fail(ErrorCode::Cancelled, "loading '{}' was cancelled, or its engine ended", mName);
+        return filament_core::fail(ErrorCode::Cancelled, "loading '{}' was cancelled, or its engine ended", mName);
     case LoadStage::Waiting:
     case LoadStage::Decoding:
     case LoadStage::Creating:
         break;
     }
-    return filament::fail(ErrorCode::InvalidArgument,
-                          "'{}' is still being loaded; poll() its ticket until isFinished()", mName);
+    return filament_core::fail(ErrorCode::InvalidArgument,
+                               "'{}' is still being loaded; poll() its ticket until isFinished()", mName);
 }
 
 void LoadTasks::add(std::shared_ptr<LoadTask> const& task) {
@@ -168,4 +168,4 @@ void LoadTasks::abandon() {
 }
 
 } // namespace engine
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 
 #include "jobsystem/Cancellation.h"
 
-#include <filament/Result.h>
+#include <filament_core/Result.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -23,7 +23,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 enum class LoadStage : uint8_t;
 struct LoadStatus;
 
@@ -103,4 +103,4 @@ private:
 };
 
 } // namespace engine
-} // namespace filament
+} // namespace filament_core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/LoadTicket.h>
+#include <filament_core/LoadTicket.h>
 
 #include "base/Result.h"
 #include "filament_core/assets/files/FileBytes.h"
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace engine {
 namespace {
 
@@ -257,4 +257,4 @@ LoadTicket<Environment> loadEnvironmentAsync(Engine& engine, std::span<const std
                                       std::make_shared<engine::EnvironmentTask>(engine.impl(), file, name, options));
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using namespace backend;
 
@@ -155,4 +155,4 @@ Result<PickHit> Picker::wait(PickTicket ticket) {
     });
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -15,12 +15,12 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/TransientPool.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <map>
 #include <optional>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class Picker {
 public:
@@ -61,4 +61,4 @@ private:
     Pendings mPending;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using namespace backend;
 
@@ -80,4 +80,4 @@ Result<Image> PixelReads::wait(PixelTicket ticket) {
     });
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

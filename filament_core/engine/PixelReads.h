@@ -9,12 +9,12 @@
 
 #include "filament_core/engine/EngineImpl.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <map>
 #include <optional>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class PixelReads {
 public:
@@ -38,4 +38,4 @@ private:
 /// For an image that the device could not create.
 Error noImage(uint32_t width, uint32_t height);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 PublicCall::PublicCall(std::shared_ptr<Engine::Impl> const& engine, const char* function, std::string_view object)
         : mCall(function, object) {
@@ -27,4 +27,4 @@ void requireSame(Engine::Impl const& engine, Engine::Impl const& other, std::str
     if (&engine != &other) misused(fmt::format("the {} belongs to another engine", what));
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -9,13 +9,13 @@
 
 #include "base/ApiCall.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <concepts>
 #include <memory>
 #include <string_view>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// An address that no other thread has at the same time.
 inline const void* thisThread() {
@@ -66,4 +66,4 @@ private:
     ApiCall mCall;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include "backend/stream/RecordingGuards.h"
 #include "base/OutOfMemory.h"
@@ -19,8 +19,8 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
-#include <filament/DebugDraw.h>
-#include <filament/ResolutionController.h>
+#include <filament_core/DebugDraw.h>
+#include <filament_core/ResolutionController.h>
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using namespace backend;
@@ -320,7 +320,7 @@ struct Renderer::Impl final : engine::Dependent {
     // ------------------------------------------------------------------------------------------ expected frames
 
     /// The passes of such a frame become slots of the pipeline cache; their own pipelines are requested.
-    void expect(Scene const& scene, View const& view, Target const& target) {
+    void prewarm(Scene const& scene, View const& view, Target const& target) {
         try {
             const jobs::AdoptedThread seat(engine.jobs);
             std::vector<passes::FullScreenWish> wishes;
@@ -417,23 +417,23 @@ void Renderer::present(SwapChain swapChain) {
     mImpl->engine.orReport("presenting an image", state.name, [&] { mImpl->engine.present(state); });
 }
 
-bool Renderer::mayPresent(SwapChain swapChain) const {
-    const PublicCall call(mImpl, "Renderer::mayPresent(SwapChain)");
+bool Renderer::canPresent(SwapChain swapChain) const {
+    const PublicCall call(mImpl, "Renderer::canPresent(SwapChain)");
     const uint64_t older = mImpl->engine.swapChains.get(swapChain).presents[0];
     return mImpl->engine.stream->replayedSubmissions() >= older;
 }
 
-void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
-    const PublicCall call(mImpl, "Renderer::expect(Scene, View, SwapChain)");
+void Renderer::prewarm(Scene const& scene, View const& view, SwapChain swapChain) {
+    const PublicCall call(mImpl, "Renderer::prewarm(Scene, View, SwapChain)");
     mImpl->check(scene);
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
-    mImpl->expect(scene, view, { mImpl->engine.textures.get(state.images[state.current]) });
+    mImpl->prewarm(scene, view, { mImpl->engine.textures.get(state.images[state.current]) });
 }
 
-void Renderer::expect(Scene const& scene, View const& view, RenderTarget target) {
-    const PublicCall call(mImpl, "Renderer::expect(Scene, View, RenderTarget)");
+void Renderer::prewarm(Scene const& scene, View const& view, RenderTarget target) {
+    const PublicCall call(mImpl, "Renderer::prewarm(Scene, View, RenderTarget)");
     mImpl->check(scene);
-    mImpl->expect(scene, view, mImpl->targetOf(target));
+    mImpl->prewarm(scene, view, mImpl->targetOf(target));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
@@ -506,4 +506,4 @@ std::string Renderer::graphviz() const {
     return mImpl->plan.graph ? framegraph::toGraphviz(mImpl->plan) : std::string();
 }
 
-} // namespace filament
+} // namespace filament_core

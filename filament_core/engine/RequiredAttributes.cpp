@@ -4,7 +4,7 @@
 #include "base/ApiCall.h"
 #include "base/Assert.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 std::string nameOf(uint32_t location) {
@@ -49,4 +49,4 @@ void requireAttributes(scene::Material const& material, backend::VertexLayout co
         misused(fmt::format("the vertex buffer lacks what material '{}' reads: {}", material.name, namesOf(missing)));
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

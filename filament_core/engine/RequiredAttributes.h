@@ -7,11 +7,11 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/scene/Materials.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// 1 or 2; ends the process without any.
 uint8_t jointSetsOf(backend::VertexLayout const& vertices);
 
 void requireAttributes(scene::Material const& material, backend::VertexLayout const& vertices);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

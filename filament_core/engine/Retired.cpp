@@ -5,7 +5,7 @@
 
 #include <new>
 
-namespace filament {
+namespace filament_core {
 namespace engine {
 
 void Uses::clear() {
@@ -138,4 +138,4 @@ void Engine::Impl::releaseRetired(backend::CommandBuffer& commands) {
     }
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -4,12 +4,12 @@
 
 #include "backend/stream/CommandStream.h"
 
-#include <filament/Sampler.h>
+#include <filament_core/Sampler.h>
 
 #include <utility>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 inline backend::SamplerDesc descOf(Sampler const& sampler) {
     return { .magFilter = sampler.magFilter,
@@ -49,4 +49,4 @@ private:
     std::vector<std::pair<backend::SamplerDesc, backend::SamplerHandle>> mSamplers; // a handful: linear search
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Scene.h>
+#include <filament_core/Scene.h>
 
 #include "filament_core/engine/LightRecords.h"
 #include "filament_core/engine/RequiredAttributes.h"
@@ -7,11 +7,11 @@
 #include "filament_core/scene/SceneNodes.h"
 #include "filament_core/scene/SceneSkins.h"
 
-#include <filament/Environment.h>
+#include <filament_core/Environment.h>
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using engine::PublicCall;
@@ -66,7 +66,7 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .receivesShadows = desc.receivesShadows,
                                         .lightChannels = desc.lightChannels,
                                         .layers = desc.layers,
-                                        .place = desc.drawPlace };
+                                        .place = desc.drawOrder };
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
@@ -175,18 +175,18 @@ void Scene::setLayers(Node node, Layers select, Layers layers) {
     scene::setLayers(mImpl->changed(), node, select, layers);
 }
 
-void Scene::setDrawPlace(Renderable renderable, DrawPlace place) {
-    const PublicCall call(mImpl, "Scene::setDrawPlace(Renderable, DrawPlace)");
-    scene::setDrawPlace(mImpl->changed().renderables, renderable, place);
+void Scene::setDrawOrder(Renderable renderable, DrawOrder place) {
+    const PublicCall call(mImpl, "Scene::setDrawOrder(Renderable, DrawOrder)");
+    scene::setDrawOrder(mImpl->changed().renderables, renderable, place);
 }
 
-void Scene::setDrawPlace(Node node, DrawPlace place) {
-    const PublicCall call(mImpl, "Scene::setDrawPlace(Node, DrawPlace)");
-    scene::setDrawPlace(mImpl->changed(), node, place);
+void Scene::setDrawOrder(Node node, DrawOrder place) {
+    const PublicCall call(mImpl, "Scene::setDrawOrder(Node, DrawOrder)");
+    scene::setDrawOrder(mImpl->changed(), node, place);
 }
 
-DrawPlace Scene::drawPlace(Renderable renderable) const {
-    const PublicCall call(mImpl, "Scene::drawPlace(Renderable)");
+DrawOrder Scene::drawOrder(Renderable renderable) const {
+    const PublicCall call(mImpl, "Scene::drawOrder(Renderable)");
     scene::Renderables const& renderables = mImpl->data.renderables;
     return renderables.drawables[renderables.drawable[renderables.index.at(renderable)]].place;
 }
@@ -247,4 +247,4 @@ uint32_t Scene::lightCount() const {
     return mImpl->data.lights.index.size();
 }
 
-} // namespace filament
+} // namespace filament_core

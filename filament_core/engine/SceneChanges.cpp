@@ -5,7 +5,7 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/scene/SceneNodes.h"
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -135,4 +135,4 @@ bool Scene::isVisible(Renderable renderable) const {
     return (renderables.flags[renderables.index.at(renderable)] & scene::kHidden) == 0;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -6,11 +6,11 @@
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
 
-#include <filament/Scene.h>
+#include <filament_core/Scene.h>
 
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 struct Scene::Impl {
     explicit Impl(Engine& owner) : engine(owner.impl()), link(owner) {
@@ -72,4 +72,4 @@ struct Scene::Impl {
     engine::CopiesOfModels copies;
 };
 
-} // namespace filament
+} // namespace filament_core

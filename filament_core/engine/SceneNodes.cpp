@@ -6,7 +6,7 @@
 #include "filament_core/engine/gltf/ModelImpl.h"
 #include "filament_core/engine/gltf/ModelParts.h"
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -108,4 +108,4 @@ uint32_t Scene::nodeCount() const {
     return mImpl->data.transforms.count();
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using namespace backend;
 
@@ -62,4 +62,4 @@ void ShadowTexture::keep(prepare::ShadowPacket const& shadows) {
     for (prepare::ShadowMapPacket const& map : shadows.maps) mHeld.maps.push_back(map.held);
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -11,7 +11,7 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/prepare/ShadowMaps.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class ShadowTexture {
 public:
@@ -45,4 +45,4 @@ private:
     uint32_t mIdleFrames = 0;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

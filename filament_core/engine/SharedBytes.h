@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
@@ -18,4 +18,4 @@ inline SharedBytes sharedBytes(std::vector<std::byte>& bytes) {
     return std::make_shared<const std::vector<std::byte>>(std::exchange(bytes, {}));
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

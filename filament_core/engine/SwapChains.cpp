@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -131,4 +131,4 @@ void Engine::destroy(SwapChain swapChain) {
     mImpl->destroy(swapChain);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -32,7 +32,7 @@ TextureType textureType(TextureKind kind) {
 
 constexpr uint32_t kMostLayers = 2048; // of the desktop's drivers; devices may have fewer
 
-backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
+backend::DeviceTextureDesc backendDesc(filament_core::TextureDesc const& desc) {
     FILAMENT_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0,
                     "a texture has at least one texel, layer and level");
     FILAMENT_ASSERT(desc.layers <= kMostLayers, "a texture has at most 2048 layers");
@@ -65,7 +65,7 @@ void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner c
 }
 
 // One upload per level; all layers of a level are contiguous.
-void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc,
+void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (owner) commands.keep(owner);
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
@@ -88,9 +88,11 @@ void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::Textu
 
 /// sRGB is not encoded by the driver: Mesa's CPU drivers use the processor's estimate of the reciprocal square root,
 /// whose bits differ between processors (docs/conformance.md).
-bool makesMipsHere(filament::TextureDesc const& desc) { return desc.generateMips && desc.format == Format::RGBA8Srgb; }
+bool makesMipsHere(filament_core::TextureDesc const& desc) {
+    return desc.generateMips && desc.format == Format::RGBA8Srgb;
+}
 
-assets::Image mipsOf(filament::TextureDesc const& desc) {
+assets::Image mipsOf(filament_core::TextureDesc const& desc) {
     assets::Image base{ .width = desc.width, .height = desc.height, .layers = desc.layers };
     FILAMENT_ASSERT(base.levelBytes(0) <= desc.pixels.size(), "`pixels` holds all layers of level 0");
     const auto level0 = desc.pixels.first(base.levelBytes(0));
@@ -98,7 +100,7 @@ assets::Image mipsOf(filament::TextureDesc const& desc) {
     return assets::withMipMaps(std::move(base), true);
 }
 
-void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc,
+void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (!makesMipsHere(desc)) {
         uploadLevels(commands, handle, desc, owner);
@@ -106,7 +108,7 @@ void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament::Textu
         return;
     }
     const auto mips = std::make_shared<const assets::Image>(mipsOf(desc));
-    filament::TextureDesc whole = desc;
+    filament_core::TextureDesc whole = desc;
     whole.levels = mips->levels, whole.generateMips = false, whole.pixels = mips->data;
     uploadLevels(commands, handle, whole, mips);
 }
@@ -123,7 +125,7 @@ BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<con
 }
 
 // The driver would also reject it, but only after all of its uses have been recorded.
-bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
+bool fitsDevice(Engine::Impl& engine, filament_core::TextureDesc const& desc) {
     const uint32_t most = engine.device.maxTextureSize;
     if (std::max(desc.width, desc.height) <= most) return true;
     engine.report(
@@ -135,7 +137,7 @@ bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
 
 } // namespace
 
-Texture Engine::Impl::createTexture(filament::TextureDesc const& desc, engine::BytesOwner const& holder) {
+Texture Engine::Impl::createTexture(filament_core::TextureDesc const& desc, engine::BytesOwner const& holder) {
     engine::Draft draft(textures);
     engine::TextureState& state = draft.state();
     state.desc = backendDesc(desc);
@@ -197,7 +199,7 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc, engine:
 
 // ---------------------------------------------------------------------------------------------- the public functions
 
-Texture Engine::create(filament::TextureDesc const& desc) {
+Texture Engine::create(filament_core::TextureDesc const& desc) {
     const PublicCall call(mImpl, "Engine::create(TextureDesc)", desc.name);
     return mImpl->orNone("texture", desc.name, [&] { return mImpl->createTexture(desc); });
 }
@@ -317,4 +319,4 @@ void Engine::destroy(RenderTarget target) {
     mImpl->removeNow(mImpl->renderTargets, target);
 }
 
-} // namespace filament
+} // namespace filament_core

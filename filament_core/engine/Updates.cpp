@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 
 using namespace backend;
 using engine::PublicCall;
@@ -144,4 +144,4 @@ void Engine::update(Texture texture, TextureUpdate const& update) {
     mImpl->orReport("updating texture", state.name, [&] { mImpl->update(state, update); });
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class Uses {
 public:
@@ -35,4 +35,4 @@ private:
     std::vector<uint32_t> mBuffers, mTextures;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -236,4 +236,4 @@ void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, Fra
     if (isUpsampled) targets.ambientOcclusion = addUpsample(graph, from, targets.ambientOcclusion);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

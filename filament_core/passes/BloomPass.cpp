@@ -9,7 +9,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -102,4 +102,4 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     targets.bloom = spread;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -10,13 +10,13 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Levels for a radius in pixels, with the first, which is as large as `resolution` says.
 uint8_t bloomLevels(uint2 view, float radiusPixels, BloomResolution resolution);
 
 void addBloomPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

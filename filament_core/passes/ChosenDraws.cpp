@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ChosenDraws.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& context, PassSlot const& slot,
                         PassBlock target, std::span<const prepare::DrawCall> draws) {
@@ -21,4 +21,4 @@ DrawContext shadedDraws(FrameContext const& context,
              view.packet.channels };
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -8,7 +8,7 @@
 #include "filament_core/passes/DrawRecorder.h"
 #include "filament_core/passes/PassGroup.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct ChosenDraws {
     std::array<backend::BindGroupHandle, shader::kSurfaceKinds> passGroups; ///< by shader::PassKind
@@ -24,4 +24,4 @@ ChosenDraws chooseDraws(framegraph::PassContext& pass, FrameContext const& conte
 DrawContext shadedDraws(FrameContext const& context,
                         std::array<backend::BindGroupHandle, shader::kSurfaceKinds> const& passGroups);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

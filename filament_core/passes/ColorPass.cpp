@@ -9,7 +9,7 @@
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -269,4 +269,4 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     if (to.isWeighted) addResolvePass(graph, context, to.samples, to.color);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -8,10 +8,10 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Declares the pass; it writes every pixel of targets.color, which is single-sampled, and makes targets.depth. With
 /// settings().samples > 1 it draws into a multisampled picture and resolves that into targets.color (ResolvePass.h).
 void addColorPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

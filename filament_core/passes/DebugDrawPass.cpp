@@ -4,13 +4,13 @@
 #include "backend/stream/RecordingGuards.h"
 #include "filament_core/passes/ChosenDraws.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -128,4 +128,4 @@ void DebugBuffers::destroy(CommandBuffer& commands) {
     for (Set& set : mSets) destroy(commands, set);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

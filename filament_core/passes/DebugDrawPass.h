@@ -12,7 +12,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 class DebugBuffers {
 public:
@@ -40,4 +40,4 @@ scene::GeometryLayout debugDrawLayout();
 
 void addDebugDrawPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using framegraph::FrameGraph;
@@ -172,4 +172,4 @@ void addDebugEffectPass(FrameGraph& graph, FrameContext const& context, FrameTar
     }
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

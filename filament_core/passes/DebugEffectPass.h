@@ -10,9 +10,9 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 void addDebugEffectPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
                         bool isSceneLinear);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

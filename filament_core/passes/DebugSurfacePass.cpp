@@ -4,7 +4,7 @@
 #include "filament_core/passes/ChosenDraws.h"
 #include "filament_core/prepare/DebugViews.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -89,4 +89,4 @@ void addTrianglePass(FrameGraph& graph, FrameContext const& context, FrameTarget
                 { .name = "triangles", .debug = DebugSlot::Edges, .color = targets.triangles, .depth = depth });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -14,10 +14,10 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 void addDebugSurfacePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 /// FrameTargets::triangles; none: the device does not number them.
 void addTrianglePass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -5,7 +5,7 @@
 #include "filament_core/passes/PassGroup.h"
 #include "shaders/interface/ShaderInterface.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -82,4 +82,4 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
             });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

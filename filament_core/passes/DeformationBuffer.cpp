@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -124,4 +124,4 @@ void DeformationBuffer::destroy(CommandStream& stream, CommandBuffer& commands) 
     *this = {};
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 class DeformationBuffer {
 public:
@@ -55,4 +55,4 @@ private:
     std::vector<backend::CmdBindGroup> mBinds, mLastBinds;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

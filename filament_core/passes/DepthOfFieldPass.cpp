@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -135,4 +135,4 @@ void addDepthOfFieldPasses(FrameGraph& graph, FrameContext const& context, Frame
     targets.color = FocusPasses(graph, context, targets).add();
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -9,8 +9,8 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 void addDepthOfFieldPasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

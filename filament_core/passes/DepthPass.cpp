@@ -8,7 +8,7 @@
 #include <array>
 #include <bit>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -102,4 +102,4 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     if (isDistanceRead(context.packet.demand)) addDistances(graph, context, targets);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -13,7 +13,7 @@
 #include "filament_core/passes/FrameTargets.h"
 #include "filament_core/passes/PipelineCache.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// `shading`: depthOfViewKey().
 PassSlot depthSlot(DepthRange range, ShadingKey shading);
@@ -24,4 +24,4 @@ uint8_t pyramidLevels(uint2 view);
 
 void addDepthPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

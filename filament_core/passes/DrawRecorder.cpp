@@ -7,7 +7,7 @@
 #include <atomic>
 #include <optional>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -168,4 +168,4 @@ void recordDrawRanges(PassContext& pass, DrawContext const& context, std::span<c
     });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -16,7 +16,7 @@
 #include <array>
 #include <span>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// About 10 us of recording: enough to make waking a thread for a range worthwhile.
 inline constexpr size_t kDrawsPerRange = 1024;
@@ -47,4 +47,4 @@ void recordDraws(backend::CommandBuffer& commands, DrawContext const& context, s
 void recordDrawRanges(framegraph::PassContext& pass, DrawContext const& context,
                       std::span<const prepare::DrawCall> draws, std::span<const backend::PipelineHandle> pipelines);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <variant>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct EffectConstant {
     std::string_view name;
@@ -32,4 +32,4 @@ protected:
     ~EffectMaterials() = default;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

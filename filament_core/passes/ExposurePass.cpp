@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -91,4 +91,4 @@ void addExposurePasses(FrameGraph& graph, FrameContext const& context, FrameTarg
     targets.exposure = history.current;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

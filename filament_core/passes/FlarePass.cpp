@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -164,4 +164,4 @@ void addFlarePasses(FrameGraph& graph, FrameContext const& context, FrameTargets
     addGhostsAndHalo(graph, context, size, bright, targets.flare);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -12,7 +12,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Pixels of a side that become one texel: a power of two. Pictures of any size have 90 to 180 rows of blocks, if they
 /// have so many pixels.
@@ -37,4 +37,4 @@ float flareShare(LensFlare const& flare);
 
 void addFlarePasses(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

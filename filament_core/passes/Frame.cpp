@@ -22,7 +22,7 @@
 #include "filament_core/passes/ViewportBlitPass.h"
 #include "filament_core/prepare/DebugViews.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -144,4 +144,4 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     return targets;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

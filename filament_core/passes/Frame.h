@@ -9,7 +9,7 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// The destination of the picture: a texture of the engine, one sample per pixel. `format`: its attachmentFormat().
 struct FrameOutput {
@@ -31,4 +31,4 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 
 FrameTargets describeFrame(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -12,7 +12,7 @@
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Of a picture of the graph.
 inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId texture) {
@@ -76,4 +76,4 @@ inline FrameView viewOf(FrameContext const& context, size_t view) {
     return { context.packet.views[view], context.views[view] };
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -205,4 +205,4 @@ void FrameData::destroy(CommandBuffer& commands) {
     }
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// kGroupView of one view: the group of the frame, and where the view's data begin in the buffers behind it.
 struct ViewGroup {
@@ -93,4 +93,4 @@ private:
     std::vector<ViewGroup> mLists; // of their channels
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -9,7 +9,7 @@
 #include "filament_core/passes/FrameData.h"
 #include "filament_core/passes/PipelineSource.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// The textures that lit materials read of their surroundings; every handle is set.
 struct LightingTextures {
@@ -52,4 +52,4 @@ struct FrameResources {
     bool hasHalfFloats = false;             ///< shaders may compute in 16 bits
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

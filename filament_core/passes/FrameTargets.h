@@ -6,7 +6,7 @@
 
 #include "framegraph/FrameGraph.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct FrameTargets {
     framegraph::TextureId target;       ///< what the user asked for
@@ -31,4 +31,4 @@ struct FrameTargets {
     framegraph::TextureId sceneColor;       ///< as kBindingPicture says; null if unused
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

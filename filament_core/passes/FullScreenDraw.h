@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// `pass`: the Pass bind group. `materials`: one draw each; none: the material has no group, and is drawn once.
 inline void recordFullScreen(backend::CommandBuffer& commands, backend::PipelineHandle pipeline, ViewGroup const& view,
@@ -24,4 +24,4 @@ inline void recordFullScreen(backend::CommandBuffer& commands, backend::Pipeline
     }
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using shader::Parameter;
@@ -61,4 +61,4 @@ Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreen
     return {};
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

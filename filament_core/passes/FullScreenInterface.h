@@ -6,12 +6,12 @@
 #include "base/Result.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Material.h>
+#include <filament_core/Material.h>
 
 #include <span>
 #include <string_view>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct FullScreenParameter {
     std::string_view name;
@@ -30,4 +30,4 @@ struct FullScreenInterface {
 ///   Fails   NotFound or InvalidArgument; one line that names the material, the pass and the parameter.
 Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreenInterface const& given);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

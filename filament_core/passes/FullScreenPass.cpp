@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -196,4 +196,4 @@ framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& cont
             });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

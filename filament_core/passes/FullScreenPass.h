@@ -17,7 +17,7 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FullScreenInterface.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@
 #include <type_traits>
 #include <variant>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct FullScreenInput {
     std::string_view name{};          ///< of the parameter
@@ -80,4 +80,4 @@ struct FullScreenPass {
 framegraph::PassId addFullScreenPass(framegraph::FrameGraph& graph, FrameContext const& context,
                                      FullScreenPass const& pass);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

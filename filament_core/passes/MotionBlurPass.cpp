@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -119,4 +119,4 @@ void addMotionBlurPasses(FrameGraph& graph, FrameContext const& context, FrameTa
     targets.color = MotionBlurPasses(graph, context, targets).add();
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -3,7 +3,7 @@
 
 #include "filament_core/passes/ChosenDraws.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -54,4 +54,4 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordMotion(pass, *of, chosen); });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

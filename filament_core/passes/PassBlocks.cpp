@@ -6,7 +6,7 @@
 #include <bit>
 #include <utility>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 using namespace backend;
 
@@ -54,4 +54,4 @@ void PassBlocks::destroy(CommandBuffer& commands) {
     }
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

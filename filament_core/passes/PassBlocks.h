@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// The place of a block, valid from add() to the begin() of the next frame.
 struct PassBlock {
@@ -46,4 +46,4 @@ private:
     std::vector<std::byte> mBytes; // of the frame being described
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 using namespace backend;
 using shader::PassKind;
@@ -138,4 +138,4 @@ std::array<BindGroupHandle, shader::kSurfaceKinds> surfaceGroups(framegraph::Pas
     return groups;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// For a pass that draws to `level` of `texture`, or draws `samples` a pixel and resolves them to it.
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
@@ -54,4 +54,4 @@ std::array<backend::BindGroupHandle, shader::kSurfaceKinds> surfaceGroups(frameg
                                                                           FrameContext const& context, PassBlock target,
                                                                           PassTextures const& textures = {});
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// What surfaces leave instead of light, for debug views: with the tests, writes and faces of their materials, but not
 /// blended.
@@ -51,4 +51,4 @@ struct PipelineUse {
     prepare::DrawPass pass = prepare::DrawPass::Only;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

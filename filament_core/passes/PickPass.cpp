@@ -3,7 +3,7 @@
 
 #include "filament_core/passes/ChosenDraws.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -54,4 +54,4 @@ void addPickPass(FrameGraph& graph, FrameContext const& context, framegraph::Tex
             });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

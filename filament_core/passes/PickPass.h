@@ -11,7 +11,7 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/PipelineCache.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 inline constexpr uint32_t kPickSide = 64;
 
@@ -19,4 +19,4 @@ inline constexpr uint32_t kPickSide = 64;
 void addPickPass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId depths, uint2 size,
                  uint2 pixel);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -314,4 +314,4 @@ void PipelineCache::forget(CommandBuffer& commands, scene::Material const& mater
     mMaterials.erase(state);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

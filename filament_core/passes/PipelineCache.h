@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// The line for a variant (a set of VariantBits) that a package lacks, naming both and the filter.
 std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant);
@@ -104,4 +104,4 @@ private:
     std::vector<std::string> mRefusals;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

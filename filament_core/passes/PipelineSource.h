@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// A pipeline of a full-screen material.
 struct FullScreenWish {
@@ -52,4 +52,4 @@ private:
     std::vector<FullScreenWish>* mWishes = nullptr; // null: make it
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 class PipelineTable {
 public:
@@ -111,4 +111,4 @@ private:
     size_t mCount = 0;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

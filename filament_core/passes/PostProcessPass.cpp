@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -61,7 +61,7 @@ PostProcessSteps stepsOf(FrameContext const& context, Format target, bool isScen
              .isDirty = static_cast<bool>(context.resources.dirt.texture),
              .hasFlare = demand.needs(Effect::LensFlare),
              .isExposed = demand.needs(Effect::AutoExposure),
-             .isGraded = demand.needs(Effect::Grading) && (isSceneLinear || !context.resources.toneTable),
+             .isGraded = demand.needs(Effect::ColorGrading) && (isSceneLinear || !context.resources.toneTable),
              .hasVignette = demand.needs(Effect::Vignette),
              .hasFringes = demand.needs(Effect::ChromaticAberration),
              .hasToneValues = !isSceneLinear && !context.resources.toneTable && context.settings().display.hasNumbers,
@@ -126,7 +126,7 @@ float4 placeInBand(prepare::FramePacket const& packet) {
 /// All that finish.mat reads, which is checked against this when it is loaded.
 auto valuesOf(FrameContext const& context, uint2 drawn) {
     Effects const& effects = context.settings().effects;
-    Grading const& grading = effects.grading;
+    ColorGrading const& grading = effects.colorGrading;
     const double3x3 mix = matrixAfterNight(grading);
     prepare::DisplaySettings const& display = context.settings().display;
     const uint2 size = context.settings().shownSize;
@@ -143,17 +143,18 @@ auto valuesOf(FrameContext const& context, uint2 drawn) {
         FullScreenValue{ "mixRed", shaderRow(mix, 0) },
         FullScreenValue{ "mixGreen", shaderRow(mix, 1) },
         FullScreenValue{ "mixBlue", shaderRow(mix, 2) },
-        FullScreenValue{ "shadows", grading.shadows },
-        FullScreenValue{ "midtones", grading.midtones },
-        FullScreenValue{ "highlights", grading.highlights },
-        FullScreenValue{ "tonalRanges", grading.tonalRanges },
-        FullScreenValue{ "slope", grading.slope },
-        FullScreenValue{ "offset", grading.offset },
-        FullScreenValue{ "power", grading.power },
-        FullScreenValue{ "contrastSaturationVibrance", float3(grading.contrast, grading.saturation, grading.vibrance) },
-        FullScreenValue{ "shadowGamma", grading.shadowGamma },
-        FullScreenValue{ "midPoint", grading.midPoint },
-        FullScreenValue{ "highlightScale", grading.highlightScale },
+        FullScreenValue{ "shadows", colorGrading.shadows },
+        FullScreenValue{ "midtones", colorGrading.midtones },
+        FullScreenValue{ "highlights", colorGrading.highlights },
+        FullScreenValue{ "tonalRanges", colorGrading.tonalRanges },
+        FullScreenValue{ "slope", colorGrading.slope },
+        FullScreenValue{ "offset", colorGrading.offset },
+        FullScreenValue{ "power", colorGrading.power },
+        FullScreenValue{ "contrastSaturationVibrance",
+                         float3(grading.contrast, colorGrading.saturation, colorGrading.vibrance) },
+        FullScreenValue{ "shadowGamma", colorGrading.shadowGamma },
+        FullScreenValue{ "midPoint", colorGrading.midPoint },
+        FullScreenValue{ "highlightScale", colorGrading.highlightScale },
         FullScreenValue{ "night", float2(grading.nightAdaptation, exposureBeforeNight(grading)) },
         FullScreenValue{ "toneCurve", display.toneCurve },
         FullScreenValue{ "whiteShare", display.whiteShare },
@@ -174,12 +175,13 @@ void addFinishPass(FrameGraph& graph, FrameContext const& context, PostProcessSt
         EffectConstant{ "isDirty", steps.isDirty },
         EffectConstant{ "hasFlare", steps.hasFlare },
         EffectConstant{ "graded", steps.isGraded },
-        EffectConstant{ "mapsGamut", steps.isGraded && context.settings().effects.grading.gamutMapping },
+        EffectConstant{ "mapsGamut", steps.isGraded && context.settings().effects.colorGrading.gamutMapping },
         EffectConstant{ "aberration", steps.hasFringes },
         EffectConstant{ "hasVignette", steps.hasVignette },
         EffectConstant{ "grain", steps.hasGrain && !steps.hasLaterPass() },
         EffectConstant{ "outputSpace", hasTable ? 0 : context.settings().display.outputSpace },
-        EffectConstant{ "adaptsToNight", steps.isGraded && context.settings().effects.grading.nightAdaptation > 0 },
+        EffectConstant{ "adaptsToNight",
+                        steps.isGraded && context.settings().effects.colorGrading.nightAdaptation > 0 },
     };
     const std::array inputs{
         FullScreenInput{ .name = "color", .texture = targets.color },
@@ -352,4 +354,4 @@ void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameT
     if (steps.sharpens) addSharpeningPass(graph, context, { picture, targets.output }, last);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -163,7 +163,7 @@ CompareOp compareOp(StencilTest test) {
     return kCompares[static_cast<size_t>(test)];
 }
 
-backend::StencilFace stencilFace(filament::StencilFace const& face) {
+backend::StencilFace stencilFace(filament_core::StencilFace const& face) {
     return { .compare = compareOp(face.test),
              .fail = stencilOp(face.onFail),
              .depthFail = stencilOp(face.onDepthFail),
@@ -229,4 +229,4 @@ PipelineDesc fullScreenStates(PassSlot const& slot, scene::Material const& mater
     return desc;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include "filament_core/passes/PassSlot.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// `raster`: that of the instance, as the pass of `slot` draws it.
 backend::PipelineDesc surfaceStates(PassSlot const& slot, PipelineUse const& use, scene::InstanceRaster const& raster,
@@ -14,4 +14,4 @@ backend::PipelineDesc surfaceStates(PassSlot const& slot, PipelineUse const& use
 /// Of a triangle over the whole target: no vertices, no culling.
 backend::PipelineDesc fullScreenStates(PassSlot const& slot, scene::Material const& material);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

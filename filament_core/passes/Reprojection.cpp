@@ -3,7 +3,7 @@
 
 #include "base/Assert.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 /// `end`: of the picture in the texture.
@@ -40,4 +40,4 @@ float2 inverseOfDepth(float4x4 const& clip) {
     return { 1 / clip[3].z, clip[2].z / clip[3].z }; // depth = (m22 z + m32) / -z
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -5,7 +5,7 @@
 
 #include "filament_core/passes/FrameContext.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// From pixels and depths of this frame, in homogeneous coordinates.
 double4x4 worldFromPixel(FrameContext const& context);
@@ -20,4 +20,4 @@ float2 inverseOfDepth(float4x4 const& clipFromView);
 /// distance = depth * x + y, for a parallel one.
 float2 distanceOfDepth(float4x4 const& clipFromView);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

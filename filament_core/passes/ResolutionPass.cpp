@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using framegraph::FrameGraph;
@@ -65,4 +65,4 @@ void addSharpeningPass(FrameGraph& graph, FrameContext const& context, PictureSt
                         .target = step.target });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -10,7 +10,7 @@
 
 #include "filament_core/passes/FrameContext.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 struct PictureStep {
     framegraph::TextureId picture, target;
@@ -28,4 +28,4 @@ void addUpscalingPass(framegraph::FrameGraph& graph, FrameContext const& context
 void addSharpeningPass(framegraph::FrameGraph& graph, FrameContext const& context, PictureStep const& step,
                        LastStep const& last);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 constexpr std::string_view kResolveInputs[] = { "samples" };
@@ -16,8 +16,8 @@ constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResol
 /// Of the light before the grading, which scales it. What auto exposure will make of it is not known yet.
 float halfWhiteOf(FrameContext const& context) {
     const float half = context.settings().display.halfWhiteLight;
-    const bool isGraded = context.packet.demand.needs(prepare::Effect::Grading);
-    return isGraded ? half * elementary::exp2(-context.settings().effects.grading.exposure) : half;
+    const bool isGraded = context.packet.demand.needs(prepare::Effect::ColorGrading);
+    return isGraded ? half * elementary::exp2(-context.settings().effects.colorGrading.exposure) : half;
 }
 
 } // namespace
@@ -36,4 +36,4 @@ void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, 
                         .target = color });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -9,10 +9,10 @@
 
 #include "filament_core/passes/FrameContext.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// `samples` has the size of `color`, which every pixel is written of.
 void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId samples,
                     framegraph::TextureId color);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

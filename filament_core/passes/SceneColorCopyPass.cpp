@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -150,4 +150,4 @@ void keepSceneColor(FrameGraph& graph, FrameContext const& context, FrameTargets
             targets.sceneColorHistory.current);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -9,7 +9,7 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// The rectangle and the levels of `copy`.
 framegraph::TextureId addSceneColorCopyPasses(framegraph::FrameGraph& graph, FrameContext const& context,
@@ -26,4 +26,4 @@ void keepSceneColor(framegraph::FrameGraph& graph, FrameContext const& context, 
 /// All of the view.
 prepare::PictureCopy wholeSceneColor(FrameContext const& context);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

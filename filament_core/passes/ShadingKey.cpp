@@ -5,7 +5,7 @@
 
 #include <numeric>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 // In the order of shader::kQualityConstants.
@@ -117,4 +117,4 @@ std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingCons
     return values;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

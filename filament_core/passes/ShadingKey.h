@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ShadingKey: the choices of <filament/Quality.h> that select a program, packed; and what they specialise it with.
+/// ShadingKey: the choices of <filament_core/Quality.h> that select a program, packed; and what they specialise it with.
 ///   Bits    one field a specialisation constant of ShaderInterface.h. 0: all defaults, the program as it was compiled.
 ///   Thread  pure functions. Memory: none. Fails: never.
 #pragma once
@@ -8,12 +8,12 @@
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <array>
 #include <cstdint>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 using ShadingKey = uint64_t;
 
@@ -64,4 +64,4 @@ ShadowFilter shadowFilterOf(ShadingKey key);
 /// Values for shader::kQualityConstants, in their order.
 std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Rect;
@@ -127,4 +127,4 @@ void addShadowMoments(FrameGraph& graph, FrameContext const& context, FrameTarge
     addMips(graph, context, targets.shadows);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

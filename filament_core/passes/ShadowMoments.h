@@ -8,10 +8,10 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// What the packet asks for (ShadowPacket::moments): makes targets.shadows the moments of targets.shadowDepths.
 /// Otherwise nothing.
 void addShadowMoments(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

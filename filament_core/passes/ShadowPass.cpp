@@ -6,7 +6,7 @@
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/ShadowMoments.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -120,4 +120,4 @@ void addShadowPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
     addShadowMoments(graph, context, targets);
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

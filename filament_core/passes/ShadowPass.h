@@ -8,7 +8,7 @@
 #include "filament_core/passes/FrameTargets.h"
 #include "filament_core/passes/PipelineCache.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Where materials leave depth alone.
 PassSlot shadowSlot(Quality const& quality);
@@ -18,4 +18,4 @@ PassSlot shadowSlot(Quality const& quality);
 /// there is a map to draw.
 void addShadowPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

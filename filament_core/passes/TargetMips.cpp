@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 constexpr std::string_view kTargetMipInputs[] = { "picture" };
@@ -38,4 +38,4 @@ void addTargetMips(framegraph::FrameGraph& graph, FrameContext const& context, F
     }
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -8,10 +8,10 @@
 
 #include "filament_core/passes/Frame.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// After everything that draws to level 0.
 void addTargetMips(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                    FrameTargets const& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 constexpr std::string_view kInputs[] = { "color", "history", "depth", "motion" };
@@ -70,4 +70,4 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
     targets.color = history.current;
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -12,10 +12,10 @@
 #include "filament_core/passes/FrameContext.h"
 #include "filament_core/passes/FrameTargets.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 /// Whether the picture is as large as the output afterwards, and was not before.
 bool isEnlargedByGathering(FrameContext const& context);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -129,4 +129,4 @@ void addPeeledOver(FrameGraph& graph, FrameContext const& context, TransparencyT
     addOver(graph, context, targets, layers.light, {});
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -13,7 +13,7 @@
 
 #include "filament_core/passes/PassGroup.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// What is drawn so far, and what surfaces read.
 struct TransparencyTargets {
@@ -38,4 +38,4 @@ PeeledLayers addPeelPasses(framegraph::FrameGraph& graph, FrameContext const& co
 void addPeeledOver(framegraph::FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets,
                    PeeledLayers const& layers);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

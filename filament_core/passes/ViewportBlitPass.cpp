@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::Format;
@@ -50,7 +50,7 @@ bool fillsTarget(FrameSettings const& settings, FrameOutput const& output) {
            (settings.shownSize == uint2(output.width, output.height) && !settings.isTranslucent());
 }
 
-bool isCleared(filament::Viewport const& viewport, FrameOutput const& output) {
+bool isCleared(filament_core::Viewport const& viewport, FrameOutput const& output) {
     return viewport.contents == TargetContents::Clear || !output.hasContents;
 }
 
@@ -128,4 +128,4 @@ void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput 
     if (!fills) place(graph, context, "place", drawn, whole, { isCleared, float4(kNothingMeters, 0, 0, 0) });
 }
 
-} // namespace filament::passes
+} // namespace filament_core::passes

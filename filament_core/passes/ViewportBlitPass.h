@@ -8,7 +8,7 @@
 
 #include "filament_core/passes/Frame.h"
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 /// Imports what the user asked for, and makes the picture of the view if it has a place of its own.
 void beginViewportBlit(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
@@ -23,4 +23,4 @@ void addGuardBandCutPass(framegraph::FrameGraph& graph, FrameContext const& cont
 void addTargetDepth(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                     FrameTargets const& targets);
 
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 PixelBox allOf(uint2 view) { return { float2(0.0f), float2(view) }; }
@@ -64,4 +64,4 @@ backend::Rect coveredPixels(jobs::JobSystem& jobs, Arena& arena, scene::SceneDat
     return { static_cast<int32_t>(x.first), static_cast<int32_t>(y.first), x.end - x.first, y.end - y.first };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

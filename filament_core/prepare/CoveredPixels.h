@@ -13,7 +13,7 @@
 
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// What a renderable covers; all of the view if its box does not say.
 PixelBox coveredBy(scene::Renderables const& renderables, uint32_t renderable, ViewSpace const& space, uint2 view);
@@ -26,4 +26,4 @@ inline constexpr uint32_t kCoverMargin = 8;
 backend::Rect coveredPixels(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewPacket const& view,
                             ViewSpace const& space, uint2 size);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::Renderables;
@@ -180,4 +180,4 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     return { slots, firsts, spans };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -19,7 +19,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Renderables that one job culls at a time: about 10 us.
 inline constexpr size_t kCullRange = 2048;
@@ -38,4 +38,4 @@ struct VisibleItems {
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                              ViewSpace const& space, ViewKind kind, ViewCounts& counts);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 inline constexpr uint32_t kGlyphWidth = 5, kGlyphHeight = 7, kCellWidth = 6, kCellHeight = 9;
 
@@ -132,4 +132,4 @@ constexpr GlyphRun runOf(uint8_t row, uint32_t from) {
     return { from, end };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr double kNearer = 1.0 / 2048;
@@ -197,4 +197,4 @@ DebugQuads debugQuads(Arena& arena, DebugDraw const& draw, ViewInput const& view
     return quads;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -11,11 +11,11 @@
 #include "base/Arena.h"
 #include "filament_core/prepare/ViewInput.h"
 
-#include <filament/DebugDraw.h>
+#include <filament_core/DebugDraw.h>
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct DebugVertex {
     float3 position{ 0 }; ///< clip space, w = 1
@@ -32,4 +32,4 @@ struct DebugQuads {
 /// Of a view without jitter.
 DebugQuads debugQuads(Arena& arena, DebugDraw const& draw, ViewInput const& view);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

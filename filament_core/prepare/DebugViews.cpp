@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using Shows = DebugContent;
@@ -59,4 +59,4 @@ static_assert(kDebugViews.size() == kDebugViewCount &&
 
 DebugViewRow const& rowOf(DebugView view) { return kDebugViews[static_cast<size_t>(view)]; }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

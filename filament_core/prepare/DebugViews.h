@@ -5,7 +5,7 @@
 
 #include "filament_core/prepare/SceneDemand.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 enum class DebugContent : uint8_t {
     Image,    ///< the image itself: DebugView::None
@@ -38,4 +38,4 @@ inline bool showsMaterials(DebugView view) {
 inline bool showsEdges(DebugView view) { return rowOf(view).content == DebugContent::Edges; }
 inline bool showsLight(DebugView view) { return rowOf(view).isLit; }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

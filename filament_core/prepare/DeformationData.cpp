@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::Deformation;
@@ -111,4 +111,4 @@ void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::
     });
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

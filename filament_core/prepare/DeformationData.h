@@ -16,7 +16,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// `views`: everything visible in any of them, each skin and each deformation once.
 DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, std::span<const VisibleItems> views);
@@ -32,4 +32,4 @@ uint32_t morphBytes(std::span<const float> weights);
 /// What a block of `bytes` occupies.
 uint32_t deformationBlock(size_t bytes);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

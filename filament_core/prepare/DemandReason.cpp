@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using R = DemandReason;
@@ -102,4 +102,4 @@ static_assert(kReasons.size() == static_cast<size_t>(DemandReason::Count) &&
 
 ReasonRow const& rowOf(DemandReason reason) { return kReasons[static_cast<size_t>(reason)]; }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

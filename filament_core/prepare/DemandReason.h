@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// `count`, `others`, `leftOut`: of EffectDemand.
 enum class DemandReason : uint8_t {
@@ -95,4 +95,4 @@ struct ReasonRow {
 
 ReasonRow const& rowOf(DemandReason reason);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

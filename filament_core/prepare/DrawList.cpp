@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 struct RangeDraws {
@@ -166,4 +166,4 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     return { draws.first(early), draws.subspan(early) };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -12,7 +12,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Items that one job merges at a time: whole windows, so that every range begins a draw call.
 inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
@@ -60,4 +60,4 @@ struct DrawLists {
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                          std::span<const SortItem> items, ViewCounts& counts);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using R = DemandReason;
@@ -264,11 +264,11 @@ EffectDemand demandOfVignette(DemandInput const& input) {
 }
 
 EffectDemand demandOfGrading(DemandInput const& input) {
-    Grading const& grading = input.settings.effects.grading;
-    const Grading neutral{ .enabled = grading.enabled,
-                           .tonalRanges = grading.tonalRanges, // of equal factors
-                           .midPoint = grading.midPoint };     // of straight curves
-    return demandOfGrade(input, grading.enabled, grading == neutral, R::Neutral);
+    ColorGrading const& grading = input.settings.effects.colorGrading;
+    const ColorGrading neutral{ .enabled = colorGrading.enabled,
+                                .tonalRanges = colorGrading.tonalRanges, // of equal factors
+                                .midPoint = colorGrading.midPoint };     // of straight curves
+    return demandOfGrade(input, colorGrading.enabled, grading == neutral, R::Neutral);
 }
 
 EffectDemand demandOfGrain(DemandInput const& input) {
@@ -361,7 +361,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::ChromaticAberration, "fringes", Stage::PostProcess, demandOfAberration, "chromaticAberration=off",
           kChangesColor },
         { Effect::Vignette, "vignette", Stage::PostProcess, demandOfVignette, "vignette=off", kChangesColor },
-        { Effect::Grading, "grading", Stage::PostProcess, demandOfGrading, "grading=off", kChangesColor },
+        { Effect::ColorGrading, "grading", Stage::PostProcess, demandOfGrading, "colorGrading=off", kChangesColor },
         { Effect::Grain, "grain", Stage::PostProcess, demandOfGrain, "grain=off" }, // of codes: light stays as it is
         { Effect::Fxaa, "fxaa", Stage::PostProcess, demandOfFxaa, "antiAliasing", kChangesColor },
         { Effect::Upscaling, "upscaling", Stage::PostProcess, demandOfUpscaling, "resolution.upscaling=off",
@@ -384,4 +384,4 @@ static_assert(std::ranges::all_of(kEffectTable,
                                   }),
               "every effect has a row, in the order of the enumerators");
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

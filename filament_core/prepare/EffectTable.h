@@ -6,7 +6,7 @@
 
 #include "filament_core/prepare/SceneDemand.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 enum class EffectStage : uint8_t {
     Lighting,    ///< of surfaces and of the sky; none where a debug view lights nothing
@@ -44,4 +44,4 @@ extern const std::array<EffectRow, kEffects> kEffectTable;
 
 inline EffectRow const& rowOf(Effect effect) { return kEffectTable[static_cast<size_t>(effect)]; }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

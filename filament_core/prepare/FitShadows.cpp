@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr double kLogarithmicShare = 0.75; // of the splits
@@ -202,4 +202,4 @@ float4x4 atlasFromWorld(FittedShadow const& fitted, double3 const& mainCamera, d
     return float4x4(atlasFromClip * double4x4(fitted.clipFromView) * viewFromMain);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -19,7 +19,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 inline constexpr uint32_t kMaxCascades = 4;
 inline constexpr uint32_t kCubeFaces = 6;
@@ -83,4 +83,4 @@ float nearOverFar(FittedShadow const& fitted, LightSpaceBox const& world);
 /// From positions relative to the main camera to texels of the atlas, in xy, and depth, in z; all times w.
 float4x4 atlasFromWorld(FittedShadow const& fitted, double3 const& mainCamera, double x, double y, double size);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr double kSensorMeters = 0.024;
@@ -15,7 +15,7 @@ constexpr double kSensorMeters = 0.024;
 } // namespace
 
 Focus focusOf(Camera const& camera, DepthOfField const& depthOfField, uint32_t height) {
-    if (camera.lens.isParallel()) return {}; // no point of it lies before the others: nothing is out of focus
+    if (camera.lens.isOrthographic()) return {}; // no point of it lies before the others: nothing is out of focus
     const double halfFov = glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2;
     const double focal = kSensorMeters / (2 * elementary::tan(halfFov));
     const double focus = std::max(static_cast<double>(depthOfField.focusMeters), 1.01 * focal);
@@ -54,4 +54,4 @@ VisibleDistances visibleDistances(jobs::JobSystem& jobs, Arena& arena, scene::Sc
             });
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -10,7 +10,7 @@
 #include "filament_core/prepare/ViewConstants.h"
 #include "jobsystem/JobSystem.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Of a view `height` pixels high. Distances nearer than the focal length are focused as if they were just beyond it.
 Focus focusOf(Camera const& camera, DepthOfField const& depthOfField, uint32_t height);
@@ -25,4 +25,4 @@ struct VisibleDistances {
 VisibleDistances visibleDistances(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                                   ViewPacket const& view, ViewSpace const& space);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

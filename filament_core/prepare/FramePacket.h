@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Where the objects of a view are read from; writeObjects() (ObjectData.h) converts them for the shaders.
 struct ObjectList {
@@ -82,7 +82,7 @@ struct FroxelLists {
     std::span<const uint32_t> words; ///< one for each froxel, then the lists; none: there is one list for all
 };
 
-/// The lights of draws on certain channels (<filament/Light.h>), where these are not all lights of the view. Shaders do
+/// The lights of draws on certain channels (<filament_core/Light.h>), where these are not all lights of the view. Shaders do
 /// not know of channels: such a draw binds other uniforms, whose light list is its own.
 struct ChannelLights {
     bool hasSun = false;
@@ -205,4 +205,4 @@ struct FramePacket {
 /// number of workers.
 uint64_t hashPacket(FramePacket const& packet);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

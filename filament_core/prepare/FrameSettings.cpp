@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 bool gathersFrames(Quality const& quality, DebugView debugView) {
@@ -35,15 +35,16 @@ uint32_t guardBand(View const& view, Effects const& effects, uint2 drawn) {
     return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
 }
 
-DisplaySettings displayOf(ColorGrading const& unlimited) {
-    const ColorGrading grading = clamped(unlimited);
+DisplaySettings displayOf(DisplayTransform const& unlimited) {
+    const DisplayTransform grading = clamped(unlimited);
     return { .toneMapper = shaderToneMapper(grading),
              .outputSpace = shaderOutputSpace(grading),
              .toneCurve = shaderToneCurve(grading.toneCurve),
              .whiteShare = whiteShareOf(grading),
              .halfWhiteLight = halfWhiteLight(grading),
-             .hasNumbers = grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb,
-             .dithers = grading.dither };
+             .hasNumbers =
+                     colorGrading.toneMapper == ToneMapper::Generic || colorGrading.outputSpace != OutputSpace::Srgb,
+             .dithers = colorGrading.dither };
 }
 
 /// One layer that is peeled is what sorting draws.
@@ -88,7 +89,7 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,
              .effects = effects,
-             .display = displayOf(view.colorGrading),
+             .display = displayOf(view.display),
              .clearColor = view.clearColor,
              .viewport = view.viewport,
              .debugView = view.debugView,
@@ -119,4 +120,4 @@ FrameSettings resolve(ViewInput const& main) {
     return settings;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

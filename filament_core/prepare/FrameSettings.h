@@ -8,12 +8,12 @@
 #include "filament_core/prepare/ViewCounts.h"
 #include "filament_core/prepare/ViewInput.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct FrameSettings {
     Quality quality{};         ///< without choices that only matter where surfaces are lit, if they are not
     Effects effects{};         ///< within their ranges; those that light surfaces are off where nothing is lit
-    DisplaySettings display{}; ///< of View::colorGrading
+    DisplaySettings display{}; ///< of View::display
     DebugView debugView = DebugView::None;
     uint2 size{ 1, 1 };      ///< pixels that are drawn
     uint2 shownSize{ 1, 1 }; ///< of the image that is made of them
@@ -45,4 +45,4 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
 
 FrameSettings resolve(ViewInput const& main);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr float kSmallest = std::numeric_limits<float>::min();
@@ -62,4 +62,4 @@ std::optional<uint32_t> froxelAt(shader::FrameUniforms const& frame, float3 poin
     return static_cast<uint32_t>(slice * static_cast<int>(grid.x) * static_cast<int>(grid.y) + tile);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

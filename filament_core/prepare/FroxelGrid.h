@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct FroxelGrid {
     uint32_t columns = 0, rows = 0, slices = 0; ///< all 0: no grid
@@ -64,4 +64,4 @@ std::optional<TileAxes> tileAxes(FroxelGrid const& grid, float4x4 const& clipFro
 /// it; none: all lights.
 std::optional<uint32_t> froxelAt(shader::FrameUniforms const& frame, float3 point);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using shader::kMaxLightsOfFroxel;
@@ -159,4 +159,4 @@ FroxelLists assignLights(jobs::JobSystem& jobs, Arena& arena, ViewSpace const& s
     return { lists.pack(arena, counts) };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -23,7 +23,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// With fewer lights, finding a fragment's froxel takes longer than trying all of them.
 inline constexpr size_t kLightsWorthAGrid = 4;
@@ -37,4 +37,4 @@ FroxelLists assignLights(jobs::JobSystem& jobs, Arena& arena, ViewSpace const& s
                          std::span<const shader::PunctualLight> lights, shader::FrameUniforms& frame,
                          ViewCounts& counts, FroxelOptions const& options = {});
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 bool hasRefraction(scene::SceneData const& scene) {
@@ -29,4 +29,4 @@ bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, E
     return quality.refraction == RefractionSource::Screen && hasRefraction(scene);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

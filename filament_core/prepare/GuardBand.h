@@ -5,15 +5,15 @@
 ///   Thread  the app thread, between changes of the scene.   Memory: none.   Fails: never.
 #pragma once
 
-#include <filament/View.h>
+#include <filament_core/View.h>
 
-namespace filament::scene {
+namespace filament_core::scene {
 struct SceneData;
 }
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Whether an effect that comes before the cut may read pixels beside the picture.
 bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, Effects const& effects);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include "filament_core/prepare/HashWords.h"
 #include "filament_core/values/OptionRows.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
@@ -66,4 +66,4 @@ uint64_t hashPacket(FramePacket const& packet) {
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

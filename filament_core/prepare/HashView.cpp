@@ -7,7 +7,7 @@
 
 #include <bit>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
@@ -126,4 +126,4 @@ uint64_t hashShadowView(scene::SceneData const& scene, ViewPacket const& view, u
     return hash;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

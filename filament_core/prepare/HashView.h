@@ -5,7 +5,7 @@
 
 #include "filament_core/prepare/FramePacket.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Of everything in a ViewPacket and behind it, deformations excepted.
 uint64_t hashView(ViewPacket const& view, uint64_t seed);
@@ -15,4 +15,4 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed);
 /// map.
 uint64_t hashShadowView(scene::SceneData const& scene, ViewPacket const& view, uint32_t mapSize, bool isColored);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 template <class... T>
 uint64_t hashWords(uint64_t seed, T... values) {
@@ -14,4 +14,4 @@ uint64_t hashWords(uint64_t seed, T... values) {
     return hashBytes(std::as_bytes(std::span(words)), seed);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

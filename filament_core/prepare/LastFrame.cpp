@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 // How many frames are in the picture while something moves: enough to smooth edges, and few enough that what each
@@ -140,4 +140,4 @@ std::optional<LastDeformation> LastFrame::deformation(scene::SceneData const& sc
     return found;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 class LastFrame {
 public:
@@ -73,4 +73,4 @@ private:
     std::vector<std::vector<shader::BoneData>> mBones; // by Skin::index()
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr float kSmallestNormal = std::numeric_limits<float>::min();
@@ -66,4 +66,4 @@ bool intersects(LightCone const& cone, float3 center, float radius) {
     return !(cone.cosine * across - cone.sine * along > slack) && !(along < -slack);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

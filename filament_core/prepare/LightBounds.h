@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// How much a test is widened, for the rounding of the shaders and its own. Factors of the default; tests shrink them
 /// to prove that they are needed.
@@ -53,4 +53,4 @@ LightBounds boundsOf(shader::PunctualLight const& light, ViewSpace const& space,
 /// False only if no point of the sphere is in the cone.
 bool intersects(LightCone const& cone, float3 center, float radius);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 #include <array>
 #include <bitset>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr size_t kMasks = 256;
@@ -165,4 +165,4 @@ void separateChannels(jobs::JobSystem& jobs, Arena& arena, scene::Lights const& 
     ChannelSeparation(jobs, arena, lights, input, view).separate();
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LightChannels: which lights of a view shine on which of its draws (<filament/Light.h>).
+/// LightChannels: which lights of a view shine on which of its draws (<filament_core/Light.h>).
 ///   How     shaders do not read channels. Draws with equal channels share a light list; where that is not the list
 ///           of the view, they bind a second copy of its uniforms and are drawn with the variant that their lights
 ///           select.
@@ -14,7 +14,7 @@
 
 #include "filament_core/prepare/PrepareView.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct DrawnChannels {
     uint8_t any = 0, inCommon = 0xFF; ///< of the draws that light or shadow reaches
@@ -29,4 +29,4 @@ void dropUnseenLights(Arena& arena, scene::Lights const& lights, uint8_t seen, P
 void separateChannels(jobs::JobSystem& jobs, Arena& arena, scene::Lights const& lights, ViewInput const& input,
                       PreparedView& view);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

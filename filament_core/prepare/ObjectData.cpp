@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr size_t kRange = 1024;
@@ -38,4 +38,4 @@ void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shade
     });
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -11,7 +11,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// The difference of positions is taken in double: it is small, the operands may not be.
 shader::ObjectData objectData(scene::Placement const& placement, double3 const& cameraWorld);
@@ -19,4 +19,4 @@ shader::ObjectData objectData(scene::Placement const& placement, double3 const& 
 /// objects.size() == list.size().
 void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shader::ObjectData> objects);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

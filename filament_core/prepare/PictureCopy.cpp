@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 // A ray leaves an object of usual proportions within a quarter of its size beside it, and a blur as wide as the last
@@ -65,4 +65,4 @@ uint8_t levelsOfRoughness(float perceptualRoughness, float pixelsPerTangent) {
     return static_cast<uint8_t>(std::min(level, static_cast<float>(kMostPictureLevels)) + 2);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

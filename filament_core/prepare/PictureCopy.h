@@ -12,7 +12,7 @@
 
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 inline constexpr uint32_t kMostPictureLevels = 9;
 
@@ -35,4 +35,4 @@ PictureCopy copyAround(PixelBox box, uint2 view);
 /// Levels that surfaces of no more than this roughness read in perspective views; `pixelsPerTangent`: of the middle.
 uint8_t levelsOfRoughness(float perceptualRoughness, float pixelsPerTangent);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr size_t kMostLayers = 8;
@@ -70,4 +70,4 @@ std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables cons
     return layers;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -10,7 +10,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// In the order of drawing: as many as Quality::refractionLayers says, or as objects refract, if these are fewer. Over
 /// the first lie all objects that have none of their own, over the last also transparent ones.
@@ -20,4 +20,4 @@ std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables cons
                                            std::span<const SortItem> order, std::span<const DrawCall> blended,
                                            ViewSpace const& space, uint2 view, uint32_t mostLayers);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

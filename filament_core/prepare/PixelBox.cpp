@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 PixelBox unionOf(PixelBox a, PixelBox b) { return { glm::min(a.least, b.least), glm::max(a.most, b.most) }; }
 
@@ -22,4 +22,4 @@ PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfE
     return box;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

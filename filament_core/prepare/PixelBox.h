@@ -5,7 +5,7 @@
 
 #include "base/math/Math.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// In pixels, and possibly outside of the view.
 struct PixelBox {
@@ -17,4 +17,4 @@ PixelBox unionOf(PixelBox a, PixelBox b);
 /// All of the view if some of the box is beside or behind the camera.
 PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using simd::Float4;
@@ -72,4 +72,4 @@ bool PixelGrid::missesAll(float3 center, float3 halfExtent) const {
     return !containsCenter(x, mHalfSize.x) || !containsCenter(y, mHalfSize.y);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -15,7 +15,7 @@
 
 #include <array>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 class PixelGrid {
 public:
@@ -38,4 +38,4 @@ private:
     float mSquaredScale = 0;                   // radius in pixels = scale * metres / w; 0: nothing misses
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -73,4 +73,4 @@ void placeProfiles(Arena& arena, scene::Lights const& lights, std::span<const ui
     packet.profiles = { words, tables.tables() };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -12,9 +12,9 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// `records`: parallel to packet.lights, into Lights::records.
 void placeProfiles(Arena& arena, scene::Lights const& lights, std::span<const uint32_t> records, ViewPacket& packet);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

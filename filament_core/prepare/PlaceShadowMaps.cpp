@@ -5,7 +5,7 @@
 #include <bit>
 #include <numeric>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 uint64_t texelsOf(std::span<const uint32_t> sizes) {
@@ -136,4 +136,4 @@ uint32_t atlasSizeForBytes(uint64_t bytes, ShadowMoments moments) {
     return size;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

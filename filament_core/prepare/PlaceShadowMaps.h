@@ -10,7 +10,7 @@
 
 #include "filament_core/prepare/ShadowMaps.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct ShadowMapWish {
     uint64_t owner = 0;
@@ -32,4 +32,4 @@ uint64_t atlasBytes(uint32_t size, ShadowMoments moments);
 /// The largest atlas, in texels of a side, that takes no more than `bytes`; at least one of kSmallestShadowMap.
 uint32_t atlasSizeForBytes(uint64_t bytes, ShadowMoments moments);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

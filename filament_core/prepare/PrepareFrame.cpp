@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 EnvironmentPacket environmentOf(scene::SceneData const& scene) {
@@ -159,4 +159,4 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     return packet;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -19,9 +19,9 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                          std::span<const ViewInput> views, ShadowAtlas const& held = {}, LastFrame const& last = {});
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::Deformation;
@@ -126,4 +126,4 @@ void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::spa
     list.last = deformations;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

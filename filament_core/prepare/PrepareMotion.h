@@ -11,7 +11,7 @@
 #include "base/Arena.h"
 #include "filament_core/prepare/LastFrame.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct PreparedMotion {
     ViewPacket view;                 ///< no draws: nothing moved
@@ -25,4 +25,4 @@ PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPa
 void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::span<const uint32_t> slots,
                            LastFrame const& last, DeformationList& list);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 /// In clip space, from the left and from the top.
@@ -118,7 +118,7 @@ PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float dep
     Lens const& lens = camera.lens;
     const double near = static_cast<double>(lens.nearMeters), far = static_cast<double>(lens.farMeters);
     const double distance =
-            lens.isParallel() ? far - (far - near) * static_cast<double>(depth) : near / static_cast<double>(depth);
+            lens.isOrthographic() ? far - (far - near) * static_cast<double>(depth) : near / static_cast<double>(depth);
     const double aspect = static_cast<double>(size.x) / size.y;
     const double3 view = camera.viewFromPicture(centerOf(pixel, size), distance, aspect);
     return { distance, double3(camera.worldFromView * double4(view, 1)) };
@@ -135,4 +135,4 @@ uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable) {
     return count - 1 - later;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -10,9 +10,9 @@
 
 #include "filament_core/prepare/PrepareView.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 inline constexpr uint32_t kMostCandidates = 4096;
 
@@ -34,4 +34,4 @@ PickedPoint pickedPoint(Camera const& camera, uint2 size, uint2 pixel, float dep
 /// Among the renderables of its node, in the order in which they were added; 0 without a node.
 uint32_t primitiveOf(scene::SceneData const& scene, Renderable renderable);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

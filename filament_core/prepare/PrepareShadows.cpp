@@ -11,7 +11,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -303,4 +303,4 @@ PreparedShadows prepareShadows(jobs::JobSystem& jobs, Arena& arena, scene::Scene
     return ShadowPreparation(jobs, arena, scene, view, settings, main, held).prepare();
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -15,7 +15,7 @@
 #include "filament_core/prepare/ShadowCounts.h"
 #include "filament_core/prepare/ShadowMaps.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct PreparedShadows {
     ShadowPacket packet; ///< ShadowMapPacket::view counts from 0, in `views`
@@ -28,4 +28,4 @@ PreparedShadows prepareShadows(jobs::JobSystem& jobs, Arena& arena, scene::Scene
                                ViewInput const& view, FrameSettings const& settings, PreparedView& main,
                                ShadowAtlas const& held);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

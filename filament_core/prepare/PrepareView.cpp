@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 // With fewer, waking a worker takes longer than the work.
@@ -155,4 +155,4 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     return prepared;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -17,7 +17,7 @@
 
 #include <optional>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct PreparedView {
     ViewPacket packet;
@@ -30,4 +30,4 @@ struct PreparedView {
 PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
                          FrameSettings const& settings);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// `add(part, index)` for [0, count), then `join(whole, part)` in the order of the ranges.
 template <class T, class Add, class Join>
@@ -23,4 +23,4 @@ T reduceRanges(jobs::JobSystem& jobs, Arena& arena, size_t count, Add&& add, Joi
     return whole;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 bool SceneDemand::changesColor() const {
     return std::ranges::any_of(kEffectTable,
                                [&](EffectRow const& row) { return row.has(kChangesColor) && needs(row.effect); });
@@ -43,4 +43,4 @@ std::string describe(Effect effect, EffectDemand const& demand) {
                        fmt::arg("setting", rowOf(effect).setting), fmt::arg("unrequested", rowOf(effect).unrequested));
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <string>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 enum class Effect : uint8_t {
     Sun,            ///< the brightest
@@ -47,7 +47,7 @@ enum class Effect : uint8_t {
     Bloom,
     ChromaticAberration,
     Vignette,
-    Grading,
+    ColorGrading,
     Grain,
     Fxaa,
     Upscaling, ///< by a filter, or by gathering frames
@@ -104,4 +104,4 @@ const char* nameOf(Effect effect);
 /// The reason in words: "3 of 8 reach the view".
 std::string describe(Effect effect, EffectDemand const& demand);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

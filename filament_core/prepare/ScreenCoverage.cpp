@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 CoverageLens coverageLens(double3 const& cameraWorld, float4x4 const& clipFromView) {
     // The screen is 2 / scale wide and high: at distance 1, or anywhere if w is 1.
@@ -29,4 +29,4 @@ uint32_t levelFor(std::span<const double> least, double coverage) {
     return static_cast<uint32_t>(reached - least.begin());
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

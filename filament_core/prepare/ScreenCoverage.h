@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct CoverageLens {
     double3 position{ 0.0 };
@@ -33,4 +33,4 @@ double screenCoverage(CoverageLens const& lens, double3 const& center, double ra
 /// coverage has one level, or none: least.size(). `least` does not increase.
 uint32_t levelFor(std::span<const double> least, double coverage);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

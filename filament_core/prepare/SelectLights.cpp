@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -164,4 +164,4 @@ SelectedLights LightSelector::select(ViewSpace const& space, shader::FrameUnifor
     return selected;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -17,7 +17,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct SelectedLights {
     std::span<const shader::PunctualLight> lights;
@@ -48,4 +48,4 @@ private:
     std::span<uint32_t> mRecords; // of mChosen
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

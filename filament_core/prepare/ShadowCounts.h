@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct ShadowCounts {
     bool isOn = false;        ///< Quality::shadows
@@ -20,4 +20,4 @@ struct ShadowCounts {
     friend bool operator==(ShadowCounts const&, ShadowCounts const&) = default;
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -14,13 +14,13 @@
 #include "filament_core/scene/Materials.h"
 #include "shaders/interface/ShaderInterface.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Texels of a side; powers of two.
 inline constexpr uint32_t kSmallestShadowMap = 32, kLargestShadowMap = 8192;
@@ -107,4 +107,4 @@ inline uint32_t drawnChannels(ShadowPacket const& shadows) {
     return count;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 double nearPlane(ViewSpace const& space) {
@@ -66,4 +66,4 @@ LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Rend
             [](LightSpaceBox& whole, LightSpaceBox const& part) { whole.add(part); });
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -9,7 +9,7 @@
 #include "filament_core/prepare/FramePacket.h"
 #include "jobsystem/JobSystem.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Lit or shadow-catching surfaces in view that receive shadows.
 struct ShadowReceivers {
@@ -28,4 +28,4 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                                 double3x3 const& worldFromLight, Layers visibleLayers);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

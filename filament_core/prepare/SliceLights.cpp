@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr uint32_t kMaxTilesOfAxis = 64;
@@ -196,4 +196,4 @@ void assignSlice(SliceInput const& input, uint32_t slice, std::span<const uint16
     cells.sortLists();
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

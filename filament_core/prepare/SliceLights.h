@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// The slices that a light may reach.
 struct SliceRange {
@@ -38,4 +38,4 @@ struct SliceLists {
 /// reach the froxel. Lists ascend. No `order`: that of the lights.
 void assignSlice(SliceInput const& input, uint32_t slice, std::span<const uint16_t> order, SliceLists const& lists);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr size_t kMaxRanges = 32;
@@ -97,4 +97,4 @@ std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::sp
     return from;
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

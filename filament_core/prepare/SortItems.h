@@ -16,7 +16,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Items that one job counts and moves at a time, at least.
 inline constexpr size_t kSortRange = 16 * 1024;
@@ -24,4 +24,4 @@ inline constexpr size_t kSortRange = 16 * 1024;
 /// The items' `renderable` grow, as culling leaves them: that is what stable refers to.
 std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::span<SortItem> items);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

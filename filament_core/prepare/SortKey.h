@@ -16,7 +16,7 @@
 ///            29-59 depth      of class 1, front to back where they do not see each other, because they leave depth
 ///             0    alone      of class 1: a draw call of its own, because those behind it may be seen through it
 ///   blended  63-62 11
-///            43-61 place      priority (3 bits) and blend order (16 bits) of the renderable: DrawPlace
+///            43-61 place      priority (3 bits) and blend order (16 bits) of the renderable: DrawOrder
 ///            41-42 composed   with Quality::transparency: 0: behind all that is composed in any order, 1: that, 2: the
 ///                             rest; otherwise 0
 ///            10-40 depth      of the renderable, every bit, inverted: back to front
@@ -38,7 +38,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// A visible renderable and its position in the drawing order.
 struct SortItem {
@@ -131,4 +131,4 @@ constexpr uint64_t refractingKey(uint32_t depth) { return kPictureEndKey | stati
 constexpr uint64_t layeredKey(uint32_t depth) { return refractingKey(~depth & 0x7FFF'FFFFu) | 1; }
 constexpr bool isLayered(uint64_t key) { return key >> 60 == kPictureEndKey >> 60 && (key & 1) != 0; }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -105,4 +105,4 @@ SunDiscs findSunDiscs(Arena& arena, scene::Lights const& lights, ViewInput const
     return { discs.first(seen), static_cast<uint32_t>(count - seen) };
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -14,7 +14,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 struct SunDiscs {
     std::span<const SunDisc> inView; ///< in the order of the scene
@@ -23,4 +23,4 @@ struct SunDiscs {
 
 SunDiscs findSunDiscs(Arena& arena, scene::Lights const& lights, ViewInput const& view);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

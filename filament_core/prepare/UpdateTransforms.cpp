@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 // A skin of 50 bones takes about 3 us.
@@ -59,4 +59,4 @@ void updateTransforms(jobs::JobSystem& jobs, scene::SceneData& scene) {
     if (scene.deformations.hasSkins()) updateSkins(jobs, scene);
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

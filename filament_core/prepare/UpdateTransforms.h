@@ -15,11 +15,11 @@
 
 #include <cstddef>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Nodes per range: 4 us of nodes alone, 10 us of nodes with a renderable each. 128 to 512 measured alike, 4096 slower.
 inline constexpr size_t kTransformGrain = 256;
 
 void updateTransforms(jobs::JobSystem& jobs, scene::SceneData& scene);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 float4x4 rotationY(float radians) {
@@ -122,4 +122,4 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular));
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

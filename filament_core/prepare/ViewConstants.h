@@ -8,7 +8,7 @@
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// A view in the space of the shaders: world axes, camera at the origin.
 struct ViewSpace {
@@ -29,4 +29,4 @@ ViewSpace makeViewSpace(ViewInput const& view);
 void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, ViewInput const& view,
                         scene::SceneData const& scene);
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Of one view.
 struct ViewCounts {
@@ -42,4 +42,4 @@ struct ViewCounts {
     uint64_t triangles = 0;
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

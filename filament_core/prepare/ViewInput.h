@@ -4,15 +4,15 @@
 ///   Thread  any.   Memory: none.   Fails: never.
 #pragma once
 
-#include <filament/Camera.h>
-#include <filament/View.h>
+#include <filament_core/Camera.h>
+#include <filament_core/View.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// What a view is drawn for. Depth, Shadow and Motion draw what is opaque or masked, without lights: positions, bones
 /// and morph targets are all that such draws read, and masked materials their fragment stage.
@@ -25,7 +25,7 @@ enum class ViewKind : uint8_t {
 inline constexpr size_t kViewKinds = 4;
 constexpr bool isShaded(ViewKind kind) { return kind == ViewKind::Color; }
 
-/// View::colorGrading, as shaders/lib/tone.glsl reads it (values/ToneShader.h).
+/// View::display, as shaders/lib/tone.glsl reads it (values/ToneShader.h).
 struct DisplaySettings {
     int32_t toneMapper = 0, outputSpace = 0;
     float4 toneCurve{ 0 };
@@ -62,4 +62,4 @@ struct ViewInput {
     uint2 shown() const { return shownSize.x > 0 ? shownSize : inside(); }
 };
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 struct Affine {
     using Double2 [[gnu::vector_size(16)]] = double;
@@ -83,4 +83,4 @@ inline Affine inverse(Affine const& a) {
     return affineFrom(m);
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -9,12 +9,12 @@
 
 #include "base/Assert.h"
 
-#include <filament/Handle.h>
+#include <filament_core/Handle.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 template <class Tag>
 class Attachments {
@@ -69,4 +69,4 @@ private:
     std::vector<uint32_t> mFirst; // by node
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 class ContentVersions {
 public:
@@ -31,4 +31,4 @@ private:
     std::vector<uint32_t> mBuffers, mTextures;
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

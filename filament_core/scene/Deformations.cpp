@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 constexpr float kEverywhere = 1e30f; // metres; leaves room for a node's transform
@@ -142,4 +142,4 @@ bool bonesMirror(Deformation const& deformation, SkinRecord const& skin) {
     return mirroring * 2 > used;
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -18,12 +18,12 @@
 #include "filament_core/scene/ObjectHandles.h"
 #include "shaders/interface/ShaderInterface.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <span>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// Closed; empty where min > max.
 struct MinMax {
@@ -120,4 +120,4 @@ CenteredBox deformedBounds(Deformation const& deformation, SkinRecord const* ski
 /// Whether most of the bones that move its vertices mirror.
 bool bonesMirror(Deformation const& deformation, SkinRecord const& skin);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

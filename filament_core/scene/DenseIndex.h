@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// Maps handles to positions in dense arrays and back.
 template <class Tag>
@@ -68,4 +68,4 @@ void closeGap(std::vector<T>& column, uint32_t gap) {
     column.pop_back();
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -4,7 +4,7 @@
 #include "base/Assert.h"
 #include "base/Hash.h"
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 uint32_t depthOrder(MaterialInstance const& instance) {
@@ -90,4 +90,4 @@ void Drawables::updateOrders() {
     for (auto const& [drawable, number] : mNumbers) mUses[number].order = orderOf(*drawable.material);
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -9,13 +9,13 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// The geometry of one draw on the device.
 struct Geometry {
@@ -54,12 +54,12 @@ struct Drawable {
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
     bool receivesShadows = true;
     uint8_t lightChannels = 1; ///< bit n: lights of channel n shine on it
-    DrawPlace place{};
+    DrawOrder place{};
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };
 
 /// Smaller: drawn first. 19 bits.
-constexpr uint32_t placeOrder(DrawPlace place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
+constexpr uint32_t placeOrder(DrawOrder place) { return uint32_t{ place.priority } << 16 | place.blendOrder; }
 
 /// Whether Quality::transparency may compose this material order-independently: it is placed in the scene,
 /// covers its background, tests depth without writing it, has no stencil state, no depth pass of its own, and
@@ -110,4 +110,4 @@ private:
     std::unordered_map<Drawable, uint32_t, Hash> mNumbers;
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -7,10 +7,10 @@
 #include "backend/api/Handles.h"
 #include "shaders/package/Package.h"
 
-#include <filament/Material.h>
-#include <filament/Quality.h>
-#include <filament/Sampler.h>
-#include <filament/Stencil.h>
+#include <filament_core/Material.h>
+#include <filament_core/Quality.h>
+#include <filament_core/Sampler.h>
+#include <filament_core/Stencil.h>
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 struct Material {
     uint32_t id = 0; ///< small and dense: part of the sort key
@@ -89,4 +89,4 @@ struct MaterialInstance {
     backend::BindGroupHandle group(TextureFilter filter) const { return groups[static_cast<size_t>(filter)]; }
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -7,7 +7,7 @@
 
 #include <atomic>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 std::string complaintOf(ObjectKind kind, HandleFault fault, std::string_view name) {
@@ -38,4 +38,4 @@ void refuseHandle(ObjectKind kind, HandleFault fault, std::string_view name) {
     misused(complaintOf(kind, fault, name));
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

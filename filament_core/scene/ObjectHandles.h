@@ -7,11 +7,11 @@
 
 #include "base/Handle.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <string_view>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// Unlike any other in the process, and never 0: of an engine or a scene.
 uint64_t newOwnerSerial();
@@ -86,4 +86,4 @@ private:
     uint16_t mOwner;
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 Placement placementOf(Affine const& world, float indexAndOne) {
@@ -37,8 +37,8 @@ void updateNeverDrawn(Renderables& renderables, uint32_t at) {
     flags = static_cast<uint8_t>((flags & ~kNeverDrawn) | (isDrawn ? 0 : kNeverDrawn));
 }
 
-DrawPlace checked(DrawPlace place) {
-    FILAMENT_ASSERT(place.priority <= DrawPlace::kLastPriority, "a priority is one of 0 to 7");
+DrawOrder checked(DrawOrder place) {
+    FILAMENT_ASSERT(place.priority <= DrawOrder::kLastPriority, "a priority is one of 0 to 7");
     return place;
 }
 
@@ -137,7 +137,7 @@ void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t c
                    [&](Drawable& changed) { changed.lightChannels = channels; });
 }
 
-void setDrawPlace(Renderables& renderables, Renderable renderable, DrawPlace place) {
+void setDrawOrder(Renderables& renderables, Renderable renderable, DrawOrder place) {
     changeDrawable(renderables, renderables.index.at(renderable),
                    [&](Drawable& changed) { changed.place = checked(place); });
 }
@@ -183,4 +183,4 @@ Affine worldFromObject(Renderables const& renderables, uint32_t at) {
     return affineFrom(world);
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

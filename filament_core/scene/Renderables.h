@@ -13,14 +13,14 @@
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"
 
-#include <filament/Box.h>
-#include <filament/Objects.h>
+#include <filament_core/Box.h>
+#include <filament_core/Objects.h>
 
 #include <array>
 #include <string>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// Axis-aligned boxes in world space, one column per component, so that SIMD can load neighbours. Centres are double;
 /// after subtracting the camera the result fits a float.
@@ -64,7 +64,7 @@ struct Renderables {
     DenseIndex<RenderableObject> index;
     BoundsColumns bounds;
     std::vector<uint8_t> flags;     ///< RenderableFlag
-    std::vector<uint8_t> layers;    ///< <filament/Objects.h>
+    std::vector<uint8_t> layers;    ///< <filament_core/Objects.h>
     std::vector<uint32_t> drawable; ///< into `drawables`
     std::vector<Placement> placement;
     std::vector<CenteredBox> objectBounds;
@@ -86,7 +86,7 @@ struct RenderableInput {
     bool castsShadows = true, receivesShadows = true;
     uint8_t lightChannels = 1;
     uint8_t layers = kDefaultLayers;
-    DrawPlace place{};
+    DrawOrder place{};
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
@@ -96,7 +96,7 @@ void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstan
 void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry);
 void setVisible(Renderables& renderables, Renderable renderable, bool isVisible);
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
-void setDrawPlace(Renderables& renderables, Renderable renderable, DrawPlace place);
+void setDrawOrder(Renderables& renderables, Renderable renderable, DrawOrder place);
 /// Those of `select` become what they are in `layers`.
 void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, uint8_t layers);
 
@@ -116,4 +116,4 @@ void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject)
 /// draws nothing.
 void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

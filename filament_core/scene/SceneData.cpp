@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 
@@ -68,4 +68,4 @@ Box sceneBounds(SceneData const& scene) {
     return box;
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

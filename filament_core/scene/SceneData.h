@@ -11,16 +11,16 @@
 #include "filament_core/scene/Renderables.h"
 #include "filament_core/scene/Transforms.h"
 
-#include <filament/Box.h>
-#include <filament/Objects.h>
-#include <filament/Quality.h>
-#include <filament/Units.h>
+#include <filament_core/Box.h>
+#include <filament_core/Objects.h>
+#include <filament_core/Quality.h>
+#include <filament_core/Units.h>
 
 #include <array>
 #include <memory>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 struct LightRecord {
     enum class Type : uint8_t { Sun, Point, Spot, Rect, Disc, Tube } type = Type::Sun;
@@ -117,4 +117,4 @@ Light addLight(SceneData& scene, LightRecord const& light);
 void removeLight(SceneData& scene, Light light);
 Box sceneBounds(SceneData const& scene);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

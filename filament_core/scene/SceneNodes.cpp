@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 // A direction survives any scale except zero: along an axis that the node flattens, it is not changed.
@@ -78,8 +78,8 @@ void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers) {
                       [&](Renderable renderable) { setLayers(scene.renderables, renderable, select, layers); });
 }
 
-void setDrawPlace(SceneData& scene, Node node, DrawPlace place) {
-    forEachRenderable(scene, node, [&](Renderable renderable) { setDrawPlace(scene.renderables, renderable, place); });
+void setDrawOrder(SceneData& scene, Node node, DrawOrder place) {
+    forEachRenderable(scene, node, [&](Renderable renderable) { setDrawOrder(scene.renderables, renderable, place); });
 }
 
 void setVisible(SceneData& scene, Node node, bool isVisible) {
@@ -114,4 +114,4 @@ void placeAttached(SceneData& scene, uint32_t slot) {
     });
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -8,7 +8,7 @@
 
 #include "filament_core/scene/SceneData.h"
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// From now on the node gives the renderable its transform; the renderable's own transform is discarded.
 void attach(SceneData& scene, Renderable renderable, Node node);
@@ -24,7 +24,7 @@ Node nodeOf(SceneData const& scene, Light light);
 /// Of all renderables attached to the node or to a node below it.
 void setLightChannels(SceneData& scene, Node node, uint8_t channels);
 void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers);
-void setDrawPlace(SceneData& scene, Node node, DrawPlace place);
+void setDrawOrder(SceneData& scene, Node node, DrawOrder place);
 void setVisible(SceneData& scene, Node node, bool isVisible);
 
 /// Removes the node, its descendants, and every renderable, light and skin attached to them. Returns the indices of the
@@ -34,4 +34,4 @@ std::vector<uint32_t> removeNode(SceneData& scene, Node node);
 /// Moves everything attached to the node in `slot` to the place that the last update gave the node.
 void placeAttached(SceneData& scene, uint32_t slot);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 void setBone(SkinRecord& skin, size_t i, Affine const& objectFromBind) {
@@ -87,4 +87,4 @@ void placeDeformed(SceneData& scene, uint32_t slot) {
     place(renderables, at, isAttached ? scene.transforms.worldAt(node) : worldFromObject(renderables, at));
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

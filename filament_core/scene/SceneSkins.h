@@ -8,7 +8,7 @@
 
 #include <span>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// The skin ends with `data.node`, if that is one.
 Skin addSkin(SceneData& scene, SkinRecord data);
@@ -30,4 +30,4 @@ void updateSkin(SceneData& scene, SkinRecord& skin);
 /// Bounds and placement of one deformed renderable.
 void placeDeformed(SceneData& scene, uint32_t deformation);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 constexpr size_t kPrefetchAhead = 6; // nodes
@@ -244,4 +244,4 @@ std::span<const uint32_t> Transforms::recompute(uint32_t begin, uint32_t end) {
     return slots;
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -18,7 +18,7 @@
 #include "filament_core/scene/Affine.h"
 #include "filament_core/scene/ObjectHandles.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <atomic>
 #include <span>
@@ -26,7 +26,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 class Transforms {
 public:
@@ -138,4 +138,4 @@ private:
     uint32_t mNextListed = 0;                     // into mByDepth
 };
 
-} // namespace filament::scene
+} // namespace filament_core::scene

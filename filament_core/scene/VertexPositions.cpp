@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 using backend::VertexFormat;
@@ -86,4 +86,4 @@ MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> 
     return bounds;
 }
 
-} // namespace filament::scene
+} // namespace filament_core::scene

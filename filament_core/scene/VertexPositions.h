@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::scene {
+namespace filament_core::scene {
 
 /// Components that the format lacks are 0. None: shaders cannot read it as a position.
 std::optional<double3> positionAt(const std::byte* source, backend::VertexFormat format);
@@ -19,4 +19,4 @@ std::optional<double3> positionAt(const std::byte* source, backend::VertexFormat
 /// Around the finite positions of an interleaved stream; empty if there are none, or the layout has none.
 MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);
 
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Of red, green, blue and white.
@@ -201,4 +201,4 @@ double3 shown(double3 rendered) {
 
 double3 acesReference(double3 light) { return shown(rendered(matrices().ap0FromRec709 * light)); }
 
-} // namespace filament
+} // namespace filament_core

@@ -7,10 +7,10 @@
 ///   Thread  any.   Fails: never.   Cost: about 2 microseconds; tone tables bake it.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament {
+namespace filament_core {
 
 double3 acesReference(double3 light);
 
-} // namespace filament
+} // namespace filament_core

@@ -3,11 +3,11 @@
 #include "base/math/Elementary.h"
 #include "base/math/Math.h"
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 
 float Exposure::ev100() const { return elementary::log2(aperture * aperture / shutterSeconds * 100.0f / iso); }
 
@@ -38,11 +38,11 @@ Camera Camera::lookAt(double3 eye, double3 at, Lens lens, Exposure exposure, dou
     return camera;
 }
 
-Lens Lens::box(float left, float right, float bottom, float top, float nearMeters, float farMeters) {
+Lens Lens::orthographic(float left, float right, float bottom, float top, float nearMeters, float farMeters) {
     FILAMENT_ASSERT(right > left && top > bottom, "the box of a lens has left < right and bottom < top");
     const float width = right - left, height = top - bottom;
     return { .nearMeters = nearMeters,
-             .parallelMeters = height,
+             .orthographicHeight = height,
              .farMeters = farMeters,
              .shift = { (left + right) / (2 * width), (bottom + top) / (2 * height) },
              .aspect = width / height };
@@ -51,7 +51,7 @@ Lens Lens::box(float left, float right, float bottom, float top, float nearMeter
 Lens Lens::offCenter(float left, float right, float bottom, float top, float nearMeters) {
     Lens lens = box(left, right, bottom, top, nearMeters);
     lens.verticalFovDegrees = glm::degrees(2 * elementary::atan((top - bottom) / 2));
-    lens.parallelMeters = 0;
+    lens.orthographicHeight = 0;
     return lens;
 }
 
@@ -64,7 +64,7 @@ Lens Lens::fromFocalLength(float millimeters, float sensorHeightMillimeters, flo
 namespace {
 
 void checkLens(Lens const& lens) {
-    const bool isLens = lens.isParallel()
+    const bool isLens = lens.isOrthographic()
                                 ? lens.nearMeters >= 0 && lens.farMeters > lens.nearMeters
                                 : lens.nearMeters > 0 && lens.verticalFovDegrees > 0 && lens.verticalFovDegrees < 180;
     FILAMENT_ASSERT(isLens, "a lens has a near plane > 0 and a field of view in (0, 180), or is parallel with "
@@ -82,12 +82,12 @@ float4x4 Camera::clipFromView(float aspect) const {
     // from 1 to 0, w_clip = 1. Row 0 of the image is at y_ndc = -1 on both APIs, so +Y of the view maps to -y. The
     // shift moves by whole images, which are 2 wide: over w, so in the column of what w is made of.
     const float shown = lens.aspect > 0 ? lens.aspect : aspect;
-    const float focal = lens.isParallel() ? 2.0f / lens.parallelMeters
-                                          : 1.0f / elementary::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
+    const float focal = lens.isOrthographic() ? 2.0f / lens.orthographicHeight
+                                              : 1.0f / elementary::tan(glm::radians(lens.verticalFovDegrees) * 0.5f);
     float4x4 clip(0.0f);
     clip[0][0] = focal / shown;
     clip[1][1] = -focal;
-    if (lens.isParallel()) {
+    if (lens.isOrthographic()) {
         const float depth = lens.farMeters - lens.nearMeters;
         clip[2][2] = 1.0f / depth;
         clip[3] = float4(0 - 2 * lens.shift.x, 2 * lens.shift.y, lens.farMeters / depth, 1); // 0 -: no -0
@@ -101,11 +101,11 @@ float4x4 Camera::clipFromView(float aspect) const {
 double3 Camera::viewFromPicture(double2 clip, double distanceMeters, double aspect) const {
     const double shown = lens.aspect > 0 ? static_cast<double>(lens.aspect) : aspect;
     const double half =
-            lens.isParallel()
-                    ? static_cast<double>(lens.parallelMeters) / 2
+            lens.isOrthographic()
+                    ? static_cast<double>(lens.orthographicHeight) / 2
                     : elementary::tan(glm::radians(static_cast<double>(lens.verticalFovDegrees)) / 2) * distanceMeters;
     const double2 at = double2(clip.x, -clip.y) + 2.0 * double2(lens.shift);
     return { at.x * half * shown, at.y * half, -distanceMeters };
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -4,12 +4,12 @@
 #include "base/math/Math.h"
 #include "filament_core/values/Daylight.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament::color {
+namespace filament_core::color {
 namespace {
 
 float decode(float v) { return v <= 0.04045f ? v / 12.92f : elementary::pow((v + 0.055f) / 1.055f, 2.4f); }
@@ -65,4 +65,4 @@ double2 daylightChromaticity(double kelvin) {
     return { x, (-3.000 * x + 2.870) * x - 0.275 };
 }
 
-} // namespace filament::color
+} // namespace filament_core::color

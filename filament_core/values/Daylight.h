@@ -3,11 +3,11 @@
 ///   Thread  any; pure.   Fails: never.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::color {
+namespace filament_core::color {
 
 /// CIE 1931 x, y of a phase of daylight; `kelvin` in [4000, 25000].
 double2 daylightChromaticity(double kelvin);
 
-} // namespace filament::color
+} // namespace filament_core::color

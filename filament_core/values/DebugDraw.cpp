@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/DebugDraw.h>
+#include <filament_core/DebugDraw.h>
 
 #include "base/Assert.h"
 #include "base/math/Elementary.h"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Corner i of a box: bits 0, 1, 2 choose the upper end along x, y, z.
@@ -107,4 +107,4 @@ void DebugDraw::clear() {
     mCharacters.clear();
 }
 
-} // namespace filament
+} // namespace filament_core

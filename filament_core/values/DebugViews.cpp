@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The twin of shaders/post/debug_colors.glsl and of the materials that include it.
-#include <filament/DebugViews.h>
+#include <filament_core/DebugViews.h>
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr DebugColor kBlackColor{ 0, 0, 0 }, kWhiteColor{ 255, 255, 255 }, kGreyColor{ 153, 153, 153 };
@@ -74,4 +74,4 @@ DebugColor countColor(uint32_t count) {
 
 DebugColor mipLevelColor(float level) { return level >= 0 ? heatColor(std::min(level / 10, 1.0f)) : kGreyColor; }
 
-} // namespace filament
+} // namespace filament_core

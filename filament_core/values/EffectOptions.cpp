@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Effects.h>
+#include <filament_core/Effects.h>
 
 #include "filament_core/values/OptionRows.h"
 
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using Rows = std::vector<Option>;
@@ -114,33 +114,34 @@ Rows autoExposureRows() {
              option("autoExposure.speedDown", &E::speedDown, { 0, 1e3, kSpeed }, "Speed towards darker images.") };
 }
 
-Rows gradingRows() {
-    using E = Grading;
-    return { option("grading", &E::enabled, "Colour grading before the tone mapper."),
-             option("grading.nightAdaptation", &E::nightAdaptation, { 0, 1 }, "Vision by rods in the dark."),
-             option("grading.exposure", &E::exposure, { -16, 16, kStops }, "Exposure."),
-             option("grading.temperature", &E::temperature, { -1, 1 }, "White balance from cooler to warmer."),
-             option("grading.tint", &E::tint, { -1, 1 }, "White balance from green to magenta."),
-             option("grading.mixRed", &E::mixRed, { -2, 2, kColor }, "Red output of the channel mixer."),
-             option("grading.mixGreen", &E::mixGreen, { -2, 2, kColor }, "Green output of the channel mixer."),
-             option("grading.mixBlue", &E::mixBlue, { -2, 2, kColor }, "Blue output of the channel mixer."),
-             option("grading.shadows", &E::shadows, { 0, 4, kColor }, "Factor of shadows."),
-             option("grading.midtones", &E::midtones, { 0, 4, kColor }, "Factor of midtones."),
-             option("grading.highlights", &E::highlights, { 0, 4, kColor }, "Factor of highlights."),
-             option("grading.tonalRanges", &E::tonalRanges, { 0, 100, "A,B,C,D" },
+Rows colorGradingRows() {
+    using E = ColorGrading;
+    return { option("colorGrading", &E::enabled, "Colour grading before the tone mapper."),
+             option("colorGrading.nightAdaptation", &E::nightAdaptation, { 0, 1 }, "Vision by rods in the dark."),
+             option("colorGrading.exposure", &E::exposure, { -16, 16, kStops }, "Exposure."),
+             option("colorGrading.temperature", &E::temperature, { -1, 1 }, "White balance from cooler to warmer."),
+             option("colorGrading.tint", &E::tint, { -1, 1 }, "White balance from green to magenta."),
+             option("colorGrading.mixRed", &E::mixRed, { -2, 2, kColor }, "Red output of the channel mixer."),
+             option("colorGrading.mixGreen", &E::mixGreen, { -2, 2, kColor }, "Green output of the channel mixer."),
+             option("colorGrading.mixBlue", &E::mixBlue, { -2, 2, kColor }, "Blue output of the channel mixer."),
+             option("colorGrading.shadows", &E::shadows, { 0, 4, kColor }, "Factor of shadows."),
+             option("colorGrading.midtones", &E::midtones, { 0, 4, kColor }, "Factor of midtones."),
+             option("colorGrading.highlights", &E::highlights, { 0, 4, kColor }, "Factor of highlights."),
+             option("colorGrading.tonalRanges", &E::tonalRanges, { 0, 100, "A,B,C,D" },
                     "Luminances where shadows fade out (A to B) and highlights fade in (C to D)."),
-             option("grading.slope", &E::slope, { 0, 4, kColor }, "Slope of the ASC colour decision list."),
-             option("grading.offset", &E::offset, { -1, 1, kColor }, "Offset of the ASC colour decision list."),
-             option("grading.power", &E::power, { 0.1, 10, kColor }, "Power of the ASC colour decision list."),
-             option("grading.contrast", &E::contrast, { 0, 2 }, "Contrast about middle grey."),
-             option("grading.saturation", &E::saturation, { 0, 3 }, "Saturation of all colours."),
-             option("grading.vibrance", &E::vibrance, { 0, 3 }, "Saturation of pale colours."),
-             option("grading.shadowGamma", &E::shadowGamma, { 0.1, 10, kColor },
-                    "Gamma of the curve up to `grading.midPoint`."),
-             option("grading.midPoint", &E::midPoint, { 1e-3, 100, kColor }, "Where the two parts of the curve meet."),
-             option("grading.highlightScale", &E::highlightScale, { 0, 10, kColor },
-                    "Slope of the curve beyond `grading.midPoint`."),
-             option("grading.gamutMapping", &E::gamutMapping,
+             option("colorGrading.slope", &E::slope, { 0, 4, kColor }, "Slope of the ASC colour decision list."),
+             option("colorGrading.offset", &E::offset, { -1, 1, kColor }, "Offset of the ASC colour decision list."),
+             option("colorGrading.power", &E::power, { 0.1, 10, kColor }, "Power of the ASC colour decision list."),
+             option("colorGrading.contrast", &E::contrast, { 0, 2 }, "Contrast about middle grey."),
+             option("colorGrading.saturation", &E::saturation, { 0, 3 }, "Saturation of all colours."),
+             option("colorGrading.vibrance", &E::vibrance, { 0, 3 }, "Saturation of pale colours."),
+             option("colorGrading.shadowGamma", &E::shadowGamma, { 0.1, 10, kColor },
+                    "Gamma of the curve up to `colorGrading.midPoint`."),
+             option("colorGrading.midPoint", &E::midPoint, { 1e-3, 100, kColor },
+                    "Where the two parts of the curve meet."),
+             option("colorGrading.highlightScale", &E::highlightScale, { 0, 10, kColor },
+                    "Slope of the curve beyond `colorGrading.midPoint`."),
+             option("colorGrading.gamutMapping", &E::gamutMapping,
                     "Reduces the chroma of colours outside of Rec. 709 instead of clipping components.") };
 }
 
@@ -224,7 +225,7 @@ std::span<const Option> optionsOf<Effects>() {
         append(all, &Effects::depthOfField, depthOfFieldRows());
         append(all, &Effects::motionBlur, motionBlurRows());
         append(all, &Effects::autoExposure, autoExposureRows());
-        append(all, &Effects::grading, gradingRows());
+        append(all, &Effects::colorGrading, colorGradingRows());
         append(all, &Effects::vignette, vignetteRows());
         append(all, &Effects::grain, grainRows());
         append(all, &Effects::chromaticAberration, chromaticAberrationRows());
@@ -236,4 +237,4 @@ std::span<const Option> optionsOf<Effects>() {
     return kOptions;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -2,11 +2,11 @@
 #include "base/math/Elementary.h"
 #include "filament_core/values/Daylight.h"
 
-#include <filament/Effects.h>
+#include <filament_core/Effects.h>
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 double3x3 fromRows(double3 x, double3 y, double3 z) { return glm::transpose(double3x3(x, y, z)); }
@@ -47,10 +47,10 @@ double3x3 whiteBalance(double temperature, double tint) {
 
 } // namespace
 
-double3x3 gradingMatrix(Grading const& grading) {
-    const double3x3 mixer = fromRows(grading.mixRed, grading.mixGreen, grading.mixBlue);
+double3x3 gradingMatrix(ColorGrading const& grading) {
+    const double3x3 mixer = fromRows(grading.mixRed, colorGrading.mixGreen, colorGrading.mixBlue);
     return mixer * whiteBalance(static_cast<double>(grading.temperature), static_cast<double>(grading.tint)) *
            kRec2020FromRec709 * elementary::exp2(static_cast<double>(grading.exposure));
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 Nits luminanceOf(Lumen flux, double area) {
@@ -25,4 +25,4 @@ Nits luminanceFromFlux(Lumen flux, TubeLight const& light) {
     return luminanceOf(flux, 2 * std::numbers::pi * double{ light.radiusMeters } * double{ light.lengthMeters });
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
 #include "filament_core/values/OptionRows.h"
 
@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using Rows = std::vector<Option>;
@@ -148,4 +148,4 @@ std::span<const Option> optionsOf<TubeLight>() {
     return kOptions;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Assert.h"
 
-#include <filament/Lines.h>
+#include <filament_core/Lines.h>
 
 #include <cstddef>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 struct LinePoint {
@@ -59,4 +59,4 @@ IndexBufferDesc LineQuads::indexBuffer() const {
              .name = "lines" };
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/LoadOptions.h>
+#include <filament_core/LoadOptions.h>
 
 #include "filament_core/values/OptionRows.h"
 
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 template <>
 std::span<const Option> optionsOf<GltfLoadOptions>() {
@@ -49,4 +49,4 @@ std::span<const Option> optionsOf<EnvironmentSettings>() {
     return kOptions;
 }
 
-} // namespace filament
+} // namespace filament_core

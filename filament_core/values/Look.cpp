@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Between which entries a value lies, and where between them.
@@ -54,4 +54,4 @@ float3 lookedUp(Look const& look, float3 color) {
     return result;
 }
 
-} // namespace filament
+} // namespace filament_core

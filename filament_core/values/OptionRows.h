@@ -4,8 +4,8 @@
 ///   Thread   any; pure.   Fails: never; a type that no option can have does not compile.
 #pragma once
 
-#include <filament/Math.h>
-#include <filament/Options.h>
+#include <filament_core/Math.h>
+#include <filament_core/Options.h>
 
 #include <array>
 #include <concepts>
@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 /// Beyond what a float holds: no limit.
 inline constexpr double kUnlimited = 1e300;
@@ -113,4 +113,4 @@ void append(std::vector<Option>& options, M T::*member, std::span<const Option> 
     }
 }
 
-} // namespace filament
+} // namespace filament_core

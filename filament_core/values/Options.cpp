@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include "base/Assert.h"
 #include "base/NumberText.h"
@@ -13,7 +13,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr size_t kMostComponents = 4;
@@ -225,4 +225,4 @@ void clampOptions(std::span<const Option> options, void* object, void const* def
     }
 }
 
-} // namespace filament
+} // namespace filament_core

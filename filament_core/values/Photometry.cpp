@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Photometry.h>
+#include <filament_core/Photometry.h>
 
 #include "base/Assert.h"
 #include "base/math/Elementary.h"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using std::numbers::pi;
@@ -63,4 +63,4 @@ Candela intensityFor(Lux illuminance, float meters) {
     return candela(checked(illuminance.value) * static_cast<double>(meters) * static_cast<double>(meters));
 }
 
-} // namespace filament
+} // namespace filament_core

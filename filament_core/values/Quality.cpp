@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include "filament_core/values/OptionRows.h"
 
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr std::array<std::string_view, 5> kTableSizes{ "16", "32", "64", "128", "256" };
@@ -147,4 +147,4 @@ std::string toString(Quality const& quality) {
     return text.empty() ? "default" : text;
 }
 
-} // namespace filament
+} // namespace filament_core

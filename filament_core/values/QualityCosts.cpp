@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/QualityCosts.h>
+#include <filament_core/QualityCosts.h>
 
 #include "base/Assert.h"
 
-#include <filament/Options.h>
-#include <filament/Quality.h>
+#include <filament_core/Options.h>
+#include <filament_core/Quality.h>
 
 #include <algorithm>
 #include <optional>
 
-namespace filament {
+namespace filament_core {
 
 double QualityCosts::frameMilliseconds(Backend backend) const {
     std::vector<double> defaults;
@@ -35,4 +35,4 @@ void addBackend(QualityCosts& costs, QualityCosts const& other, Backend backend)
     }
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/RenderPreset.h>
+#include <filament_core/RenderPreset.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 void applyFast(View& view) {
@@ -74,4 +74,4 @@ void applyPreset(View& view, RenderPreset preset) {
     }
 }
 
-} // namespace filament
+} // namespace filament_core

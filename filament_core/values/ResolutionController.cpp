@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/ResolutionController.h>
+#include <filament_core/ResolutionController.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr uint32_t kSteps = 32; // of the largest scale
@@ -70,4 +70,4 @@ void ResolutionController::add(Resolution const& options, FrameCost const& cost)
     mCount = 0; // what frames of another size took says nothing
 }
 
-} // namespace filament
+} // namespace filament_core

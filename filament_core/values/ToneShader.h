@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A ColorGrading as shaders/lib/tone.glsl reads it, and how exposure comes before vision at night. Values within their
+/// A DisplayTransform as shaders/lib/tone.glsl reads it, and how exposure comes before vision at night. Values within their
 /// ranges: clamped().
 #pragma once
 
 #include "base/math/Elementary.h"
 
-#include <filament/ColorGrading.h>
-#include <filament/Effects.h>
-#include <filament/Math.h>
+#include <filament_core/DisplayTransform.h>
+#include <filament_core/Effects.h>
+#include <filament_core/Math.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 
 /// kToneMap... of tone.glsl; DisplayColor.cpp checks the numbers. The look is that of AgX alone.
 constexpr int32_t shaderToneMapper(ToneMapper mapper, AgxLook look) {
@@ -20,15 +20,15 @@ constexpr int32_t shaderToneMapper(ToneMapper mapper, AgxLook look) {
     if (mapper == ToneMapper::Agx && look == AgxLook::Punchy) return 10;
     return static_cast<int32_t>(mapper);
 }
-inline int32_t shaderToneMapper(ColorGrading const& grading) {
-    return shaderToneMapper(grading.toneMapper, grading.agxLook);
+inline int32_t shaderToneMapper(DisplayTransform const& grading) {
+    return shaderToneMapper(grading.toneMapper, colorGrading.agxLook);
 }
 
 /// kOutput... of tone.glsl.
-inline int32_t shaderOutputSpace(ColorGrading const& grading) { return static_cast<int32_t>(grading.outputSpace); }
+inline int32_t shaderOutputSpace(DisplayTransform const& grading) { return static_cast<int32_t>(grading.outputSpace); }
 
 /// White as a share of what PQ encodes.
-inline float whiteShareOf(ColorGrading const& grading) { return grading.whiteNits / 10'000; }
+inline float whiteShareOf(DisplayTransform const& grading) { return colorGrading.whiteNits / 10'000; }
 
 /// Of toneMapGeneric(): c, a, b and the light that is white, so that f(midGreyIn) = midGreyOut and f(maximum) = 1.
 inline float4 shaderToneCurve(ToneCurve const& curve) {
@@ -42,7 +42,7 @@ inline float4 shaderToneCurve(ToneCurve const& curve) {
 
 /// The light that the tone mapper displays at half of white, of grey: where displayWeight() of tone.glsl bends. False
 /// colours have none; middle grey is in their middle.
-inline float halfWhiteLight(ColorGrading const& grading) {
+inline float halfWhiteLight(DisplayTransform const& grading) {
     switch (grading.toneMapper) {
     case ToneMapper::Linear:
         return 0.5f;
@@ -53,7 +53,9 @@ inline float halfWhiteLight(ColorGrading const& grading) {
     case ToneMapper::Mobile:
         return 0.402f;
     case ToneMapper::Agx:
-        return grading.agxLook == AgxLook::Base ? 0.686f : grading.agxLook == AgxLook::Golden ? 0.681f : 1.036f;
+        return colorGrading.agxLook == AgxLook::Base     ? 0.686f
+               : colorGrading.agxLook == AgxLook::Golden ? 0.681f
+                                                         : 1.036f;
     case ToneMapper::PbrNeutral:
         return 0.54f;
     case ToneMapper::AcesReference:
@@ -69,18 +71,18 @@ inline float halfWhiteLight(ColorGrading const& grading) {
 }
 
 /// The factor of light before nightVision(): rods see what is exposed. Without them exposure is part of the matrix.
-inline float exposureBeforeNight(Grading const& grading) {
-    return grading.nightAdaptation > 0 ? elementary::exp2(grading.exposure) : 1;
+inline float exposureBeforeNight(ColorGrading const& grading) {
+    return colorGrading.nightAdaptation > 0 ? elementary::exp2(grading.exposure) : 1;
 }
 
 /// A row of a matrix, as dot products in shaders take it.
 inline float3 shaderRow(double3x3 const& matrix, int i) { return float3(glm::transpose(matrix)[i]); }
 
 /// gradingMatrix() of what comes after exposureBeforeNight().
-inline double3x3 matrixAfterNight(Grading const& grading) {
-    Grading rest = grading;
+inline double3x3 matrixAfterNight(ColorGrading const& grading) {
+    ColorGrading rest = grading;
     if (grading.nightAdaptation > 0) rest.exposure = 0;
     return gradingMatrix(rest);
 }
 
-} // namespace filament
+} // namespace filament_core

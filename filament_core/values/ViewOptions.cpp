@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/View.h>
+#include <filament_core/View.h>
 
 #include "filament_core/values/OptionRows.h"
 
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 template <>
 std::span<const Option> optionsOf<View>() {
@@ -16,7 +16,7 @@ std::span<const Option> optionsOf<View>() {
                                         "Samples a pixel: multisample anti-aliasing."),
                                  option("debugView", &View::debugView,
                                         "Shows one ingredient of the image: [debug views](debug-views.md).") };
-        append(all, &View::colorGrading, optionsOf<ColorGrading>());
+        append(all, &View::display, optionsOf<DisplayTransform>());
         append(all, &View::quality, optionsOf<Quality>());
         append(all, &View::effects, optionsOf<Effects>());
         return all;
@@ -24,4 +24,4 @@ std::span<const Option> optionsOf<View>() {
     return kOptions;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // animated_gltf MODEL.gltf [vulkan|gles] [OUT.png]: plays the first animation of a model for 0.8 s, and keeps the last
 // of its frames.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // custom_material [vulkan|gles] [OUT.png]: weave.mat, which CMake compiles into the program: see
 // filament_add_materials() in ../CMakeLists.txt.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 #include <materials/weave.h>
 
 #include <cstdio>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // dynamic_mesh [vulkan|gles] [OUT.png]: waves on a pond, whose vertices the program computes in every frame.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cmath>
 #include <cstdio>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // hello MODEL.glb SKY.hdr: one lit picture of a glTF model, hello.png, without a window.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstdio>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // instances [vulkan|gles] [OUT.png] [FRAMES]: a field of 50 000 boxes, each a renderable of its own. Those that share
 // vertices and material are drawn together. With FRAMES the camera moves on, and the median time of a frame is printed.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-using namespace filament::jobs;
+using namespace filament_core::jobs;
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // picking [vulkan|gles] [OUT.png]: picks a few pixels, prints the hits, and frames them.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

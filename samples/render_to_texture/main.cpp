@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // render_to_texture [vulkan|gles] [OUT.png]: a scene is drawn into a texture, which a screen in another scene shows.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -2,7 +2,7 @@
 // server [vulkan|gles]: renders the requests of standard input, one per line, and answers each with one line:
 //     SHAPE RED GREEN BLUE ROUGHNESS OUT.png        box, ball, cone, capsule or ring; numbers in [0, 1]
 // A request that it does not understand, or cannot serve, gives an error line, and the next one is served.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstdio>
 #include <iostream>
@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // several_views [vulkan|gles] [OUT.png]: a scene in perspective, from above and from the side, all in one image.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 
@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     scene.add(SunLight{ .directionWorld = { -0.6f, -1, -0.4f } });
     scene.add(SunLight{ .directionWorld = { 1, -0.5f, -1 }, .illuminance = Lux{ 20'000 }, .castsShadows = false });
 
-    const Lens parallel{ .nearMeters = 0.1f, .parallelMeters = 3.4f, .farMeters = 20 };
+    const Lens parallel{ .nearMeters = 0.1f, .orthographicHeight = 3.4f, .farMeters = 20 };
     std::array<View, 3> views{
         viewFrom({ 2, 2.4, 4 }, { 0, 1, 0 }, {}, { 0, 0 }, { 200, 180 }, { 0.25f, 0.3f, 0.35f, 1 }),
         viewFrom({ 0, 8, 0 }, { 0, 0, -1 }, parallel, { 200, 0 }, { 120, 90 }, { 0.1f, 0.1f, 0.12f, 1 }),

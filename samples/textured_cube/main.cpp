@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // textured_cube PICTURE [vulkan|gles] [OUT.png]: an image (PNG, JPEG, EXR, HDR) on all sides of a cube, in the sun.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <cstdio>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

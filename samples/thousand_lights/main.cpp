@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // thousand_lights [vulkan|gles] [OUT.png]: lamps that rise and fall over a floor, each with its own colour.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

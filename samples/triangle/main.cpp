@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // triangle [vulkan|gles] [OUT.png]: three vertices with colours of their own; no file is read.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstdio>
 #include <string_view>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 
@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     scene.add({ .vertices = vertices, .indices = indices, .material = instance });
 
     View view{ .camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }), .size = { 320, 180 } };
-    view.colorGrading.toneMapper = ToneMapper::Linear; // the colours as they are
+    view.display.toneMapper = ToneMapper::Linear; // the colours as they are
     Renderer renderer(*engine);
     const Result<Image> image = renderer.renderToImage(scene, view);
     if (!image) return fail(image.error());

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // two_backends [OUT.png]: draws the same scene by Vulkan and by OpenGL ES and counts the pixels that differ. With
 // Mesa's CPU drivers there are none. The exit status is 1 if there are.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstdio>
 #include <cstring>
 #include <initializer_list>
 
-using namespace filament;
+using namespace filament_core;
 
 namespace {
 

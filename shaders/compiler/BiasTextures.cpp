@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Those of texture_bias.glsl; 0: there is none.
@@ -88,4 +88,4 @@ std::vector<uint32_t> biasTextures(std::span<const uint32_t> spirv) {
     return isComplete ? Bias(spirv, functions).run() : std::vector<uint32_t>(spirv.begin(), spirv.end());
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

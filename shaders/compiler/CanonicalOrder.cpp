@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct ParsedInstruction {
@@ -143,4 +143,4 @@ Result<std::vector<uint32_t>> canonicalOrder(std::span<const uint32_t> words) {
     return Order(std::move(module)).run();
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

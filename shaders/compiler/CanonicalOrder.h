@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<std::vector<uint32_t>> canonicalOrder(std::span<const uint32_t> module);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Type {
@@ -130,4 +130,4 @@ private:
 
 std::vector<uint32_t> clampIndices(std::span<const uint32_t> spirv) { return Clamp(spirv).run(); }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

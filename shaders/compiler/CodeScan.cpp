@@ -7,7 +7,7 @@
 #include <cctype>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 size_t skipComment(std::string_view text, size_t at) {
@@ -59,4 +59,4 @@ std::optional<uint32_t> CodeScan::lineOfCall(std::string_view function) const {
     return found == mCalls.end() || mDeclared.contains(function) ? std::nullopt : std::optional(found->second);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 class CodeScan {
 public:
@@ -28,4 +28,4 @@ private:
     std::set<std::string, std::less<>> mDeclared;        ///< functions
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

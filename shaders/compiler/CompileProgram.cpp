@@ -16,7 +16,7 @@
 
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 bool isHalf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
@@ -124,4 +124,4 @@ Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_v
     return shaders;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -23,7 +23,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct SetBinding {
     uint8_t set = 0, binding = 0;
@@ -85,4 +85,4 @@ struct ComputeShader {
 /// A compute stage. Its layout is reflected unless options.layout gives it.
 Result<ComputeShader> compileCompute(std::string_view glsl, ProgramCompileOptions const& options = {});
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr std::string_view kCheapestLit =
@@ -103,4 +103,4 @@ Result<std::string> costReport(std::string_view text, std::string_view fileName,
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct InstructionCounts {
     uint32_t arithmetic = 0;     ///< includes comparisons, conversions and selections without a branch
@@ -31,4 +31,4 @@ InstructionCounts countInstructions(std::span<const uint32_t> module);
 /// A table as text: the terms in the material, and a row for each variant.
 Result<std::string> costReport(std::string_view text, std::string_view fileName, CompileOptions options = {});
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 bool isUnset(spv::Op op, std::span<const uint32_t> words) {
@@ -66,4 +66,4 @@ private:
 
 std::vector<uint32_t> initializeVariables(std::span<const uint32_t> spirv) { return Initializer(spirv).run(); }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 std::vector<uint32_t> initializeVariables(std::span<const uint32_t> spirv);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Fading scales all light, so alpha can say how much of a refracting surface is there.
@@ -47,7 +47,7 @@ constexpr Contradiction kContradictions[] = {
       "a full-screen triangle has no instances; leave out instanced" },
     { [](MaterialDefinition const& d) { return d.wideLines && !d.needsAttribute(kAttributeCustom0); }, "wideLines",
       "wideLines finds the other end of a segment in custom0; add requires : [ custom0 ], and make the mesh with "
-      "makeLineQuads() of <filament/Lines.h>" },
+      "makeLineQuads() of <filament_core/Lines.h>" },
     { [](MaterialDefinition const& d) { return d.wideLines && d.package.vertexDomain == VertexDomain::Device; },
       "wideLines", "wideLines needs positions in space; leave out vertexDomain : device" },
     { [](MaterialDefinition const& d) {
@@ -159,4 +159,4 @@ Result<void> checkRules(MaterialDefinition const& definition) {
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

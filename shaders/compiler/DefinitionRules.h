@@ -5,7 +5,7 @@
 
 #include "shaders/compiler/MaterialDefinition.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<void> checkRules(MaterialDefinition const& definition);
 
@@ -17,4 +17,4 @@ void leaveOutReflections(MaterialDefinition& definition);
 /// shaders/interface/SamplerBudget.h leaves to a material that every device can draw, or less.
 uint32_t samplerBudget(MaterialDefinition const& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// `path` from the repository root: "shaders/lib/brdf.glsl". Nothing if there is no such file.
 std::optional<std::string_view> embeddedSource(std::string_view path);
@@ -15,4 +15,4 @@ std::optional<std::string_view> embeddedSource(std::string_view path);
 /// All of them, in the order of their names.
 std::vector<std::string_view> embeddedPaths();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

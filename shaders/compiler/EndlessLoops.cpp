@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Block {
@@ -104,4 +104,4 @@ private:
 
 std::optional<EndlessLoop> findEndlessLoop(std::span<const uint32_t> spirv) { return Search().run(spirv); }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct EndlessLoop {
     std::string file; ///< empty without debug information
@@ -21,4 +21,4 @@ struct EndlessLoop {
 
 std::optional<EndlessLoop> findEndlessLoop(std::span<const uint32_t> spirv);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,7 +10,7 @@
 #include <array>
 #include <cctype>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr std::string_view kColors = "shaders/lib/color.glsl";
@@ -218,4 +218,4 @@ std::string restoredHelpers(NameSet const& names, std::span<const GlslDeclaratio
 
 std::span<const std::string_view> helperNames() { return kHelpers; }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

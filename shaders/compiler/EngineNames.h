@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 using NameSet = std::set<std::string, std::less<>>;
 
@@ -44,4 +44,4 @@ std::string restoredHelpers(NameSet const& names, std::span<const GlslDeclaratio
 /// The names of those functions and constants, sorted.
 std::span<const std::string_view> helperNames();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

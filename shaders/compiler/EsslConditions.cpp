@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr std::string_view kMacro = "SPIRV_CROSS_CONSTANT_ID_";
@@ -143,4 +143,4 @@ private:
 
 std::string preprocessConditions(std::string_view essl) { return Rewriter(linesOf(essl)).rewrite(); }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -13,8 +13,8 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 std::string preprocessConditions(std::string_view essl);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 // ---------------------------------------------------------------------------------------------- geometry, blending
 
@@ -271,4 +271,4 @@ Value exactInverse(Value m) {
     return compose(m.type(), columns);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include "shaders/compiler/SpirvMath.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 // ---- geometry and blending
 Value exactLength(Value v);                       ///< sqrt(dot(v, v)); |v| for scalars
@@ -42,4 +42,4 @@ Value exactOuterProduct(Value column, Value row, SpirvEditor::Id type);
 Value exactDeterminant(Value m);
 Value exactInverse(Value m);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

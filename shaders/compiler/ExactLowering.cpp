@@ -11,7 +11,7 @@
 #include <numbers>
 #include <unordered_set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180.0f;
@@ -398,4 +398,4 @@ std::vector<uint32_t> lowerExactly(std::span<const uint32_t> spirv) {
     });
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

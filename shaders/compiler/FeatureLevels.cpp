@@ -3,7 +3,7 @@
 
 #include "shaders/compiler/CodeScan.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 // ESSL 3.10 specification, chapter 8: functions that earlier versions lack.
@@ -41,4 +41,4 @@ Result<void> checkFeatureLevel(MaterialDefinition const& definition) {
     return definition.vertex ? checkBlock(*definition.vertex, level) : Result<void>{};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

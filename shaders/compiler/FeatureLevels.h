@@ -8,8 +8,8 @@
 
 #include "shaders/compiler/MaterialDefinition.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<void> checkFeatureLevel(MaterialDefinition const& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

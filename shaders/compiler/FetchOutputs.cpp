@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Positions in the module, as word indices, and what it declares.
@@ -83,4 +83,4 @@ std::vector<uint32_t> withFetchOutputs(std::span<const uint32_t> spirv) {
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Operations that a driver could compute in another way. They include functions: a driver may turn pow(x, 2) into x *
@@ -46,4 +46,4 @@ std::vector<uint32_t> forbidReordering(std::span<const uint32_t> spirv) {
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -3,7 +3,7 @@
 
 #include "shaders/compiler/SpirvWords.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 bool isRelaxed(std::span<const uint32_t> instruction) {
@@ -23,4 +23,4 @@ std::vector<uint32_t> fullPrecision(std::span<const uint32_t> spirv) {
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 std::vector<uint32_t> fullPrecision(std::span<const uint32_t> spirv);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

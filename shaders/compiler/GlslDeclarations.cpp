@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr uint32_t kFirstVariableLocation = 5; // after those of shaders/material/varyings.glsl
@@ -177,4 +177,4 @@ void defineVariableMacros(StageText& out, MaterialDefinition const& definition) 
     out.define("MATERIAL_WRITE_VARIABLES(inputs)", write);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

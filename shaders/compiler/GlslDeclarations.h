@@ -7,9 +7,9 @@
 #include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/compiler/StageText.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
-/// The specialisation constants of <filament/Quality.h>: kQualityConstants of ShaderInterface.h.
+/// The specialisation constants of <filament_core/Quality.h>: kQualityConstants of ShaderInterface.h.
 void declareQuality(StageText& out);
 /// Those of kVariantConstants of Package.h, for stages that several variants share.
 void declareVariants(StageText& out);
@@ -32,4 +32,4 @@ void declareCustomVaryings(StageText& out, MaterialDefinition const& definition,
 /// The macros with which surface/vertex_main.glsl clears and writes the variables.
 void defineVariableMacros(StageText& out, MaterialDefinition const& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <initializer_list>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 const char* blendDefine(Blending blending) {
@@ -534,4 +534,4 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition, Mate
     return layout;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// What the author's code requires; equal for all variants.
 struct MaterialNeeds {
@@ -58,4 +58,4 @@ Result<std::string> generateObserver(MaterialDefinition const& definition, Mater
 /// The bind group layout that all variants share: the engine's View and Pass groups, and the material's own.
 backend::ProgramLayout materialLayout(MaterialDefinition const& definition, MaterialNeeds const& needs);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 // GLSL 4.50 and ESSL 3.10 specifications, 3.6, and GL_KHR_vulkan_glsl.
@@ -47,4 +47,4 @@ static_assert(std::ranges::is_sorted(kKeywords));
 std::span<const std::string_view> glslKeywords() { return kKeywords; }
 bool isGlslKeyword(std::string_view word) { return std::ranges::binary_search(kKeywords, word); }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

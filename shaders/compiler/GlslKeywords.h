@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// Sorted. Types of vectors, matrices, samplers and images among them.
 std::span<const std::string_view> glslKeywords();
 bool isGlslKeyword(std::string_view word);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

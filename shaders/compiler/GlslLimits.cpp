@@ -5,7 +5,7 @@
 #include "shaders/compiler/GlslOutline.h"
 #include "shaders/compiler/GlslTokens.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The depth of the syntax tree: operators since the last separator, in all brackets that are open.
@@ -195,4 +195,4 @@ Result<void> checkGlslLimits(std::string_view glsl, std::string_view name) {
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// glslang takes about 500 bytes of stack per operator, and a thread has 8 MiB. The largest values of the engine's and
 /// the samples' materials are 27 operators, 14'900 tokens and 14'300 after inlining.
@@ -24,4 +24,4 @@ inline constexpr uint64_t kMaxNesting = 200, kMaxDepth = 3000, kMaxTokens = 1'00
 
 Result<void> checkGlslLimits(std::string_view glsl, std::string_view name);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr uint64_t kHuge = uint64_t(1) << 40;
@@ -115,4 +115,4 @@ ExpansionSize GlslMacros::measure(std::span<const GlslToken> tokens, std::set<st
     return sum;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// Of an expansion: its tokens, its operators, and how often it repeats its arguments.
 struct ExpansionSize {
@@ -56,4 +56,4 @@ private:
     bool mIsTooDeep = false;
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using Kind = GlslDeclaration::Kind;
@@ -208,4 +208,4 @@ std::vector<GlslDeclaration> outlineOf(std::string_view glsl, std::string_view f
     return Outline(glsl, file).run();
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

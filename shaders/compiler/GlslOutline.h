@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct GlslDeclaration {
     enum class Kind : uint8_t { Function, Struct, Variable, Block, Macro };
@@ -28,4 +28,4 @@ std::vector<GlslDeclaration> outlineOf(std::string_view glsl, std::string_view f
 /// `#line NUMBER "file"`, after its first word. Leaves `file` as it is if the directive names none.
 void readLineDirective(std::string_view rest, uint32_t& line, std::string_view& file);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

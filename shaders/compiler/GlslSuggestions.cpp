@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The first 'quoted' word of a message; empty if there is none.
@@ -247,4 +247,4 @@ Error joined(std::span<const Error> errors) {
     return ofLines(errors[0].code, lines);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// `error` may have several lines.
 Error withSuggestion(Error const& error, MaterialDefinition const& definition);
@@ -19,4 +19,4 @@ Error withSuggestion(Error const& error, MaterialDefinition const& definition);
 /// All of them as one, without repetitions. There is at least one.
 Error joined(std::span<const Error> errors);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -19,7 +19,7 @@
 #include <set>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// glslang keeps process-wide tables; they are created once and kept until the process ends.
@@ -345,4 +345,4 @@ Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv) {
     });
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until
 /// then.
@@ -45,4 +45,4 @@ Result<std::string> disassembleSpirv(std::span<const uint32_t> spirv);
 /// Drops the names, which no driver needs.
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 inline bool isGlslWordPart(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
@@ -87,4 +87,4 @@ private:
     bool mBeginsLine = true;
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

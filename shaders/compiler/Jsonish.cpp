@@ -8,7 +8,7 @@
 #include <charconv>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr int kMaxValueDepth = 32;
@@ -165,4 +165,4 @@ Result<MaterialText> parseMaterialText(std::string_view text, std::string_view f
     return Parser(text, fileName, includes).file();
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// The text behind a path of an #include; nothing if there is no such file.
 using IncludeResolver = std::function<std::optional<std::string>(std::string_view path)>;
@@ -67,4 +67,4 @@ struct MaterialText {
 Result<MaterialText> parseMaterialText(std::string_view text, std::string_view fileName,
                                        IncludeResolver const& includes);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr size_t kMaxIncludeDepth = 8;
@@ -168,4 +168,4 @@ Result<GlslBlock> JsonishLexer::rawBlock() {
     return errorAt(block.at, "this block has no closing brace");
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 enum class TokenKind : uint8_t {
     Word,
@@ -72,4 +72,4 @@ private:
     size_t mTotalBytes = 0;
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::string nameListOf(std::vector<std::string_view> const& names) {
@@ -307,4 +307,4 @@ std::vector<std::string> languageWords() {
     return { words.begin(), words.end() };
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

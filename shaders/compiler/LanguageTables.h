@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// Name and text: properties, lists, types, attributes, filters, members, members-of-vertices, members-of-shading,
 /// functions, helpers.
@@ -18,4 +18,4 @@ std::vector<std::pair<std::string, std::string>> languageTables();
 /// Sorted, each once: properties, their values, types, members, functions of the engine.
 std::vector<std::string> languageWords();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

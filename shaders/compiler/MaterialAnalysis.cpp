@@ -14,7 +14,7 @@
 #include <limits>
 #include <unordered_map>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The location of the first probed member among the probe's outputs, and that of its initial value among the inputs.
@@ -187,4 +187,4 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

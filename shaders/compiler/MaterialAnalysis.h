@@ -13,7 +13,7 @@
 #include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/StageText.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// Sets needs.terms, and the needs that follow from them. `needs`: the result of findNeeds().
 Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver const& includes, MaterialNeeds& needs);
@@ -22,4 +22,4 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
 void declareProbe(StageText& out, MaterialDefinition const& definition);
 void defineProbeMain(StageText& out, MaterialDefinition const& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

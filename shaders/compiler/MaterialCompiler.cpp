@@ -19,7 +19,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Shared by all variants.
@@ -244,4 +244,4 @@ Result<std::string> preprocessMaterial(std::string_view text, std::string_view f
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

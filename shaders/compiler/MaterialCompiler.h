@@ -21,11 +21,11 @@
 #include <utility>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 class JobSystem;
 }
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct CompileOptions {
     bool exact = true; ///< identical bits on both APIs (ExactLowering.h)
@@ -58,4 +58,4 @@ Result<std::string> describeTerms(std::string_view text, std::string_view fileNa
 Result<std::string> reflectParameters(std::string_view text, std::string_view fileName,
                                       CompileOptions const& options = {});
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 Error unknownProperty(std::string const& name, JsonValue const& value) {
@@ -95,4 +95,4 @@ Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fi
     return definition;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

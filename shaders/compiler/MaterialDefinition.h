@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct NamedAt {
     std::string name;
@@ -56,7 +56,8 @@ struct MaterialDefinition {
     bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
-    bool wideLines = false; ///< vertices are corners of segments, as makeLineQuads() (<filament/Lines.h>) gives them
+    bool wideLines =
+            false; ///< vertices are corners of segments, as makeLineQuads() (<filament_core/Lines.h>) gives them
     bool clearCoatIorChange = true;
     bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
     SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;
@@ -91,4 +92,4 @@ Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fi
 Result<uint16_t> variantBitsOfFilters(std::span<const std::string> names);
 std::vector<std::string_view> variantFilterNames();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

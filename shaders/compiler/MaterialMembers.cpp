@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using Definition = MaterialDefinition;
@@ -169,4 +169,4 @@ void defineObserverMain(StageText& out, MaterialDefinition const& definition) {
     out.line("}");
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

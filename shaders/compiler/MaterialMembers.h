@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 enum class Absent : uint8_t {
     Never,     ///< always read: no term
@@ -48,4 +48,4 @@ std::string_view floatType(uint32_t components);
 /// "vec2(0.5, 1.0)"
 std::string floatLiteral(std::span<const float> components);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

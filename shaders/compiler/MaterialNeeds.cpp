@@ -10,7 +10,7 @@
 #include <initializer_list>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The author's code with its includes, as input of CodeScan.
@@ -207,4 +207,4 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     return needs;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <optional>
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 bool isHidden(Parameter const& parameter) {
@@ -98,4 +98,4 @@ std::vector<std::string> materialWarnings(MaterialDefinition const& definition, 
     return warnings;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

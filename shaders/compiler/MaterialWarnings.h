@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 std::vector<std::string> materialWarnings(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                           IncludeResolver const& includes);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

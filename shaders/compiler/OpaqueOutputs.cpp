@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Stands for the output of the vertex that does not exist. It only has to differ from what authors write.
@@ -320,4 +320,4 @@ std::vector<uint32_t> hideConstantOutputs(std::span<const uint32_t> spirv) {
     return rewriter.isVertex() ? rewriter.run() : std::vector<uint32_t>(spirv.begin(), spirv.end());
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <bit>
 #include <charconv>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr uint32_t kMaxBlockBytes = 16384;  // every device offers this much
@@ -408,4 +408,4 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct ListProperty {
     std::string_view name;
@@ -31,4 +31,4 @@ std::vector<std::string_view> attributeNames();
 /// Fails: too many bytes.
 Result<void> layOutParameters(MaterialDefinition& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

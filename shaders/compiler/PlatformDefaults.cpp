@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/PlatformDefaults.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 void usePlatformDefaults(Platform platform, MaterialDefinition& definition) {
     MaterialQuality& quality = definition.package.quality;
@@ -14,4 +14,4 @@ void usePlatformDefaults(Platform platform, MaterialDefinition& definition) {
         definition.specularAmbientOcclusion = SpecularAmbientOcclusion::None;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,10 +8,10 @@
 
 #include "shaders/compiler/MaterialDefinition.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 enum class Platform : uint8_t { All, Desktop, Mobile };
 
 void usePlatformDefaults(Platform platform, MaterialDefinition& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

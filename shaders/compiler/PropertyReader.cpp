@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 bool isIdentifierCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -87,4 +87,4 @@ Error unknownName(JsonValue const& value, std::string_view what, std::span<const
     return errorAt(value.at, fmt::format("'{}' cannot be '{}'{}", what, value.text, suggestion(value.text, known)));
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 bool equalIgnoringCase(std::string_view a, std::string_view b);
 
@@ -46,4 +46,4 @@ Result<void> readEnum(JsonValue const& value, std::string_view what, std::pair<s
     return unknownName(value, what, known);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

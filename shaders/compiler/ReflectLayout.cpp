@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <exception>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using backend::BindGroupLayout;
@@ -179,4 +179,4 @@ Result<void> checkContains(ProgramLayout const& layout, ProgramLayout const& use
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct StageResources {
     backend::ProgramLayout layout{};
@@ -29,4 +29,4 @@ Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, s
 /// InvalidArgument, naming the binding, unless `layout` has all of `used` with the same types and stages.
 Result<void> checkContains(backend::ProgramLayout const& layout, backend::ProgramLayout const& used);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

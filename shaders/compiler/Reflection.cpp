@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 const char* precisionName(Precision precision) {
@@ -41,4 +41,4 @@ std::string parametersAsJson(MaterialDefinition const& definition) {
     return fmt::format("{{\n  \"parameters\": [{}{}]\n}}\n", entries, entries.empty() ? "" : "\n  ");
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

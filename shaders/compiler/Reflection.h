@@ -7,9 +7,9 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// The author's parameters in the order of the file; sizes are strings, as in the guide.
 std::string parametersAsJson(MaterialDefinition const& definition);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

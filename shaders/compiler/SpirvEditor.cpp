@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 void append(std::vector<uint32_t>& words, spv::Op op, std::initializer_list<uint32_t> fixed,
@@ -285,4 +285,4 @@ std::vector<uint32_t> SpirvEditor::rewrite(Replace const& replace) {
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

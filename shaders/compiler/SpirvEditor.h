@@ -18,7 +18,7 @@
 #include <unordered_set>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 class SpirvEditor {
 public:
@@ -99,4 +99,4 @@ private:
     size_t mLastEmitted = 0;  ///< word index in mBody
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

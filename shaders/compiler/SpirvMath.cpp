@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/SpirvMath.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 Value binary(spv::Op op, Value a, Value b) { return { a.editor, a.editor->emit(op, a.type(), { a.id, b.id }) }; }
@@ -73,4 +73,4 @@ Value dot(Value a, Value b) {
     return sum(terms);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

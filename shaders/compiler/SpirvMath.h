@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct Value {
     SpirvEditor* editor = nullptr;
@@ -45,4 +45,4 @@ Value selectLess(Value a, Value b, Value ifLess, Value otherwise);
 Value dot(Value a, Value b);             ///< ((x + y) + z) + w
 Value sum(std::span<const Value> terms); ///< left to right
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <exception>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using spirv_cross::CompilerGLSL;
@@ -121,4 +121,4 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
     }
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,8 +10,8 @@
 #include <span>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::ProgramLayout const& layout);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// A module, or one of its instructions.
 using SpirvWords = std::span<const uint32_t>;
@@ -28,4 +28,4 @@ void forEachInstruction(SpirvWords module, auto&& visit) {
     }
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr size_t kMaxBytes = 4 << 20;
@@ -200,4 +200,4 @@ Result<void> StageText::block(GlslBlock const& block) {
     return done;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

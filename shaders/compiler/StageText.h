@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// What follows #error in place of an include that cannot be followed, in a branch that may be inactive.
 inline constexpr std::string_view kMissingInclude = "filament_missing_include";
@@ -61,4 +61,4 @@ private:
     bool mIsInComment = false;
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

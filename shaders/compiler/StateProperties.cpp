@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The words for the enumerators of a property.
@@ -346,4 +346,4 @@ constexpr std::array kProperties{
 
 std::span<const StateProperty> stateProperties() { return kProperties; }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

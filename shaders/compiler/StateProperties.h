@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 struct StateProperty {
     std::string_view name;
@@ -22,4 +22,4 @@ struct StateProperty {
 
 std::span<const StateProperty> stateProperties();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<std::string> expandTemplates(std::string_view text, std::string_view fileName, TemplateValues const& values) {
     std::string out;
@@ -31,4 +31,4 @@ Result<std::string> expandTemplates(std::string_view text, std::string_view file
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,10 +10,10 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 using TemplateValues = std::map<std::string, std::string, std::less<>>;
 
 Result<std::string> expandTemplates(std::string_view text, std::string_view fileName, TemplateValues const& values);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

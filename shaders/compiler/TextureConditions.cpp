@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// The names of the constants, as in the author's list.
@@ -76,4 +76,4 @@ Result<void> checkTextureConditions(MaterialDefinition const& definition, Materi
     return {};
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -13,9 +13,9 @@
 #include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/StageText.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 Result<void> checkTextureConditions(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     IncludeResolver const& includes);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

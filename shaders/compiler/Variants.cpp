@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Transparent materials cast shadows only with transparentShadow, and backgrounds only have depth if they write it.
@@ -63,4 +63,4 @@ std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits) {
     return keys;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

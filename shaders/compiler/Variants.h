@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// The bits that can change the code of such a material: no lights for unlit materials, kVariantHalf only if the
 /// material requests it, kVariantMerged for post-process materials with currentPixel parameters. Materials in object
@@ -19,4 +19,4 @@ uint16_t selectableBits(MaterialDefinition const& definition);
 /// Ascending; always contains 0. `selectable`: see above.
 std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 inline constexpr int kLtcTableSize = 32;
 
@@ -270,4 +270,4 @@ inline constexpr std::array<float, 3 * kLtcTableSize * kLtcTableSize> kLtcTable{
 };
 // clang-format on
 
-} // namespace filament::shader
+} // namespace filament_core::shader

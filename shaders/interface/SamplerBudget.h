@@ -24,7 +24,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 inline constexpr uint32_t kSamplersOfEveryDevice = 16;
 
@@ -92,4 +92,4 @@ static_assert(samplersOfMaterial(PassKind::Lit) == 9 && samplersOfMaterial(PassK
                       samplersOfMaterial(PassKind::Unlit, false) >= 13,
               "chapter 7 of the materials guide promises authors as many");
 
-} // namespace filament::shader
+} // namespace filament_core::shader

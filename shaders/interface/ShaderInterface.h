@@ -12,7 +12,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 // clang-format off
 // ---- vertex attribute locations (all shaders)
@@ -215,7 +215,7 @@ struct MorphUniforms {
 };
 
 // ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
-/// An int named quality_<name>, 0 by default, that counts the enumerators of <filament/Quality.h>.
+/// An int named quality_<name>, 0 by default, that counts the enumerators of <filament_core/Quality.h>.
 struct QualityConstant {
     const char* name;
     uint32_t id;
@@ -300,4 +300,4 @@ static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);
 static_assert(sizeof(ShadowUniforms) <= 16384);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-namespace filament::shader::glsl {
+namespace filament_core::shader::glsl {
 
 using glm::abs;
 using glm::clamp;
@@ -60,4 +60,4 @@ glm::vec<L, T> pow(glm::vec<L, T> const& x, glm::vec<L, T> const& y) {
     return componentwise([](T each, T exponent) { return elementary::pow(each, exponent); }, x, y);
 }
 
-} // namespace filament::shader::glsl
+} // namespace filament_core::shader::glsl

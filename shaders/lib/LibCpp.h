@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shader library as C++: exactly the text that the GPU runs, in namespace filament::shader::lib, on GLM's types.
+/// The shader library as C++: exactly the text that the GPU runs, in namespace filament_core::shader::lib, on GLM's types.
 ///   Use     tests check the BRDF before anything is drawn; the environment baker samples with the same functions.
 ///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and transcendental functions are
 ///   those of base/math/Elementary.h, rounded from double precision.
@@ -10,9 +10,9 @@
 
 #include "shaders/lib/GlslBuiltIns.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 
 using glm::uint;
 using glm::vec2;
@@ -68,4 +68,4 @@ namespace {
 
 #undef OUT
 
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

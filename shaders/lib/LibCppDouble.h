@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shader library in double precision, in namespace filament::shader::lib64: the formulas without significant
+/// The shader library in double precision, in namespace filament_core::shader::lib64: the formulas without significant
 /// rounding. The reference renderer shades with it; the numerics tests compare fp32 and fp16 with it.
 ///   Source  the build copies shaders/lib/*.glsl with `float` as double and literals without f
 ///           (cmake/DoublePrecisionGlsl.cmake); every file, every function, rebuilt when one of them changes. Link
@@ -15,7 +15,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 
 using glm::uint;
 using vec2 = glm::dvec2;
@@ -36,4 +36,4 @@ namespace {
 
 #undef OUT
 
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -13,7 +13,7 @@ float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne) {
     return 1.0f - sqrt(max(1.0f - level / levelOfRoughnessOne, 0.0f));
 }
 
-// Other mappings of roughness to levels (RoughnessMapping in <filament/Quality.h>, in its order).
+// Other mappings of roughness to levels (RoughnessMapping in <filament_core/Quality.h>, in its order).
 const int kRoughnessQuadratic = 0;
 const int kRoughnessLogarithmic = 1; // every level doubles alpha, but level 0 is a mirror
 const int kRoughnessLinear = 2;

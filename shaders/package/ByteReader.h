@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 class ByteReader {
 public:
@@ -64,4 +64,4 @@ private:
     bool mFailed = false;
 };
 
-} // namespace filament::shader
+} // namespace filament_core::shader

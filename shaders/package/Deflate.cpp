@@ -10,7 +10,7 @@
 #include <limits>
 #include <new>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr int kRawDeflate = -MAX_WBITS; ///< zlib's sign for: neither header nor checksum
@@ -91,4 +91,4 @@ Result<std::vector<std::byte>> inflateBytes(std::span<const std::byte> packed, u
     return out;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

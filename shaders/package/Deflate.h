@@ -15,9 +15,9 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 std::vector<std::byte> deflateBytes(std::span<const std::byte> bytes);
 Result<std::vector<std::byte>> inflateBytes(std::span<const std::byte> packed, uint32_t maxBytes);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

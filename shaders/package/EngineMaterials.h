@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// The bytes of a package, for readPackage().
 std::span<const std::byte> engineMaterial(std::string_view name);
@@ -27,4 +27,4 @@ bool isEnginePackage(std::span<const std::byte> bytes);
 /// All names, ascending.
 std::span<const std::string_view> engineMaterialNames();
 
-} // namespace filament::shader
+} // namespace filament_core::shader

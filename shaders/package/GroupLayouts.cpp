@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 void mergeInputs(MaterialPackage const& package, backend::BindGroupLayout& group) {
@@ -97,4 +97,4 @@ backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t va
     return layout;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -7,7 +7,7 @@
 #include "shaders/interface/SamplerBudget.h"
 #include "shaders/package/Package.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 PassKind passKind(MaterialPackage const& package);
 /// Screen-space reflections or refraction.
@@ -31,4 +31,4 @@ backend::BindGroupLayout deformationGroupLayout(bool isOfMotion = false);
 /// the order of the parameters.
 backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

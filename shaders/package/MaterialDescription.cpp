@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Material.h>
+#include <filament_core/Material.h>
 
 #include <algorithm>
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 // In the order of the enumerators.
@@ -39,4 +39,4 @@ ParameterDescription const* MaterialDescription::findParameter(std::string_view 
     return found == parameters.end() ? nullptr : &*found;
 }
 
-} // namespace filament
+} // namespace filament_core

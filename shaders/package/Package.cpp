@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 template <class T, class Key>
@@ -44,4 +44,4 @@ bool MaterialPackage::hasTextures() const {
     return std::ranges::any_of(parameters, [](Parameter const& parameter) { return isTexture(parameter.type); });
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

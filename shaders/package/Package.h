@@ -9,7 +9,7 @@
 #include "backend/api/Descriptions.h"
 #include "base/Result.h"
 
-#include <filament/Material.h>
+#include <filament_core/Material.h>
 
 #include <array>
 #include <cstddef>
@@ -20,16 +20,16 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
-using filament::Blending;
-using filament::Culling;
-using filament::MaterialDomain;
-using filament::ParameterType;
-using filament::Precision;
-using filament::SamplerFormat;
-using filament::ShadingModel;
-using filament::TransparencyMode;
+using filament_core::Blending;
+using filament_core::Culling;
+using filament_core::MaterialDomain;
+using filament_core::ParameterType;
+using filament_core::Precision;
+using filament_core::SamplerFormat;
+using filament_core::ShadingModel;
+using filament_core::TransparencyMode;
 
 enum class PostLightingBlending : uint8_t { Opaque, Transparent, Add, Multiply, Screen };
 enum class VertexDomain : uint8_t { Object, World, View, Device };
@@ -192,4 +192,4 @@ inline constexpr std::string_view kDoubleSidedParameter = "_doubleSided";
 Result<MaterialPackage> readPackage(std::span<const std::byte> bytes);
 std::vector<std::byte> writePackage(MaterialPackage const& package);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

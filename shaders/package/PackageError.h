@@ -6,10 +6,10 @@
 
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 inline Error corruptPackage(std::string_view what) {
     return fail(ErrorCode::Corrupt, "material package: {}; compile the material again with matc", what);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

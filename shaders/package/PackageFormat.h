@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace filament::shader::format {
+namespace filament_core::shader::format {
 
 constexpr uint32_t tag(const char (&text)[5]) {
     return static_cast<uint32_t>(static_cast<uint8_t>(text[0])) |
@@ -34,4 +34,4 @@ inline constexpr uint32_t kMaxTerms = 64;
 inline constexpr uint32_t kMaxCodeBytes = 64 << 20;
 inline constexpr uint32_t kMaxVariants = 512; ///< every set of the VariantBits of surfaces
 
-} // namespace filament::shader::format
+} // namespace filament_core::shader::format

@@ -14,7 +14,7 @@
 #include <set>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using namespace format;
@@ -322,4 +322,4 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     return package;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using namespace format;
@@ -199,4 +199,4 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     return file.bytes();
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr uint32_t kVectorBytes = 16;
@@ -45,4 +45,4 @@ uint32_t assignOffsets(std::span<Parameter> parameters) {
     return roundUp(end, kVectorBytes);
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

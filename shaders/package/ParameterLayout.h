@@ -11,7 +11,7 @@
 #include <cstring>
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 /// Size of one value, not an array: 4, 8, 12 or 16; 48 and 64 for the matrices; 0 for textures.
 uint32_t valueBytes(ParameterType type);
@@ -46,4 +46,4 @@ void storeValue(std::byte* to, glm::mat<N, N, float> const& value) {
     for (int column = 0; column < N; ++column) std::memcpy(to + 16 * column, &value[column], sizeof(value[column]));
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,7 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using backend::BindGroupLayout;
@@ -166,4 +166,4 @@ void removeUnusedTextures(MaterialPackage& package, std::span<const ConstantValu
     package.layout = after.layout;
 }
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -16,8 +16,8 @@
 
 #include <span>
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 void removeUnusedTextures(MaterialPackage& package, std::span<const backend::ConstantValue> constants);
 
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class MesaSettings final : public testing::Environment {
@@ -15,4 +15,4 @@ class MesaSettings final : public testing::Environment {
 [[maybe_unused]] testing::Environment* const kMesaSettings = testing::AddGlobalTestEnvironment(new MesaSettings);
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

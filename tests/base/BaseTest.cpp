@@ -8,7 +8,7 @@
 #include "base/Result.h"
 #include "base/Suggest.h"
 
-#include <filament/Version.h>
+#include <filament_core/Version.h>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 #include <string>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(Arena, KeepsItsBlocksSoThatASecondFrameReservesNothing) {
@@ -229,4 +229,4 @@ TEST(Version, NumbersComparePartByPart) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

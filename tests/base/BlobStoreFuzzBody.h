@@ -14,7 +14,7 @@
 #include <fstream>
 #include <span>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Writes the store into `file`. Returns whether it has entries.
 inline bool fuzzBlobStore(std::span<const std::byte> entries, std::filesystem::path const& file) {
@@ -32,4 +32,4 @@ inline bool fuzzBlobStore(std::span<const std::byte> entries, std::filesystem::p
     return store.size() > 0;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

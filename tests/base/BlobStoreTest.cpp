@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::ElementsAre;
@@ -183,4 +183,4 @@ TEST_F(BlobStoreTest, WarnsWhereItCannotWrite) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

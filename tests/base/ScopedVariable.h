@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 
 class ScopedVariable {
 public:
@@ -30,4 +30,4 @@ private:
     std::optional<std::string> mBefore;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

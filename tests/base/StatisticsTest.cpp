@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::ElementsAre;
@@ -41,4 +41,4 @@ TEST(PairedRatios, AreFormedWithinARoundAndLeaveOutZeros) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

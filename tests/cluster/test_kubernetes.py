@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MANIFESTS = sorted((ROOT / "scripts/cluster/kubernetes").glob("*.yaml"))
 SCHEMA = json.loads((ROOT / "tests/cluster/job_schema.json").read_text())
 VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
-NUMBERS = dict(re.findall(r"#define FILAMENT_CORE_VERSION_(\w+) (\d+)", (ROOT / "base/include/filament/Version.h").read_text()))
+NUMBERS = dict(re.findall(r"#define FILAMENT_CORE_VERSION_(\w+) (\d+)", (ROOT / "base/include/filament_core/Version.h").read_text()))
 IMAGE = f"filament-core:{NUMBERS['MAJOR']}.{NUMBERS['MINOR']}.{NUMBERS['PATCH']}"  # of this version
 CONTAINERFILE = (ROOT / "Containerfile").read_text()
 

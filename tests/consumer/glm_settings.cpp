@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Passes vectors and matrices to the library and back, by value and by reference, with whatever settings of GLM this
 // file is compiled.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cmath>
 #include <cstdio>
 
 namespace {
 
-using namespace filament;
+using namespace filament_core;
 
 bool isNear(double a, double b) { return std::abs(a - b) < 1e-6; }
 

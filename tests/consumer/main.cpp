@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Includes every public header and draws one frame with the device-less backend: compiles, links and runs anywhere.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 #include <materials/stone.h>
 
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 namespace {
 
-using namespace filament;
+using namespace filament_core;
 
 int fail(Error const& error) {
     std::fprintf(stderr, "consumer: error: %s\n", error.message.c_str());

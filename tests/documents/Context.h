@@ -3,8 +3,8 @@
 // names are known (check_code.py). An example may redeclare any of them.
 #pragma once
 
-#include <filament/BuiltInMaterials.h>
-#include <filament/filament.h>
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/filament_core.h>
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@ std::span<const std::byte> stone(); // as filament_add_materials() generates it
 }
 
 namespace example {
-using namespace filament;
+using namespace filament_core;
 
 // Engine and Model are results at first: examples write engine-> right after Engine::create(), and engine. elsewhere.
 struct Device {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 /// Uses no heap memory itself, because live blocks are counted around it.
@@ -69,4 +69,4 @@ uint64_t sweepAllocations(Sweep const& sweep, std::function<std::unique_ptr<Scen
     return failed;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -7,13 +7,13 @@
 
 #include "tests/faults/FailingAllocator.h"
 
-#include <filament/Result.h>
+#include <filament_core/Result.h>
 
 #include <functional>
 #include <memory>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 
 class Scenario {
 public:
@@ -35,4 +35,4 @@ struct Sweep {
 /// Returns how many allocations were failed.
 uint64_t sweepAllocations(Sweep const& sweep, std::function<std::unique_ptr<Scenario>()> const& make);
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 void expectEachNamesMemory(std::vector<std::string> const& errors) {
@@ -365,4 +365,4 @@ TEST(FailingAllocator, CountsBlocksThatWereNotFreed) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

@@ -3,7 +3,7 @@
 // tests/faults/devices does part of this on both APIs.
 #include "tests/faults/FaultStage.h"
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 using backend::FaultInjector;
@@ -105,4 +105,4 @@ TEST(DeviceMemory, RefusedAtEveryCreationOfAFrameIsNamedAndTheRestIsDrawn) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

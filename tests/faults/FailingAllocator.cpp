@@ -19,7 +19,7 @@
 
 extern "C" const char __executable_start, etext; // set by the linker
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 constexpr int kFrames = 48;
@@ -102,7 +102,7 @@ void release(void* memory) {
     std::free(memory);
 }
 
-// "program(_ZN8filament4Foo3barEv+0x1f) [0x55...]" -> "filament::Foo::bar()"; empty for other functions.
+// "program(_ZN8filament4Foo3barEv+0x1f) [0x55...]" -> "filament_core::Foo::bar()"; empty for other functions.
 std::string engineFunction(const char* line) {
     const char* begin = std::strchr(line, '(');
     const char* end = begin ? std::strpbrk(begin, "+)") : nullptr;
@@ -112,9 +112,9 @@ std::string engineFunction(const char* line) {
     const std::unique_ptr<char, decltype(&std::free)> name(
             abi::__cxa_demangle(mangled.c_str(), nullptr, nullptr, &status), &std::free);
     std::string text = status == 0 ? name.get() : "";
-    if (text.find("filament::test") != std::string::npos) return {};
+    if (text.find("filament_core::test") != std::string::npos) return {};
     // Templates of the standard library are identified by the engine's function that instantiates them.
-    if (!text.starts_with("filament::")) return {};
+    if (!text.starts_with("filament_core::")) return {};
     return text.substr(0, text.find('('));
 }
 
@@ -168,19 +168,19 @@ std::string AllocationFailure::lastSite() {
 
 int64_t liveBlocks() { return gLive.load(std::memory_order_relaxed); }
 
-} // namespace filament::test
+} // namespace filament_core::test
 
 // The array and nothrow forms call these.
 void* operator new(size_t bytes) {
-    if (filament::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
-    return filament::test::counted(std::malloc(bytes));
+    if (filament_core::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
+    return filament_core::test::counted(std::malloc(bytes));
 }
 void* operator new(size_t bytes, std::align_val_t alignment) {
-    if (filament::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
+    if (filament_core::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
     const auto align = static_cast<size_t>(alignment);
-    return filament::test::counted(std::aligned_alloc(align, (bytes + align - 1) / align * align));
+    return filament_core::test::counted(std::aligned_alloc(align, (bytes + align - 1) / align * align));
 }
-void operator delete(void* memory) noexcept { filament::test::release(memory); }
-void operator delete(void* memory, size_t) noexcept { filament::test::release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { filament::test::release(memory); }
-void operator delete(void* memory, size_t, std::align_val_t) noexcept { filament::test::release(memory); }
+void operator delete(void* memory) noexcept { filament_core::test::release(memory); }
+void operator delete(void* memory, size_t) noexcept { filament_core::test::release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { filament_core::test::release(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { filament_core::test::release(memory); }

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 
 enum class Whose : uint8_t {
     App,    ///< the thread that requests the failure
@@ -46,4 +46,4 @@ public:
 /// Blocks from operator new that have not been deleted, over all threads.
 int64_t liveBlocks();
 
-} // namespace filament::test
+} // namespace filament_core::test

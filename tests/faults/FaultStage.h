@@ -11,7 +11,7 @@
 #include "tests/scenes/Sphere.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// FILAMENT_STRESS is set: test every place instead of some.
 inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
@@ -128,4 +128,4 @@ private:
 
 inline bool contains(std::string const& text, const char* part) { return text.find(part) != std::string::npos; }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 constexpr int kThreads = 4;
@@ -64,4 +64,4 @@ TEST(FaultStorm, EveryEngineSuffersItsOwnFaultOnly) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

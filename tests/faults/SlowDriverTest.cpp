@@ -10,7 +10,7 @@
 #include <chrono>
 #include <mutex>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -188,4 +188,4 @@ TEST(OversizedPicture, AsATextureOfAMaterialIsReplacedByWhite) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

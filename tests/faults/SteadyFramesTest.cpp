@@ -4,9 +4,9 @@
 #include "tests/faults/FailingAllocator.h"
 #include "tests/faults/FaultStage.h"
 
-#include <filament/Animator.h>
-#include <filament/Gltf.h>
-#include <filament/Mesh.h>
+#include <filament_core/Animator.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Mesh.h>
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include <chrono>
 #include <span>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 constexpr int kWarmUp = 40, kWatchedFrames = 32, kLamps = 1000, kNodes = 64, kSide = 17;
@@ -167,4 +167,4 @@ TEST_P(SteadyFrames, AllocateNothing) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

@@ -28,8 +28,8 @@ void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 uint64_t allocationCount() { return gAllocations.load(std::memory_order_relaxed); }
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

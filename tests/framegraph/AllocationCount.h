@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 uint64_t allocationCount();
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -3,7 +3,7 @@
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using namespace backend;
@@ -240,4 +240,4 @@ TEST_F(BufferGraphDeathTest, UsingABufferThatThePassDidNotDeclare) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -2,7 +2,7 @@
 // Each step of compile() by itself, without a device.
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 // ---------------------------------------------------------------------------------------------- cull
@@ -342,4 +342,4 @@ TEST_F(Usage, ATransientAttachmentIsNeitherLoadedNorStored) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 
 using backend::Format;
 using backend::LoadOp;
@@ -119,4 +119,4 @@ private:
     backend::TextureHandle mTarget;
 };
 
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -4,7 +4,7 @@
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using namespace backend;
@@ -337,4 +337,4 @@ TEST_F(HistoryDeathTest, AskingForTheAgeOfAnotherTexture) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

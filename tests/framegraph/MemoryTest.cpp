@@ -3,7 +3,7 @@
 
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 TEST(GraphMemory, CountsLevelsLayersAndSamples) {
@@ -136,4 +136,4 @@ TEST_F(GraphMemoryTest, APassOccupiesTheLevelThatItDrawsTo) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 class MergePasses : public GraphTest {
@@ -269,4 +269,4 @@ TEST_F(MergePasses, PassesThatDoNotReadInputsStayApart) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

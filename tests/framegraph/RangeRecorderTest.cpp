@@ -8,7 +8,7 @@
 #include <numeric>
 #include <string>
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 using namespace backend;
@@ -121,4 +121,4 @@ TEST_P(RecordRanges, APassRecordsTheSameStreamWithAndWithoutARangeRecorder) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

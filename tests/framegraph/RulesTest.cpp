@@ -2,7 +2,7 @@
 // Every rule of a graph names the pass and the texture that break it.
 #include "tests/framegraph/GraphFixture.h"
 
-namespace filament::framegraph {
+namespace filament_core::framegraph {
 namespace {
 
 class GraphRulesDeathTest : public GraphTest {};
@@ -229,4 +229,4 @@ TEST_F(GraphRulesDeathTest, ForgottenNamesSizesAndHandles) {
 }
 
 } // namespace
-} // namespace filament::framegraph
+} // namespace filament_core::framegraph

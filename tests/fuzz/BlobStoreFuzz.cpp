@@ -10,7 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static const std::filesystem::path file =
             std::filesystem::temp_directory_path() / fmt::format("blob-store-fuzz.{}", getpid());
-    filament::setLogThreshold(filament::Severity::Error); // a damaged store is a warning
-    filament::test::fuzzBlobStore(std::as_bytes(std::span(data, size)), file);
+    filament_core::setLogThreshold(filament_core::Severity::Error); // a damaged store is a warning
+    filament_core::test::fuzzBlobStore(std::as_bytes(std::span(data, size)), file);
     return 0;
 }

@@ -2,6 +2,6 @@
 #include "tests/fuzz/CubeFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::fuzzCubeOnce({ data, size });
+    filament_core::fuzzCubeOnce({ data, size });
     return 0;
 }

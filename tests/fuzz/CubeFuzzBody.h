@@ -5,13 +5,13 @@
 
 #include "base/Assert.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <cmath>
 #include <cstdint>
 #include <span>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns whether it was a look.
 inline bool fuzzCubeOnce(std::span<const uint8_t> input) {
@@ -35,4 +35,4 @@ inline bool fuzzCubeOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -5,6 +5,6 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::assets::test::fuzzDataUri({ reinterpret_cast<const char*>(data), size });
+    filament_core::assets::test::fuzzDataUri({ reinterpret_cast<const char*>(data), size });
     return 0;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 /// Returns whether the URI has contents.
 inline bool fuzzDataUri(std::string_view text) {
@@ -23,4 +23,4 @@ inline bool fuzzDataUri(std::string_view text) {
     return true;
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

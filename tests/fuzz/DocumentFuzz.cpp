@@ -2,6 +2,6 @@
 #include "tests/fuzz/DocumentFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::fuzzDocumentOnce({ data, size });
+    filament_core::fuzzDocumentOnce({ data, size });
     return 0;
 }

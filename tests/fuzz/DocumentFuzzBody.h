@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns whether it was a document.
 inline bool fuzzDocumentOnce(std::span<const uint8_t> input) {
@@ -26,4 +26,4 @@ inline bool fuzzDocumentOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Returns whether it was a partial film.
 inline bool fuzzFilmFileOnce(std::span<const std::byte> bytes) {
@@ -44,4 +44,4 @@ inline bool fuzzFilmFile(std::span<const std::byte> bytes) {
     return false;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -5,6 +5,6 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::test::fuzzFrame({ reinterpret_cast<const char*>(data), size });
+    filament_core::test::fuzzFrame({ reinterpret_cast<const char*>(data), size });
     return 0;
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::test {
+namespace filament_core::test {
 
 inline bool fuzzManifest(std::string_view text) {
     const Result<record::Manifest> read = record::parseManifest(text, "frame.json");
@@ -52,4 +52,4 @@ inline bool fuzzFrame(std::string_view input) {
     return input[0] % 2 == 0 ? fuzzManifest(input.substr(1)) : fuzzFrameTrace(input.substr(1));
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

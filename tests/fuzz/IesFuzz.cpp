@@ -2,6 +2,6 @@
 #include "tests/fuzz/IesFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::assets::fuzzIesOnce({ data, size });
+    filament_core::assets::fuzzIesOnce({ data, size });
     return 0;
 }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Returns whether it was a photometric file.
 inline bool fuzzIesOnce(std::span<const uint8_t> input) {
@@ -41,4 +41,4 @@ inline bool fuzzIesOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,12 +7,12 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    namespace test = filament::assets::test;
+    namespace test = filament_core::assets::test;
     const auto bytes = std::as_bytes(std::span(data, size));
     test::fuzzPicture(bytes);
-    if (filament::assets::isBakedEnvironment(bytes))
+    if (filament_core::assets::isBakedEnvironment(bytes))
         test::fuzzEnvironment(bytes);
-    else if (filament::assets::isKtx2(bytes))
+    else if (filament_core::assets::isKtx2(bytes))
         test::fuzzEnvironmentPackage(bytes);
     else if (!test::fuzzHdrImage(bytes))
         test::fuzzImage(bytes);

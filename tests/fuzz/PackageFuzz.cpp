@@ -5,6 +5,6 @@
 #include <cstdint>
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::shader::test::fuzzPackage(std::as_bytes(std::span(data, size)));
+    filament_core::shader::test::fuzzPackage(std::as_bytes(std::span(data, size)));
     return 0;
 }

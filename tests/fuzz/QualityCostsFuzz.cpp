@@ -2,6 +2,6 @@
 #include "tests/fuzz/QualityCostsFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::fuzzQualityCostsOnce({ data, size });
+    filament_core::fuzzQualityCostsOnce({ data, size });
     return 0;
 }

@@ -5,13 +5,13 @@
 
 #include "base/Assert.h"
 
-#include <filament/QualityCosts.h>
+#include <filament_core/QualityCosts.h>
 
 #include <cmath>
 #include <cstdint>
 #include <span>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns whether it was a table.
 inline bool fuzzQualityCostsOnce(std::span<const uint8_t> input) {
@@ -37,4 +37,4 @@ inline bool fuzzQualityCostsOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament
+} // namespace filament_core

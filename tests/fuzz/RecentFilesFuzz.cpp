@@ -2,6 +2,6 @@
 #include "tests/fuzz/RecentFilesFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::fuzzRecentFilesOnce({ data, size });
+    filament_core::fuzzRecentFilesOnce({ data, size });
     return 0;
 }

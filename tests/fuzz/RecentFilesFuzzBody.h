@@ -11,7 +11,7 @@
 #include <set>
 #include <span>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns whether it had files.
 inline bool fuzzRecentFilesOnce(std::span<const uint8_t> input) {
@@ -30,4 +30,4 @@ inline bool fuzzRecentFilesOnce(std::span<const uint8_t> input) {
     return !files.empty();
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -68,6 +68,6 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::backend::vulkan::fuzzShaderWords(std::span(data, size));
+    filament_core::backend::vulkan::fuzzShaderWords(std::span(data, size));
     return 0;
 }

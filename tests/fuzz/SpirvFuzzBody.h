@@ -12,7 +12,7 @@
 #include <cstring>
 #include <span>
 
-namespace filament::engine::test {
+namespace filament_core::engine::test {
 
 /// Input: one byte for the stage and the variant, then edits of 8 bytes: which word, and its new value. Returns whether
 /// the package is accepted.
@@ -35,4 +35,4 @@ inline bool fuzzSpirv(std::span<const uint8_t> input) {
     return checked.ok();
 }
 
-} // namespace filament::engine::test
+} // namespace filament_core::engine::test

@@ -2,6 +2,6 @@
 #include "tests/fuzz/TextFormsFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::fuzzTextFormsOnce({ data, size });
+    filament_core::fuzzTextFormsOnce({ data, size });
     return 0;
 }

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament {
+namespace filament_core {
 
 /// Returns whether it was one of the three.
 inline bool fuzzTextFormsOnce(std::span<const uint8_t> input) {
@@ -28,4 +28,4 @@ inline bool fuzzTextFormsOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const auto bytes = std::as_bytes(std::span(data, size));
-    filament::assets::test::fuzzTexture(bytes);
-    filament::assets::test::fuzzBasis(bytes);
+    filament_core::assets::test::fuzzTexture(bytes);
+    filament_core::assets::test::fuzzBasis(bytes);
     return 0;
 }

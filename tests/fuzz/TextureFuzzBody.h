@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedTexels = 1u << 18;
 
@@ -61,4 +61,4 @@ inline bool fuzzBasis(std::span<const std::byte> bytes) {
     return read->decodeSlice(bytes.subspan(2 + books.size()), 37, 29, texels).ok();
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -22,7 +22,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::test {
+namespace filament_core::test {
 
 enum class ToolFile : uint8_t { Scene, Baselines, Results, Times, Journal, Effects, Rows, Show, Accuracy };
 inline constexpr int kToolFiles = 9;
@@ -105,4 +105,4 @@ inline bool fuzzToolFile(std::string_view input) {
     return fuzzToolFile(kind, input.substr(1));
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

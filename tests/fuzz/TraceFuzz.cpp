@@ -2,6 +2,6 @@
 #include "tests/fuzz/TraceFuzzBody.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    filament::backend::fuzzTraceOnce({ data, size });
+    filament_core::backend::fuzzTraceOnce({ data, size });
     return 0;
 }

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 struct IgnoreResults final : ResultSink {
     void onReadback(Ticket, std::span<const std::byte>) override {}
@@ -50,4 +50,4 @@ inline bool fuzzTraceOnce(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class AdoptedThreadTest : public JobSystemFixture {};
@@ -131,4 +131,4 @@ TEST(AdoptedThreadDeathTest, RefusesToEndOutOfOrder) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using ::testing::ElementsAre;
@@ -320,4 +320,4 @@ TEST(WorkerPlacement, ReportsCoresThatCannotBeAvoided) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class BackgroundTest : public JobSystemFixture {};
@@ -204,4 +204,4 @@ TEST_P(BackgroundTest, WithoutARequestEveryJobRuns) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::jobs::model::completion {
+namespace filament_core::jobs::model::completion {
 namespace {
 
 using Group = BasicCompletion<ModelAtomics>;
@@ -224,4 +224,4 @@ TEST(CompletionModel, AnOwnerThatSleepsWithoutFoldingItsPartIsNeverWoken) {
 }
 
 } // namespace
-} // namespace filament::jobs::model::completion
+} // namespace filament_core::jobs::model::completion

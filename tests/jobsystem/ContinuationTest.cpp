@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class ContinuationTest : public JobSystemFixture {};
@@ -240,4 +240,4 @@ TEST(ContinuationDeathTest, RefusesGroupsOfTwoSystems) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

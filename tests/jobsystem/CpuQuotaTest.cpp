@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 constexpr double kNoQuota = std::numeric_limits<double>::infinity();
@@ -126,4 +126,4 @@ TEST(CpuQuota, IgnoresWhatIsMalformed) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

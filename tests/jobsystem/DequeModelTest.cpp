@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-namespace filament::jobs::model::deque {
+namespace filament_core::jobs::model::deque {
 namespace {
 
 struct Item {
@@ -161,4 +161,4 @@ TEST(DequeModel, WithoutSleepersAReleasingPushWouldDo) {
 }
 
 } // namespace
-} // namespace filament::jobs::model::deque
+} // namespace filament_core::jobs::model::deque

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class FakeMachine {
 public:
@@ -50,4 +50,4 @@ private:
     hwloc_topology_t mTopology = nullptr;
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

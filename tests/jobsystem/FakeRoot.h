@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 class FakeRoot {
 public:
@@ -35,4 +35,4 @@ private:
     std::filesystem::path mPath;
 };
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::jobs::model::index_stack {
+namespace filament_core::jobs::model::index_stack {
 namespace {
 
 struct Plan {
@@ -111,4 +111,4 @@ TEST(IndexStackModel, PushMustReleaseAndPopAcquireWhatTheNumberStandsFor) {
 }
 
 } // namespace
-} // namespace filament::jobs::model::index_stack
+} // namespace filament_core::jobs::model::index_stack

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class JobFaultDeathTest : public testing::TestWithParam<int> {
@@ -86,4 +86,4 @@ TEST_P(JobFaultDeathTest, AnExceptionInASuccessorNamesIt) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

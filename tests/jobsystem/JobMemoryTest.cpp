@@ -6,7 +6,7 @@
 #include <memory>
 #include <new>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class JobMemoryTest : public testing::TestWithParam<int> {
@@ -123,4 +123,4 @@ TEST_P(JobMemoryDeathTest, ABackgroundJobWithoutAGroupHasNobodyToTellAndEndsTheP
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

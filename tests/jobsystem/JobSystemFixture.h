@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 
 /// Every promise of the job system holds for any number of workers.
 class JobSystemFixture : public testing::TestWithParam<int> {
@@ -80,4 +80,4 @@ inline int64_t fibonacci(JobSystem& jobs, int n) {
     return left + right;
 }
 
-} // namespace filament::jobs
+} // namespace filament_core::jobs

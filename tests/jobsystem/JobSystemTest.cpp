@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class JobSystemTest : public JobSystemFixture {};
@@ -304,4 +304,4 @@ TEST(JobSystemDeathTest, RefusesAnEmptyGrain) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

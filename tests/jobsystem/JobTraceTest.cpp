@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using nlohmann::json;
@@ -286,4 +286,4 @@ TEST(ChromeTrace, NamesTheFileThatCannotBeWritten) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -7,7 +7,7 @@
 
 #include <ctime>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 /// Ties the calling thread, and those it starts, to one core.
@@ -74,4 +74,4 @@ TEST(Machine, BusyTimeIsTheTimeThatWorkersSpendInJobs) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 /// As std::source_location, which clang 14 lacks.
 struct Where {
@@ -143,4 +143,4 @@ struct ModelAtomics {
     }
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 namespace {
 
 struct RunGivenUp {}; // unwinds the stack of a thread whose run is over
@@ -501,4 +501,4 @@ void RaceDetector::write() {
     mWrittenAt[self] = gChecker->memory().view(self).clock[self];
 }
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -21,7 +21,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 class Scenario {
 public:
@@ -91,4 +91,4 @@ private:
     std::array<uint16_t, kMaxThreads> mReadAt{}, mWrittenAt{};
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 namespace {
 
 constexpr auto relaxed = std::memory_order_relaxed;
@@ -269,4 +269,4 @@ TEST(ModelChecker, TellsTheStepsOfTheRunThatFailed) {
 }
 
 } // namespace
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

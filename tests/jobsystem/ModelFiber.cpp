@@ -24,7 +24,7 @@
 #define FILAMENT_IF_TSAN(call)
 #endif
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 namespace {
 
 constexpr size_t kStackBytes = 256 << 10;
@@ -73,4 +73,4 @@ void Fiber::switchTo(Fiber& next) {
     arrive();
 }
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

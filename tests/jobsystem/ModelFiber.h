@@ -10,7 +10,7 @@
 #include <memory>
 #include <ucontext.h>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 class Fiber {
 public:
@@ -38,4 +38,4 @@ private:
     void* mSanitizerFiber = nullptr; // for the thread sanitizer
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 void ModelMemory::clear() {
     mLocationCount = 0;
@@ -160,4 +160,4 @@ void ModelMemory::replaceLatest(int location, uint64_t value) {
     at.stores[at.order[at.count - 1]].value = value;
 }
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -19,7 +19,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 inline constexpr int kMaxThreads = 4;
 inline constexpr int kMaxLocations = 32;
@@ -116,4 +116,4 @@ private:
     int mLocationCount = 0;
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/jobsystem/ModelOperation.h"
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 namespace {
 
 bool entersKernel(Kind kind) { return kind == Kind::Wait || kind == Kind::NotifyOne || kind == Kind::NotifyAll; }
@@ -10,7 +10,7 @@ bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::
 
 } // namespace
 
-// `function` is the whole of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
+// `function` is the whole of "bool filament_core::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
 bool Operation::isIn(const char* name) const { return std::string_view(function) == name; }
 
 uint64_t Operation::result(uint64_t before) const {
@@ -71,4 +71,4 @@ Mutation Mutation::toReleaseStore(const char* function) {
     } };
 }
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

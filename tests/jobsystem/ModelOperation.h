@@ -9,7 +9,7 @@
 #include <functional>
 #include <string_view>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 enum class Kind : uint8_t {
     Resume, ///< continues after a start or a sleep; touches nothing
@@ -65,4 +65,4 @@ struct Mutation {
     void operator()(Operation& operation) const { apply(operation); }
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::jobs::model {
+namespace filament_core::jobs::model {
 
 class ModelSearch {
 public:
@@ -75,4 +75,4 @@ private:
     uint8_t mSleepSet = 0;
 };
 
-} // namespace filament::jobs::model
+} // namespace filament_core::jobs::model

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class NestingTest : public JobSystemFixture {};
@@ -110,4 +110,4 @@ TEST_P(NestingTest, ExhaustedStorageRunsContinuationsToo) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

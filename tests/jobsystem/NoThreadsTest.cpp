@@ -12,7 +12,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 /// For a process of its own: from here on, pthread_create() fails. Root is exempt from the limit, so it becomes nobody.
@@ -69,4 +69,4 @@ TEST(NoThreads, WaitsNestDeeplyWithoutHelperThreads) {
 #endif
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

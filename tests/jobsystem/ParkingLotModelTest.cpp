@@ -12,7 +12,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::jobs::model::parking_lot {
+namespace filament_core::jobs::model::parking_lot {
 namespace {
 
 /// Counts the wake-up calls into the kernel, per run.
@@ -284,4 +284,4 @@ TEST(ParkingLotModel, AnAnswerMustClearTheWakeUpThatIsUnderWay) {
 }
 
 } // namespace
-} // namespace filament::jobs::model::parking_lot
+} // namespace filament_core::jobs::model::parking_lot

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 TEST(WorkStealingDeque, TheOwnerTakesTheNewestAndAThiefTheOldest) {
@@ -216,4 +216,4 @@ TEST(ParkingLot, TwoThreadsThatHandATokenToAndFroNeverBothSleep) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -23,7 +23,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using ::testing::Each;
@@ -288,4 +288,4 @@ TEST(TracedSystem, SaysWhichJobsWereStolen) {
 TEST(TracedSystem, HasNoTraceUnlessAskedForOne) { EXPECT_EQ(JobSystem({ .workers = 1 }).trace(), nullptr); }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 class PriorityTest : public JobSystemFixture {};
@@ -156,4 +156,4 @@ TEST_P(PriorityTest, AStormOfMixedPrioritiesRunsEveryJobOnce) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// `count`, times the environment's FILAMENT_STRESS.
 inline int scaled(int count) {
@@ -29,4 +29,4 @@ inline void onThreads(int count, std::function<void(int)> const& body) {
     }
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using test::onThreads;
@@ -265,4 +265,4 @@ TEST_P(StressTest, EmptyJobsByTheMillionLeaveNoMemoryBehind) { // FILAMENT_STRES
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

@@ -26,7 +26,7 @@ extern "C" int hwloc_topology_load(hwloc_topology_t topology) {
     return load(topology);
 }
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -178,4 +178,4 @@ TEST(RangesOf, JoinsNeighbours) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

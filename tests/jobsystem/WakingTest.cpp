@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-namespace filament::jobs {
+namespace filament_core::jobs {
 namespace {
 
 using namespace std::chrono_literals;
@@ -93,4 +93,4 @@ TEST_F(WakingTest, ABurstWakesNoMoreOftenThanItHasJobs) {
 }
 
 } // namespace
-} // namespace filament::jobs
+} // namespace filament_core::jobs

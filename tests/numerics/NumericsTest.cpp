@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 /// "const vec4 sh[9]" -> "vec4[9]".
@@ -326,4 +326,4 @@ TEST_F(MeasurementOf, AStepBackCountsIt) {
 }
 
 } // namespace
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -26,7 +26,7 @@ def flat_view(width=64, height=64, metres=2.0):
     """Looks down -z from z = 5 without perspective; `metres` from top to bottom, and display values without a curve."""
     view = fc.View((width, height))
     view.look_at((0, 0, 5), (0, 0, 0))
-    view.parallel(metres, far=100)
+    view.orthographic(metres, far=100)
     view["toneMapper"] = "linear"
     return view
 

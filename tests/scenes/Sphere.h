@@ -2,7 +2,7 @@
 /// A unit sphere for tests and benches: positions, tangent frames, indices.
 #pragma once
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cmath>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::scenes {
+namespace filament_core::scenes {
 
 struct SphereVertex {
     float3 position;
@@ -99,4 +99,4 @@ private:
     Owned<IndexBuffer> mIndices;
 };
 
-} // namespace filament::scenes
+} // namespace filament_core::scenes

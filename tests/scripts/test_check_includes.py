@@ -92,33 +92,33 @@ class IncludeTable(unittest.TestCase):
 
     def test_a_room_below_the_engine_sees_only_the_public_values(self):
         files = {
-            "base/include/filament/Math.h": "#include <glm/vec2.hpp>\n",
-            "filament_core/include/filament/Engine.h": "#include <filament/Math.h>\n",
+            "base/include/filament_core/Math.h": "#include <glm/vec2.hpp>\n",
+            "filament_core/include/filament_core/Engine.h": "#include <filament_core/Math.h>\n",
         }
-        status, output = check(files | {"filament_core/engine/E.cpp": "#include <filament/Engine.h>\n",
-                                        "base/B.h": "#include <filament/Math.h>\n"})
+        status, output = check(files | {"filament_core/engine/E.cpp": "#include <filament_core/Engine.h>\n",
+                                        "base/B.h": "#include <filament_core/Math.h>\n"})
         self.assertEqual(status, 0, output)
-        self.assert_broken(files | {"filament_core/scene/S.h": "#include <filament/Engine.h>\n"},
+        self.assert_broken(files | {"filament_core/scene/S.h": "#include <filament_core/Engine.h>\n"},
                            "filament_core/scene/S.h:1:", "names the engine")
 
     def test_a_public_header_belongs_to_its_room(self):
         self.assert_broken({
-            "shaders/package/include/filament/Material.h": "\n",
-            "jobsystem/J.h": "#include <filament/Material.h>\n",
+            "shaders/package/include/filament_core/Material.h": "\n",
+            "jobsystem/J.h": "#include <filament_core/Material.h>\n",
         }, "jobsystem/J.h:1:", "belongs to shaders/package")
 
     def test_a_public_name_is_there_once(self):
         self.assert_broken({
-            "base/include/filament/Math.h": "\n",
-            "filament_core/include/filament/Math.h": "\n",
-            "filament_core/scene/S.h": "#include <filament/Math.h>\n",
+            "base/include/filament_core/Math.h": "\n",
+            "filament_core/include/filament_core/Math.h": "\n",
+            "filament_core/scene/S.h": "#include <filament_core/Math.h>\n",
         }, "filament_core/scene/S.h:1:", "exists 2 times")
 
     def test_a_public_header_includes_nothing_that_is_not_public(self):
         self.assert_broken({
-            "base/include/filament/Math.h": '#include "base/Hash.h"\n',
+            "base/include/filament_core/Math.h": '#include "base/Hash.h"\n',
             "base/Hash.h": "\n",
-        }, "base/include/filament/Math.h:1:", "public headers include only")
+        }, "base/include/filament_core/Math.h:1:", "public headers include only")
 
     def test_a_document_with_another_table_is_reported_and_mended(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -151,8 +151,8 @@ class IncludeTable(unittest.TestCase):
         self.assertEqual(list(checker.check_order()), ["base lists framegraph, which is not below it"])
 
     def test_a_public_header_includes_only_std_and_glm(self):
-        self.assert_broken({"filament_core/include/filament/Log.h": "#include <string>\n#include <fmt/core.h>\n"},
-                           "filament_core/include/filament/Log.h:2:", "standard library and GLM")
+        self.assert_broken({"filament_core/include/filament_core/Log.h": "#include <string>\n#include <fmt/core.h>\n"},
+                           "filament_core/include/filament_core/Log.h:2:", "standard library and GLM")
 
     def test_a_library_is_included_only_in_its_room(self):
         self.assert_broken({"framegraph/Graph.cpp": "#include <volk.h>\n"}, "framegraph/Graph.cpp:1:", "backend/vulkan")

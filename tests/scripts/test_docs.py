@@ -85,7 +85,7 @@ class Pages(unittest.TestCase):
             self.assertEqual(place("docs/quality.md"), "quality.md")
             self.assertEqual(place("README.md"), "repository/README.md")
             self.assertEqual(place("framegraph"), "repository/framegraph/README.md")
-            self.assertEqual(place("filament_core/include/filament/View.h"), "api/View_8h.html")
+            self.assertEqual(place("filament_core/include/filament_core/View.h"), "api/View_8h.html")
             self.assertEqual(place("samples/hello/main.cpp"), "repository/samples/hello/main.cpp.md")
             self.assertTrue(pathlib.Path(folder, "repository/samples/hello/main.cpp.md").exists())
             self.assertEqual(place("docs/accuracy.md"), "accuracy.html")

@@ -9,7 +9,7 @@ import unittest
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "exports"
 HEADER = """
 #include <cstdint>
-namespace filament {
+namespace filament_core {
 int free(int);
 inline int inlined() { return 1; }
 constexpr int kConstant = 3;
@@ -39,13 +39,13 @@ namespace nested { long deep(Box<int> const&); }
 namespace other { int foreign(); }
 """
 DECLARED = {
-    "filament::free(int)", "filament::counter", "filament::Engine::Engine()", "filament::Engine::~Engine()",
-    "filament::Engine::current()", "filament::Engine::operator bool() const",
-    "filament::operator==(filament::Engine const&, filament::Engine const&)", "filament::Engine::Inner::set(unsigned char)",
-    "filament::Engine::count", "filament::Engine::hidden()", "filament::nested::deep(filament::Box<int> const&)",
+    "filament_core::free(int)", "filament_core::counter", "filament_core::Engine::Engine()", "filament_core::Engine::~Engine()",
+    "filament_core::Engine::current()", "filament_core::Engine::operator bool() const",
+    "filament_core::operator==(filament_core::Engine const&, filament_core::Engine const&)", "filament_core::Engine::Inner::set(unsigned char)",
+    "filament_core::Engine::count", "filament_core::Engine::hidden()", "filament_core::nested::deep(filament_core::Box<int> const&)",
 }
 SOURCE = """
-namespace filament {
+namespace filament_core {
 int free(int) { return 0; }
 int surplus() { return 0; }
 }
@@ -57,9 +57,9 @@ class Tree:
 
     def __init__(self, folder, header, listed=None):
         self.root = pathlib.Path(folder)
-        for name in ("base/include/filament", "shaders/package/include/filament", "filament_core/include/filament"):
+        for name in ("base/include/filament_core", "shaders/package/include/filament_core", "filament_core/include/filament_core"):
             (self.root / name).mkdir(parents=True)
-        (self.root / "filament_core/include/filament/filament.h").write_text(header, encoding="utf-8")
+        (self.root / "filament_core/include/filament_core/filament_core.h").write_text(header, encoding="utf-8")
         self.list = self.root / "filament_core/exports.txt"
         if listed is not None:
             self.list.write_text("".join(name + "\n" for name in listed), encoding="utf-8")
@@ -89,29 +89,29 @@ class Exports(unittest.TestCase):
         self.assertEqual(tree.list.read_text(encoding="utf-8").splitlines(), sorted(DECLARED))
 
     def test_a_new_function_and_one_that_is_gone_are_named_with_the_cure(self):
-        tree = Tree(self.folder, HEADER, DECLARED - {"filament::free(int)"} | {"filament::gone()"})
+        tree = Tree(self.folder, HEADER, DECLARED - {"filament_core::free(int)"} | {"filament_core::gone()"})
         status, output = tree.run()
         self.assertEqual(status, 1)
-        self.assertIn("in the headers, not in filament_core/exports.txt: filament::free(int)\n", output)
-        self.assertIn("in filament_core/exports.txt, not in the headers: filament::gone()\n", output)
+        self.assertIn("in the headers, not in filament_core/exports.txt: filament_core::free(int)\n", output)
+        self.assertIn("in filament_core/exports.txt, not in the headers: filament_core::gone()\n", output)
         self.assertIn("run scripts/exports --write", output)
 
     def test_a_library_that_exports_more_or_less_is_named(self):
-        tree = Tree(self.folder, "namespace filament { int free(int); int missing(); }", ["filament::free(int)", "filament::missing()"])
+        tree = Tree(self.folder, "namespace filament_core { int free(int); int missing(); }", ["filament_core::free(int)", "filament_core::missing()"])
         status, output = tree.run("--library", tree.library(SOURCE))
         self.assertEqual(status, 1)
-        self.assertIn("in filament_core/exports.txt, not in libtest.so: filament::missing()\n", output)
-        self.assertIn("in libtest.so, not in filament_core/exports.txt: filament::surplus()\n", output)
+        self.assertIn("in filament_core/exports.txt, not in libtest.so: filament_core::missing()\n", output)
+        self.assertIn("in libtest.so, not in filament_core/exports.txt: filament_core::surplus()\n", output)
         self.assertNotIn("free", output)
 
     def test_headers_that_do_not_compile_are_an_error_with_the_compilers_reason(self):
-        status, output = Tree(self.folder, "namespace filament { int broken( }").run()
+        status, output = Tree(self.folder, "namespace filament_core { int broken( }").run()
         self.assertEqual(status, 1)
         self.assertIn("exports: error:", output)
         self.assertIn("expected", output)
 
     def test_headers_without_functions_are_an_error(self):
-        status, output = Tree(self.folder, "namespace filament { struct Plain { int value; }; }").run()
+        status, output = Tree(self.folder, "namespace filament_core { struct Plain { int value; }; }").run()
         self.assertEqual(status, 1)
         self.assertIn("declare no functions", output)
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 inline StageCode& editable(SharedStage& stage) {
     auto copy = std::make_shared<StageCode>(*stage);
@@ -17,4 +17,4 @@ inline StageCode& editable(SharedStage& stage) {
     return code;
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::VirtualDisplay;
@@ -110,4 +110,4 @@ TEST_P(ConnectionsTest, EnginesOfSeveralThreadsShareOne) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

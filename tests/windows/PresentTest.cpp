@@ -11,7 +11,7 @@
 #include <random>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::VirtualDisplay;
@@ -139,13 +139,13 @@ TEST_P(PresentTest, TheAppIsAtMostTwoImagesAhead) {
     const unsigned long window = mServer->openWindow(size);
     const Owned<SwapChain> chain = chainOf(window, size);
     WindowPicture picture(*mEngine);
-    EXPECT_TRUE(picture.renderer().mayPresent(chain));
+    EXPECT_TRUE(picture.renderer().canPresent(chain));
     for (uint64_t frame = 1; frame <= 40; ++frame) {
         picture.draw(chain, size, static_cast<uint32_t>(frame));
         EXPECT_LE(frame, mEngine->statistics().presents + 2);
     }
     mEngine->waitIdle();
-    EXPECT_TRUE(picture.renderer().mayPresent(chain));
+    EXPECT_TRUE(picture.renderer().canPresent(chain));
 }
 
 TEST_P(PresentTest, WindowsThatShowNothingDoNotStopTheApp) {
@@ -255,8 +255,8 @@ TEST_P(PresentTest, WindowsNeedAnEngineWithTheirDisplay) {
     EXPECT_DEATH(mEngine->resize(chain, { 0, 1 }), "a swap chain has at least one pixel");
     Renderer renderer(*mEngine);
     EXPECT_DEATH(renderer.present(SwapChain{}), "Renderer::present\\(SwapChain\\)");
-    EXPECT_DEATH((void)renderer.mayPresent(SwapChain{}), "Renderer::mayPresent\\(SwapChain\\)");
+    EXPECT_DEATH((void)renderer.canPresent(SwapChain{}), "Renderer::canPresent\\(SwapChain\\)");
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

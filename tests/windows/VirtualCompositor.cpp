@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 struct VirtualCompositor::Window {
     wl_registry* registry = nullptr;
@@ -167,4 +167,4 @@ std::optional<Image> VirtualCompositor::picture() const {
     return std::nullopt;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -9,7 +9,7 @@
 
 #include "base/math/Math.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@
 struct wl_display;
 struct wl_surface;
 
-namespace filament::test {
+namespace filament_core::test {
 
 class VirtualCompositor {
 public:
@@ -51,4 +51,4 @@ private:
     std::unique_ptr<Window> mWindow;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

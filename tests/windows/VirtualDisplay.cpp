@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 /// Ends with this process, whatever becomes of it.
@@ -112,4 +112,4 @@ std::vector<uint8_t> VirtualDisplay::pixels(unsigned long window, uint2 size) co
     return bytes;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -19,7 +19,7 @@
 
 using Display = struct _XDisplay;
 
-namespace filament::test {
+namespace filament_core::test {
 
 class VirtualDisplay {
 public:
@@ -48,4 +48,4 @@ private:
     std::string mName;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

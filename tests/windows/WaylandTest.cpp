@@ -4,7 +4,7 @@
 #include "tests/windows/VirtualCompositor.h"
 #include "tests/windows/WindowPicture.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::VirtualCompositor;
@@ -49,4 +49,4 @@ TEST_P(WaylandTest, WindowsShowTheBitsOfTheImage) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 ///   Out     pixels(): the image drawn last, three bytes a pixel, as displays have them.
 #pragma once
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 class WindowPicture {
 public:
@@ -47,4 +47,4 @@ private:
     DebugDraw mLines;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

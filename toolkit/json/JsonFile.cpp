@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 Result<Json> parseJson(std::string_view text, std::string_view name) {
     try {
@@ -29,4 +29,4 @@ Result<void> writeJson(std::filesystem::path const& file, Json const& json) {
     return assets::replaceFile(file, std::as_bytes(std::span(text)));
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

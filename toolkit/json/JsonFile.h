@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// `name`: begins the message.
 Result<Json> parseJson(std::string_view text, std::string_view name);
@@ -16,4 +16,4 @@ Result<Json> readJson(std::filesystem::path const& file);
 /// Replaces the file at once, so that no reader sees half of it.
 Result<void> writeJson(std::filesystem::path const& file, Json const& json);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

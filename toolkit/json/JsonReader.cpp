@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 JsonReader::JsonReader(Json const& object, std::string where) : mObject(object), mWhere(std::move(where)) {
     if (!object.is_object()) mError = fail(ErrorCode::InvalidArgument, "{}: expected an object", mWhere);
@@ -114,4 +114,4 @@ Result<void> JsonReader::finish() {
     return {};
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,7 +8,7 @@
 
 #include "base/Result.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 using Json = nlohmann::ordered_json;
 
@@ -93,4 +93,4 @@ private:
     std::optional<Error> mError;
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

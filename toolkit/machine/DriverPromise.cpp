@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <optional>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 struct Version {
@@ -77,4 +77,4 @@ std::string driverNote(std::span<const DeviceDescription> devices, std::string_v
             features, kPromisedFeatures);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -4,13 +4,13 @@
 ///   Thread  any; pure.
 #pragma once
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <span>
 #include <string>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// "25.0.7" of "Mesa 25.0.7-2 (LLVM 19.1.7), Vulkan 1.4.305", as DeviceDescription::driver has it; empty: not Mesa's.
 std::string mesaVersion(std::string_view driver);
@@ -19,4 +19,4 @@ std::string mesaVersion(std::string_view driver);
 /// empty: it holds. `features` is cpuFeatures().
 std::string driverNote(std::span<const DeviceDescription> devices, std::string_view features);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

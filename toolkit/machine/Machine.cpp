@@ -16,7 +16,7 @@
 #include <string_view>
 #include <thread>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr const char* kUnknown = "unknown";
@@ -84,4 +84,4 @@ std::string cpuFeatures() {
 
 std::string builtCommit() { return FILAMENT_COMMIT; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

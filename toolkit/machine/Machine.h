@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// Processor, cores, system, load: in one line.
 std::string describeMachine();
@@ -25,4 +25,4 @@ std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override);
 /// The commit that was built, with "-dirty" if files differ from it.
 std::string builtCommit();
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 using namespace backend;
 
@@ -178,4 +178,4 @@ void DefectTrace::noteDraw() {
     mBound.clear();
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

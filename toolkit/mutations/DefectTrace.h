@@ -23,7 +23,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct DefectReach {
     std::string changed;     ///< "buffer 'frame', buffer 'lights'"; empty: no command
@@ -88,4 +88,4 @@ private:
     std::vector<Object> mBound;
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,7 +11,7 @@
 #include <memory>
 #include <set>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 using namespace backend;
 
@@ -153,4 +153,4 @@ std::span<const Mutation> lightMutations();
 std::span<const Mutation> rasterMutations();
 std::span<const Mutation> effectMutations();
 
-} // namespace filament::tools
+} // namespace filament_core::tools

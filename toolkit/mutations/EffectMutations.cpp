@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// In every block of the frame: channels of lights have blocks of their own.
@@ -178,4 +178,4 @@ constexpr Mutation kEffectMutations[] = {
 
 std::span<const Mutation> effectMutations() { return kEffectMutations; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -13,7 +13,7 @@
 #include <map>
 #include <set>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// The discs of suns 1 % wider.
@@ -262,4 +262,4 @@ constexpr Mutation kLightMutations[] = {
 
 std::span<const Mutation> lightMutations() { return kLightMutations; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// The lit glTF materials: their parameter blocks, and the layouts that identify their bind groups.
@@ -134,4 +134,4 @@ constexpr Mutation kMaterialMutations[] = {
 
 std::span<const Mutation> materialMutations() { return kMaterialMutations; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

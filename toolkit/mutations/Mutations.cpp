@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 std::span<const Mutation> mutations() {
     static const std::vector<Mutation> all = [] {
@@ -31,4 +31,4 @@ std::vector<std::string_view> mutationNames() {
     return names;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

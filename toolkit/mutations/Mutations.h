@@ -9,7 +9,7 @@
 
 #include "backend/layers/Captured.h"
 
-#include <filament/Backend.h>
+#include <filament_core/Backend.h>
 
 #include <memory>
 #include <optional>
@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct Mutation {
     std::string_view name;
@@ -42,4 +42,4 @@ std::unique_ptr<backend::StreamEdit> mipTexelEdit(uint32_t level, uint32_t texel
 /// Adds `bias` to the level of every implicit texture fetch of a SPIR-V module.
 std::vector<uint32_t> withMipBias(std::span<const uint32_t> module, float bias);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

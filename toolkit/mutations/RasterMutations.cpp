@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// What blends in any order weighs the same at any distance.
@@ -126,4 +126,4 @@ constexpr Mutation kRasterMutations[] = {
 
 std::span<const Mutation> rasterMutations() { return kRasterMutations; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 class SrgbDroppedEdit final : public StreamEdit {
@@ -108,4 +108,4 @@ std::vector<uint32_t> withMipBias(std::span<const uint32_t> module, float bias) 
     return result;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

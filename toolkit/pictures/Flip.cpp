@@ -5,7 +5,7 @@
 #include "base/math/Elementary.h"
 #include "toolkit/pictures/Picture.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -230,4 +230,4 @@ FlipError flip(Image const& reference, Image const& test) {
     return result;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,11 +7,11 @@
 ///   Thread  any; pure.  Cost: about 0.1 s for 256 x 256.
 #pragma once
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct FlipError {
     std::vector<float> pixels; ///< row 0 at the top
@@ -20,4 +20,4 @@ struct FlipError {
 
 FlipError flip(Image const& reference, Image const& test);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using backend::formatInfo;
@@ -56,4 +56,4 @@ std::string notFinite(backend::CapturedFrame const& frame) {
     return {};
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

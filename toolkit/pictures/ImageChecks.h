@@ -6,11 +6,11 @@
 
 #include "backend/layers/Captured.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// Why a picture cannot be correct: all black, a single colour, NaN or infinity, no pixels.
 std::string faultOf(Image const& image);
@@ -18,4 +18,4 @@ std::string faultOf(Image const& image);
 /// The first non-finite component of any floating-point attachment: pass, attachment, pixel, command positions.
 std::string notFinite(backend::CapturedFrame const& frame);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 uint32_t componentDifference8(std::byte a, std::byte b) {
@@ -91,4 +91,4 @@ Image differenceImage(Image const& a, Image const& b) {
     return result;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

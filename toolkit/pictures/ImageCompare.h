@@ -9,7 +9,7 @@
 
 #include "toolkit/pictures/Pixels.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct ImageComparison {
     uint64_t pixels = 0;
@@ -30,4 +30,4 @@ Result<ImageComparison> compareImages(Image const& a, Image const& b);
 /// (16/255 and more) where they do not. The images must be comparable (compareImages succeeded).
 Image differenceImage(Image const& a, Image const& b);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

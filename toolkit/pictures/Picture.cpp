@@ -6,7 +6,7 @@
 #include "toolkit/pictures/Flip.h"
 #include "toolkit/pictures/Pixels.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <glm/common.hpp>
 
@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr double kFloorOfMean = 0.01;
@@ -119,4 +119,4 @@ ErrorFigures compare(Picture const& reference, Picture const& test, Edges edges)
     return figures;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

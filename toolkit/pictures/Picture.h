@@ -6,12 +6,12 @@
 ///   Thread  any; pure.
 #pragma once
 
-#include <filament/Image.h>
-#include <filament/Math.h>
+#include <filament_core/Image.h>
+#include <filament_core/Math.h>
 
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct Picture {
     uint32_t width = 0, height = 0;
@@ -39,4 +39,4 @@ struct ErrorFigures {
 /// Both images have the same size.
 ErrorFigures compare(Picture const& reference, Picture const& test, Edges edges = Edges::Count);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using backend::formatInfo;
@@ -104,4 +104,4 @@ std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size) {
     return part;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

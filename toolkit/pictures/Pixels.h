@@ -7,8 +7,8 @@
 
 #include "base/Result.h"
 
-#include <filament/Image.h>
-#include <filament/Math.h>
+#include <filament_core/Image.h>
+#include <filament_core/Math.h>
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 inline size_t pixelCount(Image const& image) { return size_t{ image.width } * image.height; }
 
@@ -47,4 +47,4 @@ std::string textOf(std::array<float, 4> const& value);
 /// A part of an image of 4 bytes a pixel; none: it does not lie in the image.
 std::optional<Image> partOf(Image const& image, uint2 offset, uint2 size);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

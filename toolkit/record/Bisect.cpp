@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using backend::CapturedAttachment;
@@ -171,4 +171,4 @@ Result<std::optional<Disagreement>> bisect(FrameSource const& a, FrameSource con
     return std::optional(found);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -16,7 +16,7 @@
 
 #include <functional>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct Disagreement {
     std::string pass, attachment;
@@ -39,4 +39,4 @@ Result<std::optional<Disagreement>> bisect(FrameSource const& a, FrameSource con
 /// The first attachment that differs between two captured frames, without its draw.
 Result<std::optional<Disagreement>> compareFrames(backend::CapturedFrame const& a, backend::CapturedFrame const& b);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <charconv>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 using tools::Json;
@@ -306,4 +306,4 @@ Result<void> writeManifest(std::filesystem::path const& folder, Manifest const& 
     return assets::replaceFile(manifestPath(folder), std::as_bytes(std::span(text)));
 }
 
-} // namespace filament::record
+} // namespace filament_core::record

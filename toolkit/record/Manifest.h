@@ -9,10 +9,10 @@
 
 #include "base/Result.h"
 
-#include <filament/Backend.h>
-#include <filament/ColorGrading.h>
-#include <filament/Format.h>
-#include <filament/Math.h>
+#include <filament_core/Backend.h>
+#include <filament_core/DisplayTransform.h>
+#include <filament_core/Format.h>
+#include <filament_core/Math.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::record {
+namespace filament_core::record {
 
 inline constexpr size_t kMaxManifestBytes = size_t{ 16 } << 20, kMaxSettingsBytes = size_t{ 1 } << 20;
 inline constexpr uint32_t kMaxPictures = 8, kMaxHashedFrames = 8, kMaxPasses = 4096, kMaxAttachments = 16,
@@ -105,4 +105,4 @@ Result<Manifest> parseManifest(std::string_view text, std::string const& name);
 Result<Manifest> readManifest(std::filesystem::path const& folder);
 Result<void> writeManifest(std::filesystem::path const& folder, Manifest const& manifest);
 
-} // namespace filament::record
+} // namespace filament_core::record

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 using namespace backend;
@@ -156,4 +156,4 @@ FrameRecord recordOf(CapturedFrame const& frame, uint32_t index) {
     return record;
 }
 
-} // namespace filament::record
+} // namespace filament_core::record

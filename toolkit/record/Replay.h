@@ -17,7 +17,7 @@
 #include <functional>
 #include <map>
 
-namespace filament::record {
+namespace filament_core::record {
 
 /// What to see of a frame, and where to cut it off.
 struct FrameCut {
@@ -58,4 +58,4 @@ tools::FrameSource frameOf(Trace const& trace, ReplayRequest const& request, uin
 /// Hashes of the attachments of every pass.
 FrameRecord recordOf(backend::CapturedFrame const& frame, uint32_t index);
 
-} // namespace filament::record
+} // namespace filament_core::record

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <set>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 PictureRecord pictureRecord(FramePicture const& picture) {
@@ -311,4 +311,4 @@ Result<std::string> firstDisagreement(Trace const& a, ReplayRequest const& ofA, 
     return std::string();
 }
 
-} // namespace filament::record
+} // namespace filament_core::record

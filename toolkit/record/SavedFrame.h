@@ -14,12 +14,12 @@
 
 #include "toolkit/record/Replay.h"
 
-#include <filament/Engine.h>
-#include <filament/Image.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Image.h>
 
 #include <functional>
 
-namespace filament::record {
+namespace filament_core::record {
 
 struct FramePicture {
     std::string name = "picture"; ///< 1 to 32 of a-z, 0-9 and '-'; all of a frame have different ones
@@ -67,4 +67,4 @@ Result<std::string> firstChangedPass(Manifest const& manifest, Trace const& trac
 Result<std::string> firstDisagreement(Trace const& a, ReplayRequest const& ofA, Trace const& b,
                                       ReplayRequest const& ofB);
 
-} // namespace filament::record
+} // namespace filament_core::record

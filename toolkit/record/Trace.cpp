@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 using namespace backend;
@@ -157,4 +157,4 @@ Result<Trace> loadTrace(std::filesystem::path const& folder, TraceRecord const& 
     return parseTrace(*bytes, record.backend, path.string());
 }
 
-} // namespace filament::record
+} // namespace filament_core::record

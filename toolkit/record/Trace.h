@@ -10,7 +10,7 @@
 #include "backend/stream/CommandBuffer.h"
 #include "toolkit/record/Manifest.h"
 
-namespace filament::record {
+namespace filament_core::record {
 
 inline constexpr size_t kMaxTextBytes = size_t{ 512 } << 20, kMaxPayloadBytes = size_t{ 3 } << 30;
 
@@ -56,4 +56,4 @@ Result<Trace> parseTrace(TraceBytes const& bytes, Backend backend, std::string c
 /// Fails with Corrupt, too, if sizes or hashes are not those of the record.
 Result<Trace> loadTrace(std::filesystem::path const& folder, TraceRecord const& record);
 
-} // namespace filament::record
+} // namespace filament_core::record

@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using assets::CubeLight;
@@ -85,4 +85,4 @@ void addBuiltLight(JsonReader& reader, assets::GlbScene& scene) {
     scene.imageBasedLight = std::move(*written);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,8 +11,8 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "toolkit/json/JsonReader.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 void addBuiltLight(JsonReader& reader, assets::GlbScene& scene);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <map>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using assets::AlphaMode;
@@ -320,4 +320,4 @@ Result<std::vector<std::byte>> buildModel(Json const& model, std::string const& 
     return assets::writeGlb(builder.scene());
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -12,8 +12,8 @@
 
 #include <cstddef>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 Result<std::vector<std::byte>> buildModel(Json const& model, std::string const& name);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

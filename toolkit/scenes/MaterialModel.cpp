@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 bool isMaterialModel(SceneSpec const& spec) { return spec.modelObject && spec.modelObject->contains("material"); }
 
@@ -71,4 +71,4 @@ Result<std::vector<Node>> addMaterialCopies(Engine& engine, Scene& scene, SceneS
     return roots;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

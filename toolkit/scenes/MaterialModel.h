@@ -11,7 +11,7 @@
 #include "toolkit/scenes/SceneFile.h"
 #include "tools/materials/MaterialStand.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The contents of such a scene.
 struct MaterialModelFile {
@@ -30,4 +30,4 @@ MaterialValues valuesOfCopy(MaterialModelFile const& model, SceneSpec const& spe
 /// material.
 Result<std::vector<Node>> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec, MaterialStand& stand);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

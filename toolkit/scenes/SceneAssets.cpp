@@ -9,7 +9,7 @@
 #include "toolkit/scenes/BuiltModel.h"
 #include "tools/showcase/Showcase.h"
 
-#include <filament/LightProfile.h>
+#include <filament_core/LightProfile.h>
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include <functional>
 #include <map>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ Camera cameraOf(SceneSpec const& spec, Box const& bounds) {
     return Camera::lookAt(eye, at, spec.lens, spec.exposure);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

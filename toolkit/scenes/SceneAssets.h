@@ -12,9 +12,9 @@
 
 #include "toolkit/scenes/SceneFile.h"
 
-#include <filament/Box.h>
+#include <filament_core/Box.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The folder for built files, and the folder of "asset:"; empty: none.
 struct SceneFolders {
@@ -39,4 +39,4 @@ std::vector<double4x4> placedCopies(SceneSpec const& spec);
 /// `bounds`: of the whole scene, for a case without a camera.
 Camera cameraOf(SceneSpec const& spec, Box const& bounds);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -3,7 +3,7 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr double kFarthestDrawn = 1e6;
@@ -102,4 +102,4 @@ void readDebugDraw(JsonReader& reader, DebugDraw& draw) {
     reader.objects("texts", [&](JsonReader& r) { readText(r, draw); });
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,10 +6,10 @@
 
 #include "toolkit/json/JsonReader.h"
 
-#include <filament/DebugDraw.h>
+#include <filament_core/DebugDraw.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 void readDebugDraw(JsonReader& reader, DebugDraw& draw);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -5,14 +5,14 @@
 #include "toolkit/scenes/SceneDebug.h"
 #include "toolkit/scenes/SceneLights.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::string optionText(Json const& value) {
@@ -49,8 +49,8 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     readLightChannels(reader, channels);
     spec.copyChannels.push_back(channels);
     readBits(reader, "layers", spec.copyLayers.emplace_back(kDefaultLayers));
-    uint32_t priority = DrawPlace{}.priority, blendOrder = 0;
-    reader.read("priority", priority, 0, DrawPlace::kLastPriority);
+    uint32_t priority = DrawOrder{}.priority, blendOrder = 0;
+    reader.read("priority", priority, 0, DrawOrder::kLastPriority);
     reader.read("blendOrder", blendOrder, 0, 65535);
     spec.copyPlaces.push_back({ static_cast<uint8_t>(priority), static_cast<uint16_t>(blendOrder) });
     reader.read("values", spec.copyValues.emplace_back());
@@ -100,7 +100,7 @@ void readLook(JsonReader& reader, SceneSpec& spec) {
     if (file.empty()) return;
     auto look = loadLook(spec.folder / file);
     if (!look) return reader.complain("look", look.error().message);
-    spec.view.colorGrading.look = std::move(*look);
+    spec.view.display.look = std::move(*look);
 }
 
 std::optional<TargetContents> contentsFromName(std::string_view name) {
@@ -115,7 +115,7 @@ std::optional<ViewBlending> blendingFromName(std::string_view name) {
     return std::nullopt;
 }
 
-void readViewport(JsonReader& reader, filament::Viewport& viewport) {
+void readViewport(JsonReader& reader, filament_core::Viewport& viewport) {
     reader.read("offset", viewport.offset);
     reader.choice("contents", viewport.contents, "keep or clear", contentsFromName);
     reader.choice("blending", viewport.blending, "opaque or translucent", blendingFromName);
@@ -138,7 +138,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     reader.read("samples", samples, 1, 4);
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
     view.samples = static_cast<uint8_t>(samples);
-    readOptions(reader, view.colorGrading);
+    readOptions(reader, view.display);
     readLook(reader, spec);
     reader.choice("debugView", view.debugView, listed(enumNames<DebugView>()).c_str(), enumFromName<DebugView>);
     reader.read("clear", view.clearColor);
@@ -310,4 +310,4 @@ Result<std::vector<SceneSpec>> readScenes(std::filesystem::path const& folder) {
     return all;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

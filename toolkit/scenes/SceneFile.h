@@ -10,13 +10,13 @@
 #include "toolkit/json/JsonReader.h"
 #include "toolkit/scenes/SceneRaster.h"
 
-#include <filament/Camera.h>
-#include <filament/DebugDraw.h>
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/Light.h>
-#include <filament/Scene.h>
-#include <filament/View.h>
+#include <filament_core/Camera.h>
+#include <filament_core/DebugDraw.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Light.h>
+#include <filament_core/Scene.h>
+#include <filament_core/View.h>
 
 #include <filesystem>
 #include <memory>
@@ -25,7 +25,7 @@
 #include <variant>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 enum class ComparatorKind : uint8_t { Bits, Tolerance, Flip };
 
@@ -64,7 +64,7 @@ struct SceneSpec {
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
     std::vector<Layers> copyLayers;          ///< of each copy
-    std::vector<DrawPlace> copyPlaces;       ///< of each copy
+    std::vector<DrawOrder> copyPlaces;       ///< of each copy
     std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
     std::vector<CopyRaster> copyRasters;     ///< of each copy: raster states of a material
     std::vector<double3> copyMoves;          ///< of each copy: metres a frame; in the last one it is in its place
@@ -92,4 +92,4 @@ Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file);
 /// All cases of all .json files of a folder (not its subfolders), ascending by name.
 Result<std::vector<SceneSpec>> readScenes(std::filesystem::path const& folder);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

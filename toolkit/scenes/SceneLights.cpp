@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/scenes/SceneLights.h"
 
-#include <filament/Options.h>
-#include <filament/Photometry.h>
+#include <filament_core/Options.h>
+#include <filament_core/Photometry.h>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr double kFarthestRange = 1e12, kBrightestLight = 1e9;
@@ -201,4 +201,4 @@ TubeLight readTube(JsonReader& reader) {
     return light;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,11 +6,11 @@
 
 #include "toolkit/json/JsonReader.h"
 
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 SunLight readSun(JsonReader& reader);
 /// `profile`: the file of the light's profile, as the scene names it; empty: none.
@@ -25,4 +25,4 @@ void readBits(JsonReader& reader, const char* name, uint8_t& bits);
 /// "channels": a list of numbers from 0 to 7, of a light or a copy.
 void readLightChannels(JsonReader& reader, LightChannels& channels);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

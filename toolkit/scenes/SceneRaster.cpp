@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr std::array<std::string_view, 8> kTests{ "never",    "less",         "lessEqual", "equal",
@@ -67,4 +67,4 @@ void applyRaster(Engine& engine, MaterialInstance instance, CopyRaster const& ra
     if (raster.stencil) engine.setStencil(instance, raster.stencil);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

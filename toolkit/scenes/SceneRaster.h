@@ -8,11 +8,11 @@
 
 #include "toolkit/json/JsonReader.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <optional>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// None: as the material says.
 struct CopyRaster {
@@ -24,4 +24,4 @@ struct CopyRaster {
 void readRaster(JsonReader& reader, CopyRaster& raster);
 void applyRaster(Engine& engine, MaterialInstance instance, CopyRaster const& raster);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint64_t kMaxObjects = 1'000'000; // a scene has 2^20 handles of a type
@@ -13,8 +13,8 @@ std::string keyOf(GltfLoadOptions const& options) {
 }
 
 std::string keyOf(EnvironmentLoadOptions const& options) {
-    return fmt::format("{} {} {} {}", toString(options.format), toString(options.roughnessMapping),
-                       options.faceSize, options.samples);
+    return fmt::format("{} {} {} {}", toString(options.format), toString(options.roughnessMapping), options.faceSize,
+                       options.samples);
 }
 
 } // namespace
@@ -48,7 +48,7 @@ Result<void> SceneLoader::placeModel(ShownScene& shown, SceneSpec const& spec) {
         if (i < spec.copyChannels.size() && spec.copyChannels[i] != kDefaultLightChannels)
             scene.setLightChannels(root, spec.copyChannels[i]);
         if (i < spec.copyLayers.size()) scene.setLayers(root, kAllLayers, spec.copyLayers[i]);
-        if (i < spec.copyPlaces.size()) scene.setDrawPlace(root, spec.copyPlaces[i]);
+        if (i < spec.copyPlaces.size()) scene.setDrawOrder(root, spec.copyPlaces[i]);
         nodesOfOne = scene.nodeCount() - nodes;
     }
     return {};
@@ -110,4 +110,4 @@ void SceneLoader::forgetUnusual() {
     std::erase_if(mEnvironments, isUnusual);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,14 +11,14 @@
 #include "toolkit/scenes/MaterialModel.h"
 #include "toolkit/scenes/SceneAssets.h"
 
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/Scene.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Scene.h>
 
 #include <map>
 #include <memory>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// A scene, and what must live as long.
 struct ShownScene {
@@ -65,4 +65,4 @@ private:
     Files<Environment> mEnvironments;
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -12,7 +12,7 @@
 #include <optional>
 #include <sstream>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::Json;
@@ -178,4 +178,4 @@ Result<std::vector<Effect>> readEffects(std::filesystem::path const& file) {
     return effects;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

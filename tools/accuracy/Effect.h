@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct Value {
     std::string name;
@@ -69,4 +69,4 @@ std::string describe(Reference const& reference);
 
 Result<std::vector<Effect>> readEffects(std::filesystem::path const& file);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

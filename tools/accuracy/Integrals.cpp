@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 /// A DFG table as seen by a sampler with linear filtering and clamped edges.
@@ -88,4 +88,4 @@ Result<ErrorFigures> integralError(std::string const& name, Settings const& sett
     return fail(ErrorCode::NotFound, "there is no integral '{}'{}", name, suggestion(name, namesOf(kIntegrals)));
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -11,11 +11,11 @@
 #include "toolkit/pictures/Picture.h"
 #include "tools/accuracy/Settings.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 using namespace tools; // the toolkit
 
 /// Relative rms and max; no FLIP, because there is no picture.
 Result<ErrorFigures> integralError(std::string const& name, Settings const& settings, jobs::JobSystem& jobs);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

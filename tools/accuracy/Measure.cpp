@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::SceneSpec;
@@ -225,4 +225,4 @@ Result<Results> measure(std::vector<Effect> const& table, std::vector<std::strin
     return Measurement(all, scenes, options, progress).run(chosen.empty() ? all : rows);
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

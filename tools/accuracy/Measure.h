@@ -12,11 +12,11 @@
 #include "tools/accuracy/Results.h"
 #include "tools/accuracy/SceneLibrary.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <functional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct MeasureOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
@@ -38,4 +38,4 @@ using MeasureProgress = std::function<void(std::string const& what, double done)
 Result<Results> measure(std::vector<Effect> const& table, std::vector<std::string> const& chosen,
                         SceneLibrary const& scenes, MeasureOptions const& options, MeasureProgress const& progress);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

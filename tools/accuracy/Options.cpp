@@ -4,7 +4,7 @@
 #include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::invalidOption;
@@ -141,4 +141,4 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     return std::optional(options);
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct Options {
     std::filesystem::path effects, scenes, out = "accuracy";
@@ -27,4 +27,4 @@ struct Options {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,7 +13,7 @@
 #include <set>
 #include <span>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ Result<void> writeReport(nlohmann::ordered_json const& data, ReportPlaces const&
     return fail(ErrorCode::Unreadable, "{}: tools/plot/plot.py accuracy-page failed, see above", places.page.string());
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct ReportPlaces {
     std::filesystem::path out, page;
@@ -25,4 +25,4 @@ Result<void> writeReport(Results const& results, ReportPlaces const& places);
 /// Of the JSON of results (Results.h).
 Result<void> writeReport(nlohmann::ordered_json const& data, ReportPlaces const& places);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ void PagePictures::removeOthers() const {
     }
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,7 +13,7 @@
 #include <map>
 #include <string>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 class PagePictures {
 public:
@@ -35,4 +35,4 @@ private:
     std::map<std::string, std::filesystem::path> mAdded; ///< address, where it came from
 };
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

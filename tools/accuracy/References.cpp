@@ -4,7 +4,7 @@
 #include "base/Assert.h"
 #include "tools/accuracy/TracedPicture.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::SceneSpec;
@@ -83,4 +83,4 @@ Result<Truth> makeTruth(Reference const& reference, SceneSpec const& scene, std:
     return Truth{};
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

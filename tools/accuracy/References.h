@@ -9,7 +9,7 @@
 #include "tools/accuracy/SceneLibrary.h"
 #include "tools/accuracy/Studio.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 /// Where references are rendered.
 struct ReferenceStage {
@@ -35,4 +35,4 @@ Result<Picture> shoot(Studio& studio, tools::SceneSpec const& scene, Settings co
 Result<Truth> makeTruth(Reference const& reference, tools::SceneSpec const& scene, std::vector<std::string> const& base,
                         ReferenceStage const& stage);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -99,4 +99,4 @@ std::string csvOf(Json const& data) {
     return csv;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -16,13 +16,13 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <map>
 #include <string>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 using namespace tools; // the toolkit
 
@@ -65,4 +65,4 @@ nlohmann::ordered_json jsonOf(Results const& results);
 /// Of such JSON; throws its exception where a value lacks a number.
 std::string csvOf(nlohmann::ordered_json const& data);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

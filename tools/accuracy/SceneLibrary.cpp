@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 Result<SceneLibrary> SceneLibrary::read(std::filesystem::path const& folder) {
     Result<std::vector<tools::SceneSpec>> scenes = tools::readScenes(folder);
@@ -21,4 +21,4 @@ Result<tools::SceneSpec const*> SceneLibrary::find(std::string const& name) cons
     return fail(ErrorCode::NotFound, "there is no scene '{}'{}", name, suggestion(name, namesOf(mScenes)));
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -7,7 +7,7 @@
 
 #include "toolkit/scenes/SceneAssets.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 class SceneLibrary {
 public:
@@ -19,4 +19,4 @@ private:
     std::vector<tools::SceneSpec> mScenes;
 };
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -5,13 +5,13 @@
 #include "tools/common/CommandLine.h"
 #include "tools/materials/PlainMaterials.h"
 
-#include <filament/QualityBudget.h>
+#include <filament_core/QualityBudget.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using Words = std::span<const std::string_view>;
@@ -121,4 +121,4 @@ std::vector<std::string> valuesOf(std::string_view choice) {
     return { words.begin(), words.end() };
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -8,16 +8,16 @@
 
 #include "base/Result.h"
 
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/View.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/View.h>
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct Settings {
     View view{}; ///< but camera, size and what belongs to the scene
@@ -35,4 +35,4 @@ Result<void> change(Settings& settings, std::span<const std::string> words);
 /// All values of a choice that are worth measuring; nothing for an unknown choice.
 std::vector<std::string> valuesOf(std::string_view choice);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,7 +13,7 @@
 #include <array>
 #include <span>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::Json;
@@ -155,4 +155,4 @@ Result<Json> mergeShards(std::vector<fs::path> const& files) {
     return merged;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

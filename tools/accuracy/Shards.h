@@ -18,7 +18,7 @@
 
 #include <filesystem>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 /// The rows of the run: `chosen`, or all of `table`. NotFound for a name that is none.
 Result<std::vector<std::string>> rowsOf(std::vector<Effect> const& table, std::vector<std::string> const& chosen);
@@ -33,4 +33,4 @@ Result<void> writeShard(Results const& results, tools::Shard const& shard, std::
 /// Files, or folders with a results.json, in any order.
 Result<nlohmann::ordered_json> mergeShards(std::vector<std::filesystem::path> const& files);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 constexpr size_t kResamples = 1000;
@@ -39,4 +39,4 @@ Estimate estimate(std::span<const double> values) {
 
 Estimate estimateRatio(std::span<const double> a, std::span<const double> b) { return estimate(pairedRatios(a, b)); }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 /// A median and its 95 % confidence interval.
 struct Estimate {
@@ -20,4 +20,4 @@ Estimate estimate(std::span<const double> values);
 /// The median of a[i] / b[i], both taken in round i: a machine that slows down for a while slows down both.
 Estimate estimateRatio(std::span<const double> a, std::span<const double> b);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,7 +101,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     view.quality = settings.view.quality;
     view.effects = settings.view.effects;
     view.samples = settings.view.samples;
-    view.colorGrading = settings.view.colorGrading;
+    view.display = settings.view.display;
     view.camera = cameraOf(spec, parts.shown.scene.bounds());
     parts.frames = spec.frames;
     parts.target = engine.own(engine.create(SwapChainDesc{
@@ -141,4 +141,4 @@ void Studio::forgetUnusual() {
     for (auto& [key, used] : mEquipment) used->loader.forgetUnusual();
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,13 +13,13 @@
 #include "toolkit/scenes/ShownScene.h"
 #include "tools/accuracy/Settings.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <map>
 #include <memory>
 #include <optional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 using namespace tools; // the toolkit
 
@@ -76,4 +76,4 @@ private:
     std::map<std::string, std::unique_ptr<Equipment>> mEquipment; // by Settings::engineKey
 };
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -3,7 +3,7 @@
 
 #include "tools/accuracy/References.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 constexpr uint32_t kWarmUp = 2;
@@ -61,4 +61,4 @@ Result<std::vector<Timing>> timeInTurns(TimingJob const& job, std::function<void
     return timings;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -11,7 +11,7 @@
 
 #include <functional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct TimingJob {
     Studio& studio;
@@ -24,4 +24,4 @@ struct TimingJob {
 /// In the order of effect.values. `progress`: in [0, 1], called after every round.
 Result<std::vector<Timing>> timeInTurns(TimingJob const& job, std::function<void(double done)> const& progress);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

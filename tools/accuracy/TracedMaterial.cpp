@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <sstream>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace lib = shader::lib64;
@@ -216,4 +216,4 @@ Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec, size_t copy) {
     return traced;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

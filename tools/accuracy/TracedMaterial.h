@@ -14,7 +14,7 @@
 #include "toolkit/scenes/SceneFile.h"
 #include "tools/reference/Reference.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 /// The features of a scene's materials: which approximations its pictures contain.
 struct MaterialFeatures {
@@ -30,4 +30,4 @@ struct TracedMaterial {
 /// Of one of the scene's copies.
 Result<TracedMaterial> tracedMaterialOf(tools::SceneSpec const& spec, size_t copy = 0);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

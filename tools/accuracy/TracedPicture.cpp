@@ -8,7 +8,7 @@
 
 #include <type_traits>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using reference::ReferenceScene;
@@ -129,4 +129,4 @@ Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint3
     return TracedPicture{ { image->width, image->height, std::move(image->color) }, image->statistics.relativeError };
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

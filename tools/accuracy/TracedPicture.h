@@ -10,7 +10,7 @@
 #include "tools/accuracy/TracedMaterial.h"
 #include "tools/reference/Reference.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 using namespace tools; // the toolkit
 
@@ -32,4 +32,4 @@ Result<TracedPicture> trace(reference::ReferenceScene const& scene, View const& 
                             jobs::JobSystem& jobs,
                             reference::Integrator integrator = reference::Integrator::Unoccluded);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -15,7 +15,7 @@
 #include <chrono>
 #include <cstdio>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using tools::failed;
@@ -107,9 +107,9 @@ int run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-accuracy", argc, argv, accuracy::parseOptions, accuracy::run);
 }

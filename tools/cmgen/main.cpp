@@ -22,8 +22,8 @@
 #include <optional>
 #include <string>
 
-using namespace filament;
-using namespace filament::assets;
+using namespace filament_core;
+using namespace filament_core::assets;
 
 namespace {
 

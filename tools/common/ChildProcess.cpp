@@ -11,7 +11,7 @@
 
 extern char** environ;
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::vector<std::string> environmentWith(std::vector<std::pair<std::string, std::string>> const& changes) {
@@ -94,4 +94,4 @@ ChildEnd ChildProcess::kill() {
     return ended(status);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct ChildCommand {
     std::vector<std::string> words;
@@ -53,4 +53,4 @@ private:
     pid_t mId = -1; ///< -1: none, or it has ended
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// Rewrites "-.5" as "-0.5": CLI11 would take it for a short option.
@@ -245,4 +245,4 @@ std::vector<std::string> CommandLine::givenBesides(std::initializer_list<const c
     return positional;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

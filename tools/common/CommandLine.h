@@ -26,7 +26,7 @@ class App;
 class Option;
 } // namespace CLI
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 class CommandLine {
 public:
@@ -126,4 +126,4 @@ Result<void> convertNumbers(const char* option, std::vector<std::string> const& 
 /// "on" or "off"; an empty word does not change `result`.
 Result<void> convertSwitch(const char* option, std::string const& word, bool& result);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,7 +11,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::mutex gMutex;
@@ -87,4 +87,4 @@ void routeLogToConsole() {
     setLogSink([](Severity, std::string_view line) { printWarning(line); });
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

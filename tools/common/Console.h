@@ -8,7 +8,7 @@
 #include <chrono>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The prefix of warnings and errors. Call once, before any other call, with a string literal.
 void setProgramName(std::string_view name);
@@ -39,4 +39,4 @@ void printError(std::string_view text);
 /// Prints the library's log lines as warnings; lines below a warning are dropped.
 void routeLogToConsole();
 
-} // namespace filament::tools
+} // namespace filament_core::tools

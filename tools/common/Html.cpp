@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 std::string escapedHtml(std::string_view text) {
     std::string result;
@@ -42,4 +42,4 @@ std::string base64(std::span<const std::byte> bytes) {
     return text;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,11 +8,11 @@
 #include <string>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// For text and for quoted attributes.
 std::string escapedHtml(std::string_view text);
 /// RFC 4648, section 4: for data: URLs.
 std::string base64(std::span<const std::byte> bytes);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 // Lock-free atomics: the handler may use nothing else.
@@ -42,4 +42,4 @@ bool isInterrupted() { return gIsInterrupted.load(); }
 StopOnInterrupt::StopOnInterrupt() { ++gScopes; }
 StopOnInterrupt::~StopOnInterrupt() { --gScopes; }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

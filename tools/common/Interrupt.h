@@ -7,7 +7,7 @@
 ///   Limits  signals that the parent told this process to ignore (nohup) stay ignored.
 #pragma once
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The exit status of work that stopped early, as of shells: 128 + SIGINT.
 inline constexpr int kInterruptedStatus = 130;
@@ -25,4 +25,4 @@ public:
     StopOnInterrupt& operator=(StopOnInterrupt const&) = delete;
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

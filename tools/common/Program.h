@@ -13,7 +13,7 @@
 #include <exception>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// Prints the error and returns the exit status.
 inline int failed(Error const& error) {
@@ -42,4 +42,4 @@ int runProgram(std::string_view name, int argc, const char* const* argv, Parse&&
     }
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 
 /// The smallest of 1, 2 and 5 times a power of ten that is at least `least`, so less than 2.5 times as much.
 /// `least` > 0, finite.
@@ -18,4 +18,4 @@ inline double roundStep(double least) {
     return 10 * decade;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr std::string_view kSun = "sun.", kEnvironment = "environment.", kModel = "model.";
@@ -45,4 +45,4 @@ std::optional<Result<void>> setSceneChoice(SceneOptions& options, std::string co
     return std::nullopt;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,14 +6,14 @@
 
 #include "tools/common/SceneOptions.h"
 
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// Options of a struct that have a prefix: "sun.haloSize".
 struct PrefixedOptions {
@@ -26,4 +26,4 @@ std::span<const PrefixedOptions> prefixedOptions();
 /// Nothing: the name is no choice of these.
 std::optional<Result<void>> setSceneChoice(SceneOptions& options, std::string const& name, std::string const& value);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

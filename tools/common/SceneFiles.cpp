@@ -3,7 +3,7 @@
 
 #include "tools/common/Console.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 Result<void> makeOutFolder(SceneOptions const& options) {
     std::error_code error;
@@ -29,4 +29,4 @@ Result<showcase::Files> chooseFiles(SceneOptions const& options) {
     return files;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,7 +7,7 @@
 #include "tools/common/SceneOptions.h"
 #include "tools/showcase/Showcase.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The folder of the images, created if it is missing.
 Result<void> makeOutFolder(SceneOptions const& options);
@@ -17,4 +17,4 @@ Result<void> makeOutFolder(SceneOptions const& options);
 /// before these, unless the command line names one: SceneOptions::environment is empty.
 Result<showcase::Files> chooseFiles(SceneOptions const& options);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

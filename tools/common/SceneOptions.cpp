@@ -4,14 +4,14 @@
 #include "tools/common/CommandLine.h"
 #include "tools/common/SceneChoices.h"
 
-#include <filament/Look.h>
-#include <filament/RenderPreset.h>
+#include <filament_core/Look.h>
+#include <filament_core/RenderPreset.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384;
@@ -29,16 +29,16 @@ Result<void> convertSize(SceneWords const& words, SceneOptions& options) {
 Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
     const auto toneMapper = enumFromName<ToneMapper>(words.toneMapper);
     if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, listed(enumNames<ToneMapper>()));
-    options.view.colorGrading.toneMapper = *toneMapper;
+    options.view.display.toneMapper = *toneMapper;
 
     if (!words.look.empty()) {
         auto look = loadLook(words.look);
         if (!look) return fail(look.error().code, "--look {}", look.error().message);
-        options.view.colorGrading.look = std::move(*look);
+        options.view.display.look = std::move(*look);
         options.lookFile = words.look;
     }
     if (auto done = convertSwitch("--skybox", words.skybox, options.skybox); !done) return done;
-    if (auto done = convertSwitch("--dither", words.dither, options.view.colorGrading.dither); !done) return done;
+    if (auto done = convertSwitch("--dither", words.dither, options.view.display.dither); !done) return done;
     if (words.out.empty()) return invalidOption("--out", words.out, "the path of a folder");
     return {};
 }
@@ -170,4 +170,4 @@ Camera cameraOf(SceneOptions const& options) {
     return Camera::lookAt(options.eye, options.at, { .verticalFovDegrees = options.fovDegrees }, options.exposure);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,18 +6,18 @@
 
 #include "base/Result.h"
 
-#include <filament/Camera.h>
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/Light.h>
-#include <filament/View.h>
+#include <filament_core/Camera.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Light.h>
+#include <filament_core/View.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 class CommandLine;
 
@@ -34,7 +34,7 @@ struct SceneOptions {
     Lux iblIntensity{ 30'000 };
     std::optional<SunLight> sun;
     bool skybox = true;                          ///< if there is an environment
-    std::filesystem::path lookFile{};            ///< that view.colorGrading.look was read from; empty: none
+    std::filesystem::path lookFile{};            ///< that view.display.look was read from; empty: none
     std::filesystem::path dirt;                  ///< --set bloom.dirt=FILE.png: of the lens; empty: none
     bool exactShaders = true;                    ///< --set exact=off
     EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear
@@ -56,4 +56,4 @@ Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options)
 
 Camera cameraOf(SceneOptions const& options);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,7 +10,7 @@
 #include <optional>
 #include <tuple>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr size_t kNamedShards = 10; ///< of those that are missing
@@ -84,4 +84,4 @@ Result<void> checkComplete(std::vector<Shard> shards) {
                 namesOf(missing, shards.front().count), missing.front(), shards.front().count);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 inline constexpr uint32_t kMaxShards = 100'000;
 
@@ -26,4 +26,4 @@ Result<Shard> parseShard(std::string const& word);
 /// first that is there twice, one that cannot be, or two numbers of shards that contradict each other.
 Result<void> checkComplete(std::vector<Shard> shards);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

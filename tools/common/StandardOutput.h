@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 inline Error fullOutput(int error) {
     return fail(ErrorCode::Unreadable, "cannot write to the standard output: {}; redirect it to where there is space",
@@ -34,4 +34,4 @@ inline Result<void> printText(std::string_view text) {
     return finishOutput();
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ std::string againstLine(Results const& results, fs::path const& other) {
                        compared, results.cases.size() - compared);
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

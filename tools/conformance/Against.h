@@ -11,7 +11,7 @@
 
 #include "tools/conformance/Results.h"
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 Result<void> compareWithReport(std::filesystem::path const& folder, Results& results,
                                std::filesystem::path const& other);
@@ -22,4 +22,4 @@ std::string againstConfiguration(std::filesystem::path const& other);
 /// For the terminal: how many cases have the same bits, which ones only one report has.
 std::string againstLine(Results const& results, std::filesystem::path const& other);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

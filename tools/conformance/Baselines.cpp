@@ -9,7 +9,7 @@
 #include "toolkit/pictures/Flip.h"
 #include "toolkit/pictures/Pixels.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -18,7 +18,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 std::string hexOf(Image const& thumbnail) {
@@ -135,4 +135,4 @@ void Baselines::store(std::string const& name, Image const& image, Machine const
     mEntries[name] = { hashOf(image), hexOf(thumbnailOf(image)) };
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -11,13 +11,13 @@
 
 #include "tools/conformance/Results.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <map>
 #include <optional>
 #include <string>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 inline constexpr uint32_t kThumbnail = 16; ///< pixels per side
 inline constexpr double kThumbnailFlip = 0.02;
@@ -60,4 +60,4 @@ std::string hashOf(Image const& image);
 /// Box-filtered sRGB codes, RGBA8; half floats are first clamped and encoded.
 Image thumbnailOf(Image const& image);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -6,7 +6,7 @@
 #include "toolkit/pictures/ImageCompare.h"
 #include "toolkit/pictures/Picture.h"
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 bool isMesaCpu(DeviceDescription const& device) { return device.device.find("llvmpipe") != std::string::npos; }
@@ -78,4 +78,4 @@ Result<void> compareFiles(std::filesystem::path const& out, std::string const& r
 
 Image displayed(Image const& image) { return image.format == Format::RGBA8 ? image : displayImage(pictureOf(image)); }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

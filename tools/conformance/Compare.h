@@ -8,9 +8,9 @@
 #include "toolkit/scenes/SceneFile.h"
 #include "tools/conformance/Results.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 Comparator comparatorFor(Comparator const& asked, DeviceDescription const& a, DeviceDescription const& b);
 
@@ -26,4 +26,4 @@ Result<void> compareFiles(std::filesystem::path const& out, std::string const& r
 /// As a display shows it: RGBA8; half floats are clamped to [0, 1] and encoded.
 Image displayed(Image const& image);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 void read(Json const& line, JournalContents& contents) {
@@ -46,4 +46,4 @@ JournalContents readJournal(std::filesystem::path const& file) {
     return contents;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

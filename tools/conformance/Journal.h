@@ -11,7 +11,7 @@
 
 #include <fstream>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 class Journal {
 public:
@@ -37,4 +37,4 @@ struct JournalContents {
 /// A missing file is an empty journal.
 JournalContents readJournal(std::filesystem::path const& file);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

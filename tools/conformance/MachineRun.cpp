@@ -9,13 +9,13 @@
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Machines.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <thread>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using Path = std::filesystem::path;
@@ -193,4 +193,4 @@ Result<void> drawOnMachines(Options const& options, Results& results, MachineLim
     return {};
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

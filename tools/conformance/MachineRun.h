@@ -16,7 +16,7 @@
 
 #include <chrono>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct MachineLimits {
     std::chrono::seconds silence{ 300 };
@@ -25,4 +25,4 @@ struct MachineLimits {
 
 Result<void> drawOnMachines(Options const& options, Results& results, MachineLimits const& limits = {});
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

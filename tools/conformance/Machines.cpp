@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
@@ -49,4 +49,4 @@ std::vector<std::string> quickMachines() {
     return names;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct SimulatedMachine {
     std::string_view name;
@@ -31,4 +31,4 @@ SimulatedMachine const* findMachine(std::string_view name);
 /// "all" for --machines: all except the emulated ones, which take a minute for a second's work.
 std::vector<std::string> quickMachines();
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

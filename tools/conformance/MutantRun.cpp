@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 constexpr std::string_view kCure = "let it change what the case draws with, or take it out of the scene's \"kills\"";
@@ -75,4 +75,4 @@ Result<MutantVerdict> runMutant(Mutation const& mutation, StageOptions const& op
     return verdict;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -13,7 +13,7 @@
 
 #include <optional>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct MutantVerdict {
     std::optional<Kill> kill;        ///< none: a control, of which no draw has anything
@@ -28,4 +28,4 @@ Result<MutantVerdict> runMutant(Mutation const& mutation, StageOptions const& op
 /// "'stencilOff' (stencil test off) proves nothing: ..." where no draw has what it changes; empty: one does.
 std::string whyUndrawn(Mutation const& mutation, DefectReach const& reach);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

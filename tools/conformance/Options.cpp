@@ -6,11 +6,11 @@
 #include "tools/conformance/Machines.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <algorithm>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using tools::invalidOption;
@@ -175,4 +175,4 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     return std::optional(options);
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

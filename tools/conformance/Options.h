@@ -6,14 +6,14 @@
 #include "base/Result.h"
 #include "tools/common/Shard.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct Options {
     std::filesystem::path scenes, assets;
@@ -49,4 +49,4 @@ struct Options {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 /// For text and attributes of XML and HTML; XML has no control characters.
@@ -208,4 +208,4 @@ std::string machineLines(Results const& results) {
     return text;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -8,7 +8,7 @@
 
 #include "tools/conformance/Results.h"
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 std::string junitOf(Results const& results);
 std::string htmlOf(Results const& results, std::filesystem::path const& folder);
@@ -25,4 +25,4 @@ std::string machineLines(Results const& results);
 /// For the terminal: counts, kill rate, time.
 std::string summaryLine(Results const& results);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 constexpr std::string_view kMachinePrefix = "machine ";
@@ -249,4 +249,4 @@ Result<Results> merge(std::vector<Results> parts) {
     return all;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

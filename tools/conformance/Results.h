@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 using namespace tools; // the toolkit
 
@@ -106,4 +106,4 @@ Result<Results> readResults(std::filesystem::path const& folder);
 /// one run.
 Result<Results> merge(std::vector<Results> parts);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

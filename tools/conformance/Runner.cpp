@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 std::string fileName(std::string name) {
@@ -369,4 +369,4 @@ Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> co
     return proofOfEquality(options, *stages);
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -13,7 +13,7 @@
 #include "tools/conformance/Results.h"
 #include "tools/conformance/Stage.h"
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct Configuration {
     std::string name;
@@ -39,4 +39,4 @@ Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& c
 /// What --bisect prints.
 Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> const& cases);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -5,12 +5,12 @@
 #include "tools/materials/PictureFile.h"
 #include "tools/materials/PlainMaterials.h"
 
-#include <filament/Animator.h>
-#include <filament/ModelCopy.h>
+#include <filament_core/Animator.h>
+#include <filament_core/ModelCopy.h>
 #include <fmt/core.h>
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::unique_ptr<backend::StreamEdit> edit,
                                            DefectSize size) {
@@ -142,4 +142,4 @@ FrameSource insideOf(Stage& stage) {
     };
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -11,12 +11,12 @@
 #include "toolkit/record/Bisect.h"
 #include "toolkit/scenes/ShownScene.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <memory>
 #include <optional>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 using namespace tools; // the toolkit
 
@@ -80,4 +80,4 @@ private:
 /// For bisect(): frames of the case that was set. The stage must have been opened with capture, and outlive the result.
 FrameSource insideOf(Stage& stage);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

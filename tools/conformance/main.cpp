@@ -13,7 +13,7 @@
 
 #include <cstdio>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using tools::failed;
@@ -119,9 +119,9 @@ int run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-conformance", argc, argv, conformance::parseOptions, conformance::run);
 }

@@ -8,18 +8,18 @@
 #include "tools/materials/PictureFile.h"
 #include "tools/materials/PlainMaterials.h"
 
-#include <filament/Animator.h>
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/ModelCopy.h>
-#include <filament/Scene.h>
+#include <filament_core/Animator.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/ModelCopy.h>
+#include <filament_core/Scene.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint32_t kCostRounds = 31;
@@ -354,4 +354,4 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     return run;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

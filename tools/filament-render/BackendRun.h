@@ -11,14 +11,14 @@
 #include "base/Result.h"
 #include "tools/filament-render/Options.h"
 
-#include <filament/QualityBudget.h>
-#include <filament/Renderer.h>
+#include <filament_core/QualityBudget.h>
+#include <filament_core/Renderer.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// Milliseconds that each step of the start took.
 struct StartTimes {
@@ -71,4 +71,4 @@ Result<Image> drawPicture(Engine& engine, Options const& options, std::filesyste
 Result<BackendRun> runBackend(Options const& options, Backend backend, std::filesystem::path const& model,
                               std::filesystem::path const& environment);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -22,7 +22,7 @@ std::atomic<uint64_t> gAllocations{ 0 };
 
 } // namespace
 
-uint64_t filament::tools::heapAllocations() { return gAllocations.load(std::memory_order_relaxed); }
+uint64_t filament_core::tools::heapAllocations() { return gAllocations.load(std::memory_order_relaxed); }
 
 // A sanitizer has its own allocator, whose checks matter more than this count, so the count stays zero there.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

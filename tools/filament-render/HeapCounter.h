@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 uint64_t heapAllocations();
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 256;
@@ -172,4 +172,4 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     return std::optional(std::move(options));
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,14 +6,14 @@
 #include "base/Result.h"
 #include "tools/common/SceneOptions.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 enum class PictureFormat : uint8_t { Png, Png16, Exr };
 
@@ -45,4 +45,4 @@ struct Options : SceneOptions {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

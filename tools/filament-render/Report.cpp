@@ -9,7 +9,7 @@
 #include <iterator>
 #include <map>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -178,7 +178,7 @@ Result<void> writeReport(std::filesystem::path const& path, ReportInput const& i
                  { "environment", environmentOf(input) },
                  { "size", { input.options.view.size.x, input.options.view.size.y } },
                  { "frames", input.options.frames },
-                 { "toneMapper", toString(input.options.view.colorGrading.toneMapper) } };
+                 { "toneMapper", toString(input.options.view.display.toneMapper) } };
     for (BackendRun const& run : input.runs) report["backends"][fileStem(run.backend)] = runJson(run);
     if (input.comparison) {
         report["comparison"] = { { "pixels", input.comparison->pixels },
@@ -208,4 +208,4 @@ std::string timingText(BackendRun const& run) {
     return text;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct ReportInput {
     Options const& options;
@@ -27,4 +27,4 @@ Result<void> writeReport(std::filesystem::path const& path, ReportInput const& i
 /// The text that --timing prints.
 std::string timingText(BackendRun const& run);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::string settingsOf(Options const& options, showcase::Files const& files) {
@@ -23,7 +23,7 @@ Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files
     if (options.saveFrame.empty() || runs.empty()) return {};
     Options drawn = options;
     if (runs[0].decision) drawn.view.quality = runs[0].decision->quality;
-    const OutputSpace space = options.view.colorGrading.outputSpace;
+    const OutputSpace space = options.view.display.outputSpace;
     record::SaveRequest request{ .folder = options.saveFrame,
                                  .shown = { { .image = runs[0].image, .space = space } },
                                  .engine = engineOptionsOf(options),
@@ -51,4 +51,4 @@ Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files
     return {};
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,8 +10,8 @@
 
 #include <span>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 Result<void> saveRunAsFrame(Options const& options, showcase::Files const& files, std::span<const BackendRun> runs);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

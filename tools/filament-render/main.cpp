@@ -14,7 +14,7 @@
 #include "tools/filament-render/SaveFrame.h"
 #include "tools/materials/MaterialFile.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +23,7 @@
 #include <cstdio>
 #include <span>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint32_t kSavedLookSize = 33; // a side: that of most programs
@@ -63,7 +63,7 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
         const std::filesystem::path path = picturePath(options, backend);
         const Result<void> saved = options.format == PictureFormat::Exr
                                            ? saveExr(path, run->image)
-                                           : savePng(path, run->image, options.view.colorGrading.outputSpace);
+                                           : savePng(path, run->image, options.view.display.outputSpace);
         if (!saved)
             note(saved.error().message);
         else
@@ -110,7 +110,7 @@ int render(Options const& options) {
     if (!files) return failed(files.error());
 
     if (!options.saveLook.empty()) {
-        const Look look = bakeLook(options.view.colorGrading, options.view.effects.grading, kSavedLookSize);
+        const Look look = bakeLook(options.view.display, options.view.effects.colorGrading, kSavedLookSize);
         if (const Result<void> saved = saveLook(options.saveLook, look); !saved) return failed(saved.error());
     }
     std::vector<std::string> errors;
@@ -145,10 +145,10 @@ int render(Options const& options) {
 int run(Options const& options) { return options.listDevices ? listAllDevices() : render(options); }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-render", argc, argv, tools::parseOptions, tools::run,
                              "try a smaller model or size");
 }

@@ -8,7 +8,7 @@
 
 #include <cstdio>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 Result<Image> loadPng(std::string const& path) {
@@ -43,10 +43,10 @@ int compareFiles(std::string const& pathA, std::string const& pathB, std::string
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools
 
 int main(int argc, char** argv) {
-    filament::tools::CommandLine app{
+    filament_core::tools::CommandLine app{
         "Says how many pixels of two PNG files are the same and how far apart the others are.", "imgdiff"
     };
     std::string a, b, out;
@@ -55,8 +55,8 @@ int main(int argc, char** argv) {
     app.option("B", b, "second picture").required();
     app.option("--out", out, "write a picture of the differences");
     app.option("--tolerance", tolerance, "largest difference in 1/255 that still counts as equal");
-    const filament::Result<bool> parsed = app.parse(argc, argv);
-    if (!parsed) return filament::tools::failed(parsed.error());
-    if (!*parsed) return filament::tools::finished(0);
-    return filament::tools::finished(filament::tools::compareFiles(a, b, out, tolerance));
+    const filament_core::Result<bool> parsed = app.parse(argc, argv);
+    if (!parsed) return filament_core::tools::failed(parsed.error());
+    if (!*parsed) return filament_core::tools::finished(0);
+    return filament_core::tools::finished(filament_core::tools::compareFiles(a, b, out, tolerance));
 }

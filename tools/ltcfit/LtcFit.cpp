@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace lib = shader::lib64;
@@ -225,4 +225,4 @@ LtcTerms lookUpLtc(const float* table, double nov, double perceptualRoughness) {
     return { terms.x, terms.y, terms.z };
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

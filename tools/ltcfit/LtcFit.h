@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// a, b and d of shaders/lib/ltc.glsl.
 struct LtcTerms {
@@ -57,4 +57,4 @@ std::vector<float3> fitLtcTable(int size);
 /// The interpolated terms of such a table.
 LtcTerms lookUpLtc(const float* table, double nov, double perceptualRoughness);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

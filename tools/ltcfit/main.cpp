@@ -8,7 +8,7 @@
 
 #include <cstdio>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr const char* kHeader = R"(// SPDX-License-Identifier: Apache-2.0
@@ -18,7 +18,7 @@ constexpr const char* kHeader = R"(// SPDX-License-Identifier: Apache-2.0
 
 #include <array>
 
-namespace filament::shader {{
+namespace filament_core::shader {{
 
 inline constexpr int kLtcTableSize = {0};
 
@@ -33,7 +33,7 @@ std::string textOf(std::vector<float3> const& table, int size) {
         text += fmt::format("{}{:.6f}f, {:.6f}f, {:.6f}f,{}", i % 4 == 0 ? "    " : " ", entry.x, entry.y, entry.z,
                             i % 4 == 3 ? "\n" : "");
     }
-    return text + "};\n// clang-format on\n\n} // namespace filament::shader\n";
+    return text + "};\n// clang-format on\n\n} // namespace filament_core::shader\n";
 }
 
 int write(const char* path) {
@@ -47,10 +47,10 @@ int write(const char* path) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools
 
 int main(int argc, char** argv) {
-    if (argc == 2 && argv[1][0] != '-') return filament::tools::write(argv[1]); // no option is a file
+    if (argc == 2 && argv[1][0] != '-') return filament_core::tools::write(argv[1]); // no option is a file
     std::fputs("ltcfit FILE: writes the table of shaders/interface/LtcTable.h\n", stderr);
     return 2;
 }

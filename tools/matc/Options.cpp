@@ -5,7 +5,7 @@
 #include "tools/common/CommandLine.h"
 #include "tools/common/StandardOutput.h"
 
-#include <filament/Version.h>
+#include <filament_core/Version.h>
 
 #include <fmt/core.h>
 
@@ -16,7 +16,7 @@
 #include <optional>
 #include <set>
 
-namespace filament::matc {
+namespace filament_core::matc {
 namespace {
 
 constexpr const char* kEpilogue = "Exit status: 0 written or printed; 1 the material, one of its files or the output "
@@ -171,4 +171,4 @@ Parsed parseOptions(int argc, char** argv) {
     return parsed;
 }
 
-} // namespace filament::matc
+} // namespace filament_core::matc

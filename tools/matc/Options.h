@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::matc {
+namespace filament_core::matc {
 
 /// What a run ends with.
 enum Status : int {
@@ -44,4 +44,4 @@ struct Parsed {
 };
 Parsed parseOptions(int argc, char** argv);
 
-} // namespace filament::matc
+} // namespace filament_core::matc

@@ -27,7 +27,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::matc {
+namespace filament_core::matc {
 namespace {
 
 constexpr size_t kMaxTextBytes = 1 << 20; // as the compiler's limit for a material with its includes
@@ -209,6 +209,6 @@ int runProgram(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace filament::matc
+} // namespace filament_core::matc
 
-int main(int argc, char** argv) { return filament::matc::runProgram(argc, argv); }
+int main(int argc, char** argv) { return filament_core::matc::runProgram(argc, argv); }

@@ -16,7 +16,7 @@
 #include <optional>
 #include <sstream>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -188,4 +188,4 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialFile(fs::path const& pat
     return entry;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct MaterialShow {
     std::string mesh = "sphere";
@@ -65,4 +65,4 @@ bool isMaterialFile(std::filesystem::path const& path);
 /// Parses the line "// show: ..." of a material's text; defaults if there is none.
 Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fileName);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

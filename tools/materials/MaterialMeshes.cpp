@@ -3,11 +3,11 @@
 
 #include "filament_core/assets/geometry/TangentFrame.h"
 
-#include <filament/Lines.h>
+#include <filament_core/Lines.h>
 
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// A point of a parametric surface; normal and tangent need not be unit.
@@ -153,4 +153,4 @@ std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
     return mesh;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

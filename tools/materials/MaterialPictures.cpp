@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr uint32_t kSize = 128;
@@ -166,4 +166,4 @@ Result<MaterialPicture> makeMaterialPicture(Engine& engine, std::string const& n
                 name);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,9 +10,9 @@
 ///   Fails   NotFound with the existing names.
 #pragma once
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct MaterialPicture {
     Owned<Texture> texture;
@@ -21,4 +21,4 @@ struct MaterialPicture {
 
 Result<MaterialPicture> makeMaterialPicture(Engine& engine, std::string const& name);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

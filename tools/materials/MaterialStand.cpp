@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::vector<AttributeDesc> attributes() {
@@ -179,4 +179,4 @@ Node MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightC
     return root;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,13 +10,13 @@
 #include "tools/materials/MaterialPictures.h"
 #include "tools/materials/MaterialValues.h"
 
-#include <filament/Box.h>
-#include <filament/Scene.h>
+#include <filament_core/Box.h>
+#include <filament_core/Scene.h>
 
 #include <string>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// What make() would otherwise create, unpacking code for 20 to 100 ms.
 struct StandMaterials {
@@ -65,4 +65,4 @@ private:
     static Result<Geometry> makeGeometry(Engine& engine, std::string const& mesh);
 };
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -2,7 +2,7 @@
 #include "tools/materials/MaterialTerms.h"
 #include "tools/paths/Paths.h"
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using Edits = std::vector<TextEdit>;
@@ -65,4 +65,4 @@ Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const&
     return file;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct MaterialTerm {
     std::string name;
@@ -22,4 +22,4 @@ std::vector<MaterialTerm> materialTerms();
 /// `filteredVariants`: VariantBits that are never requested.
 Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term, uint16_t filteredVariants = 0);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <variant>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// Returns nothing if a word is not a number.
@@ -115,4 +115,4 @@ Result<std::vector<MaterialConstant>> materialConstants(shader::MaterialPackage 
     return constants;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

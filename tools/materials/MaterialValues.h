@@ -7,13 +7,13 @@
 
 #include "shaders/package/Package.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 using MaterialValues = std::vector<std::pair<std::string, std::string>>;
 
@@ -25,4 +25,4 @@ Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader:
 Result<std::vector<MaterialConstant>> materialConstants(shader::MaterialPackage const& package,
                                                         MaterialValues const& values);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 Result<assets::Image> readPictureFile(std::filesystem::path const& path) {
     const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
@@ -36,4 +36,4 @@ Result<Owned<Texture>> loadPictureTexture(Engine& engine, std::filesystem::path 
     return makePictureTexture(engine, *picture, path);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -7,11 +7,11 @@
 
 #include "filament_core/assets/image/Image.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <filesystem>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// The two parts of it: the first on any thread.
 Result<assets::Image> readPictureFile(std::filesystem::path const& path);
@@ -20,4 +20,4 @@ Result<Owned<Texture>> makePictureTexture(Engine& engine, assets::Image const& p
 
 Result<Owned<Texture>> loadPictureTexture(Engine& engine, std::filesystem::path const& path);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

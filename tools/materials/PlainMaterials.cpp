@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 std::span<const std::byte> compilePlain(std::string_view name) {
@@ -36,4 +36,4 @@ std::span<const std::byte> plainMaterial(std::string_view name) {
     return compiled[std::string(name)] = compilePlain(name);
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

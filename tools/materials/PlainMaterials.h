@@ -11,11 +11,11 @@
 #include <span>
 #include <string_view>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 std::span<const std::byte> plainMaterial(std::string_view name);
 
 /// The definition of an engine material; empty for an unknown name.
 std::string_view engineMaterialText(std::string_view name);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

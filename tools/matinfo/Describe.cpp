@@ -9,7 +9,7 @@
 #include <bit>
 #include <iterator>
 
-namespace filament::matinfo {
+namespace filament_core::matinfo {
 namespace {
 
 using shader::MaterialPackage;
@@ -145,4 +145,4 @@ Result<std::string> codeOf(MaterialPackage const& package, uint32_t key, Stage s
     return shader::disassembleSpirv(spirv);
 }
 
-} // namespace filament::matinfo
+} // namespace filament_core::matinfo

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace filament::matinfo {
+namespace filament_core::matinfo {
 
 /// Head, parameters, constants, terms, and a row of sizes and operations for each variant.
 std::string describe(shader::MaterialPackage const& package, size_t fileBytes);
@@ -20,4 +20,4 @@ Result<std::string> codeOf(shader::MaterialPackage const& package, uint32_t key,
 /// "0 (no lights)", "3 (directionalLighting dynamicLighting)"
 std::string variantName(uint32_t key);
 
-} // namespace filament::matinfo
+} // namespace filament_core::matinfo

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace filament;
+using namespace filament_core;
 
 struct Options {
     std::string input, code, stage = "fragment";

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kIntroduction = R"(# Numerics of the shader library
@@ -225,4 +225,4 @@ std::string markdownOf(Study const& study) {
     return text;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::array<std::string_view, kOutsideInputs> kOutsideNames{ "beyond", "huge", "infinite", "nan" };
@@ -133,4 +133,4 @@ std::string jsonOf(Study const& study) {
     return json.dump(1) + "\n";
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

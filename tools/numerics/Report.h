@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 /// One line per row: the largest error of each column, followed by broken promises.
 std::string terminalTable(Study const& study);
@@ -22,4 +22,4 @@ std::string titleOf(Row const& row);
 /// All rows and columns together.
 size_t violationCount(Study const& study);
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

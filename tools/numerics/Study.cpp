@@ -8,7 +8,7 @@
 
 #include <bit>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 using backend::BackendType;
@@ -156,4 +156,4 @@ std::vector<std::string> violations(Row const& row, Column column, Measurement c
     return found;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 struct RowResult {
     Row const* row = nullptr;
@@ -46,4 +46,4 @@ bool isMeasured(Row const& row, Column column);
 /// The promises of the row that a measurement breaks, one line each; empty if it keeps them all.
 std::vector<std::string> violations(Row const& row, Column column, Measurement const& result);
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

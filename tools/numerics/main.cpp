@@ -9,7 +9,7 @@
 
 #include <cstdio>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 using tools::failed;
@@ -47,10 +47,10 @@ int run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     tools::setProgramName("filament-numerics");
     tools::routeLogToConsole();
     tools::CommandLine app("Evaluates every function of shaders/lib over edge grids in every precision.",

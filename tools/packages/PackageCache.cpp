@@ -13,7 +13,7 @@
 #include <mutex>
 #include <system_error>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ Result<CompiledPackage> compilePackage(std::string_view text, std::string_view f
     return CompiledPackage{ .bytes = std::move(*bytes) };
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

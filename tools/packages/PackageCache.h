@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 struct PackageCache {
     std::filesystem::path folder;
@@ -46,4 +46,4 @@ Result<CompiledPackage> compilePackage(std::string_view text, std::string_view f
 /// A hash of the bytes of this build's matc (cmake/WriteCompilerIdentity.cmake).
 std::string_view compilerIdentity();
 
-} // namespace filament::tools
+} // namespace filament_core::tools

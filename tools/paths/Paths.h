@@ -7,11 +7,11 @@
 
 #include <filesystem>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 std::filesystem::path sourceDir();  ///< the root of the repository
 std::filesystem::path buildDir();   ///< CMake's, with bin/ and generated/
 std::filesystem::path assetDir();   ///< FILAMENT_ASSET_DIR: glTF models and environments; empty if there is none
 std::filesystem::path plotPython(); ///< an interpreter with matplotlib
 
-} // namespace filament::tools
+} // namespace filament_core::tools

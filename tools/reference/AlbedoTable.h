@@ -13,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 template <class Value>
 class AlbedoTable {
@@ -78,4 +78,4 @@ private:
     std::vector<Value> mEntries;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 /// Cosine-weighted around +Z: Malley's method.
@@ -50,4 +50,4 @@ void occludeAmbientLight(TracedScene const& scene, ReferenceSettings const& sett
     if (glm::length(leaning) > 1e-2) surface.bentNormal = glm::normalize(leaning);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -11,10 +11,10 @@
 #include "tools/reference/SampleStream.h"
 #include "tools/reference/Surface.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// `pair`: a pair of dimensions of `numbers` that nothing else uses.
 void occludeAmbientLight(TracedScene const& scene, ReferenceSettings const& settings, SampleStream const& numbers,
                          uint32_t pair, SurfaceSample& surface, uint64_t& rays);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

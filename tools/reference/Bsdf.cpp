@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -230,4 +230,4 @@ double Bsdf::pdfOf(Part part, double3 light) const {
     return inside ? pdfOfBase(mBase, *inside) * mCoat->spread(light) : 0;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

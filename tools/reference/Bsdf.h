@@ -18,7 +18,7 @@
 
 #include <variant>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct BsdfSample {
     double3 direction{ 0.0 }; ///< world, unit
@@ -65,4 +65,4 @@ private:
     double mChances[kParts]{}; // the sum is 1
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BsdfModel: the formula for each term of the standard material. The defaults are the engine's; changing one value
 /// isolates one term, so that its error can be measured. Visibility, Fresnel and diffuse are the engine's own choices
-/// (<filament/Quality.h>), applied to all light here.
+/// (<filament_core/Quality.h>), applied to all light here.
 #pragma once
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <cstdint>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// What replaces the energy that the specular lobe loses with a single bounce.
 enum class EnergyTerm : uint8_t {
@@ -81,4 +81,4 @@ struct BsdfModel {
     friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -57,4 +57,4 @@ double ClothLobes::pdf(double3 light) const {
     return kDiffuseChance * lib::diffuseWrapped(cosine, wrap) + (1 - kDiffuseChance) * uniform;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

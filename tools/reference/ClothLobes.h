@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class ClothLobes {
 public:
@@ -33,4 +33,4 @@ private:
     double mViewAlbedo;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -102,4 +102,4 @@ double3 CoatLayer::combined(LobeValues const& below, double3 specularAlbedo, dou
     return (specular + diffuse) * through;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -15,7 +15,7 @@
 
 #include "tools/reference/StandardLobes.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class CoatLayer {
 public:
@@ -60,4 +60,4 @@ private:
     double mLobeAlbedo = 0;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

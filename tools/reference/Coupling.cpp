@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -62,4 +62,4 @@ double3 Coupling::reflectedTowards(double3 direction) const {
     return reflected(directionalAlbedo(cosine, std::clamp(roughness, 0.045, 1.0)));
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

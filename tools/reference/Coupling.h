@@ -8,7 +8,7 @@
 #include "tools/reference/BsdfModel.h"
 #include "tools/reference/Microfacets.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class Coupling {
 public:
@@ -33,4 +33,4 @@ private:
     double3 mTowardsView, mExit;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

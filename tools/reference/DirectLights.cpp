@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -225,4 +225,4 @@ DirectSample DirectLights::sample(double3 position, double u, double2 onArea) co
     return chosen;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -14,12 +14,12 @@
 #include "base/math/Math.h"
 #include "tools/reference/LightProfiles.h"
 
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
 #include <limits>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// What shines besides the environment and surfaces. Profiles of points and spots are in lists of their own, parallel
 /// to the lights; a missing or null one: none. Handles such as PointLight::profile mean nothing here.
@@ -95,4 +95,4 @@ private:
     std::vector<Light> mLights;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -144,4 +144,4 @@ double coatAlbedo(double nov, double perceptualRoughness) {
 
 double averageCoatAlbedo(double perceptualRoughness) { return coatTable().average(perceptualRoughness); }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -8,9 +8,9 @@
 ///   Memory  96 KiB.  Cost: about 0.25 s the first time.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// x: weighted by Schlick's (1 - voh)^5, y: by 1. As `dfg` in shaders/lib/brdf.glsl.
 /// nov in (0, 1], alpha in [kMinAlpha, 1]. Height-correlated Smith.
@@ -26,4 +26,4 @@ double2 averageDirectionalAlbedo(double perceptualRoughness);
 double coatAlbedo(double nov, double perceptualRoughness);
 double averageCoatAlbedo(double perceptualRoughness);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

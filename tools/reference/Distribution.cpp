@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 Distribution::Distribution(std::span<const double> weights) : mCumulative(weights.size() + 1) {
     FILAMENT_ASSERT(!weights.empty(), "a distribution chooses among one thing at least");
@@ -31,4 +31,4 @@ Picked Distribution::pick(double u) const {
     return { index, share, std::clamp(inside, 0.0, 1 - 0x1p-53) };
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct Picked {
     uint32_t index = 0;
@@ -31,4 +31,4 @@ private:
     std::vector<double> mCumulative; // size() + 1 values from 0 to 1
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

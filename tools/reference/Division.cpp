@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using tools::invalidOption;
@@ -131,4 +131,4 @@ Result<FilmRegion> regionOf(tools::Shard const& shard, uint2 size, PassPlan cons
     return region;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

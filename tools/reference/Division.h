@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// `tile`: "X,Y,W,H" in pixels, or "I/CxR": tile I, row by row, of a grid with C columns and R rows; empty: all.
 /// `samples`: "FIRST,COUNT" of the samples of a pixel, whole passes; empty: all.
@@ -19,4 +19,4 @@ Result<FilmRegion> regionOf(std::string const& tile, std::string const& samples,
 
 Result<FilmRegion> regionOf(tools::Shard const& shard, uint2 size, PassPlan const& plan);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr uint32_t kNone = ~0u;
@@ -92,4 +92,4 @@ double EmissiveLights::pdf(Hit const& hit, double3 direction) const {
                    std::abs(glm::dot(normal, direction)) / length);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

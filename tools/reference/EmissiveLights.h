@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct EmissiveSample {
     double3 direction{ 0.0 }; ///< from the point to the light, unit
@@ -48,4 +48,4 @@ private:
     Distribution mChoice;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using std::numbers::pi;
@@ -78,7 +78,7 @@ double3 EnvironmentLight::skyFromWorld(double3 d) const {
     return { mCosine * d.x - mSine * d.z, d.y, mSine * d.x + mCosine * d.z };
 }
 
-// As specified in <filament/Environment.h>.
+// As specified in <filament_core/Environment.h>.
 double2 EnvironmentLight::pictureFromWorld(double3 direction) const {
     const double3 d = skyFromWorld(direction);
     const double u = 0.5 - std::atan2(d.x, d.z) / (2 * pi);
@@ -120,4 +120,4 @@ double EnvironmentLight::pdf(double3 direction) const {
     return mRowChoice.probability(row) * mColumnChoice[row].probability(column) / cellSolidAngle(row);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -18,7 +18,7 @@
 
 #include <memory>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct EnvironmentSample {
     double3 direction; ///< world, unit
@@ -57,4 +57,4 @@ private:
     SkyHarmonics mHarmonics;                 // without the factor
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

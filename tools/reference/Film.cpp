@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 std::vector<PassRange> nodesOf(PassRange passes) {
     std::vector<PassRange> nodes;
@@ -104,4 +104,4 @@ void Film::develop(ReferenceImage& image) const {
     measure(image.statistics);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -17,7 +17,7 @@
 
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// Passes [first, first + count).
 struct PassRange {
@@ -78,4 +78,4 @@ private:
     std::vector<std::vector<PixelSums>> mSpares; // memory of merged nodes
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -226,4 +226,4 @@ Result<PartialFilm> readPart(std::filesystem::path const& file) {
     return bytes ? parsePart(*bytes, file.string()) : bytes.error();
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -18,7 +18,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 inline constexpr const char* kPartName = "part.film"; ///< in the folder of a part
 
@@ -52,4 +52,4 @@ std::vector<std::byte> bytesOf(PictureSettings const& settings, PartialFilm cons
                                std::optional<tools::Shard> const& shard);
 Result<PartialFilm> parsePart(std::span<const std::byte> bytes, std::string const& name);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

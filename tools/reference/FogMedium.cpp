@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr double kFarthestFog = 1e15; // metres: what lies at infinity
@@ -63,4 +63,4 @@ double3 FogMedium::inFront(double3 color, double3 share, double3 direction, doub
     return fogged + share * mSun * (std::pow(cosine, double(mFog.inScatteringSize)) * scattered);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

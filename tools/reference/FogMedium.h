@@ -10,12 +10,12 @@
 #include "base/math/Math.h"
 #include "tools/reference/EnvironmentLight.h"
 
-#include <filament/Effects.h>
-#include <filament/Light.h>
+#include <filament_core/Effects.h>
+#include <filament_core/Light.h>
 
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// The light that fog scatters, exposed.
 struct FogLight {
@@ -46,4 +46,4 @@ private:
     double3 mColor{ 0.0 }, mSun{ 0.0 }, mTowardsSun{ 0, 1, 0 };
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -11,7 +11,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using assets::PrimitiveData;
@@ -186,4 +186,4 @@ Varyings varyingsAt(Part const& part, TrianglePoint const& point) {
     return varyings;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct SurfaceSample;
 
@@ -62,4 +62,4 @@ Varyings colorVaryingsAt(Part const& part, TrianglePoint const& point);
 /// Pointing to the front side, any length.
 double3 faceNormal(Part const& part, uint32_t triangle);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <string>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 // Embree 4 renamed the context of a ray, and passes it among other arguments.
@@ -163,4 +163,4 @@ bool Intersector::isOccluded(Ray const& ray) const {
     return query.tfar < 0; // Embree's way to report a hit: minus infinity
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -17,7 +17,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// Triangles that a ray has passed through; if there is no room for more, the ray ends.
 struct PassedTriangles {
@@ -59,4 +59,4 @@ private:
     std::unique_ptr<void, Deleter> mScene; // RTCScene, which keeps its device alive
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 using ProfilePtr = std::shared_ptr<const assets::IesFile>;
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -13,7 +13,7 @@
 
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using tools::showProgress;
@@ -71,4 +71,4 @@ uint64_t contentsOf(Options const& options, ReferenceScene const& scene) {
     return hash;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

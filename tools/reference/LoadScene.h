@@ -7,7 +7,7 @@
 
 #include "tools/reference/Options.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// `warnings`: of the model's file.
 Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings);
@@ -15,4 +15,4 @@ Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, 
 /// Of the model's file, its geometry and textures, and the environment: all machines must render the same.
 uint64_t contentsOf(Options const& options, ReferenceScene const& scene);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -130,4 +130,4 @@ double3 passedAt(Part const& part, TrianglePoint const& point, double3 direction
     return below.share * (below.isThin ? lib::thinTransmittance(reflected, tint) : (1.0 - reflected) * tint);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 #include "tools/reference/Geometry.h"
 #include "tools/reference/Surface.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// `view`: unit, towards the origin of the ray.
 SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 view);
@@ -24,4 +24,4 @@ double opacityAt(Part const& part, TrianglePoint const& point);
 /// shadow maps (shaders/material/surface/depth_main.glsl). 0 if the material transmits none.
 double3 passedAt(Part const& part, TrianglePoint const& point, double3 direction);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -146,4 +146,4 @@ void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, 
     addDiffuseTransmission(point, transmitted, surface);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

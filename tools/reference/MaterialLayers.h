@@ -7,10 +7,10 @@
 #include "tools/reference/MaterialMaps.h"
 #include "tools/reference/Surface.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// In: normal, tangent, opacity, metallic, diffuse, f0, f90 and perceptualRoughness without extensions.
 /// `roughness`: perceptual, [0, 1], not yet clamped.
 void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, SurfaceSample& surface);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

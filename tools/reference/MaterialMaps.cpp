@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 double3 normalizedOr(double3 v, double3 fallback) {
@@ -80,4 +80,4 @@ double3 MaterialPoint::bumpedNormal() const {
     return normalizedOr(normal - gradient * upright, normal);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

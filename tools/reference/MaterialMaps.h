@@ -6,7 +6,7 @@
 
 #include "tools/reference/Geometry.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 inline bool has(assets::TextureRef const& texture) { return texture.image != assets::kNone; }
 
@@ -41,4 +41,4 @@ private:
     double2 riseAlongEdges() const;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 std::string words(std::vector<std::string> const& arguments, size_t from) {
@@ -139,4 +139,4 @@ Result<MergedPicture> mergeParts(std::vector<std::filesystem::path> const& files
     return MergedPicture{ settings, merger.finish() };
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 
 #include "tools/reference/FilmFile.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct FilmPart {
     std::filesystem::path file;
@@ -25,4 +25,4 @@ struct MergedPicture {
 };
 Result<MergedPicture> mergeParts(std::vector<std::filesystem::path> const& files);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

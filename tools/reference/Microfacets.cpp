@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -107,4 +107,4 @@ double3 Interface::transmittance(double cosine) const {
     return (1.0 - f) * (1.0 - f) * t / glm::max(1.0 - ft * ft, 1e-12);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

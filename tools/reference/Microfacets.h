@@ -9,7 +9,7 @@
 #include "tools/reference/BsdfModel.h"
 #include "tools/reference/Surface.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// An orthonormal frame around a normal.
 struct Frame {
@@ -61,4 +61,4 @@ private:
     FilmSample mFilm;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

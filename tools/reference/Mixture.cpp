@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -88,4 +88,4 @@ void coverWithFilm(SurfaceSample& surface) {
     surface.f90 = glm::mix(surface.f90, 1.0, film.strength);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

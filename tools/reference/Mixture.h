@@ -9,7 +9,7 @@
 
 #include "tools/reference/Surface.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// u in [0, 1), uniform. Surfaces without a mixture stay as they are.
 void meetPart(SurfaceSample& surface, double u);
@@ -22,4 +22,4 @@ void coverWithFilm(SurfaceSample& surface);
 /// Reflectance of base and film; cosine in (0, 1] with the facet, in air.
 double3 filmReflectance(FilmSample const& film, double cosine);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using tools::invalidOption;
@@ -264,4 +264,4 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     return std::optional(std::move(options));
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 
 #include <optional>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 struct Options : tools::SceneOptions {
     ReferenceSettings settings{};
@@ -26,4 +26,4 @@ struct Options : tools::SceneOptions {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib;
@@ -32,13 +32,13 @@ double largestError(ReferenceImage const& image) {
 
 } // namespace
 
-std::vector<std::byte> displayPixels(ReferenceImage const& image, ColorGrading const& grading) {
+std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& grading) {
     std::vector<std::byte> pixels;
     pixels.reserve(image.color.size() * 4);
     const assets::DisplayColor displayColor(grading);
     for (size_t i = 0; i < image.color.size(); ++i) {
         const float2 center(static_cast<float>(i % image.width) + 0.5f, static_cast<float>(i / image.width) + 0.5f);
-        const float3 display = ditheredColor(displayColor(image.color[i]), grading.dither, center);
+        const float3 display = ditheredColor(displayColor(image.color[i]), colorGrading.dither, center);
         for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(display[c] * 255.0f)));
         pixels.push_back(std::byte{ 255 });
     }
@@ -59,7 +59,7 @@ Result<void> writePictures(Options const& options, ReferenceImage const& image) 
         }
     }
     return assets::writePng(options.out / "reference.png", image.width, image.height,
-                            displayPixels(image, options.view.colorGrading));
+                            displayPixels(image, options.view.display));
 }
 
 Result<void> writeReport(Options const& options, ReferenceImage const& image,
@@ -82,4 +82,4 @@ Result<void> writeReport(Options const& options, ReferenceImage const& image,
     return tools::writeJson(options.out / "times.json", { { "seconds", statistics.seconds } });
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -6,12 +6,12 @@
 
 #include "tools/reference/Options.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// RGBA8 as the engine's tone mapping pass stores it.
-std::vector<std::byte> displayPixels(ReferenceImage const& image, ColorGrading const& grading);
+std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& grading);
 
 Result<void> writePictures(Options const& options, ReferenceImage const& image);
 Result<void> writeReport(Options const& options, ReferenceImage const& image, std::vector<std::string> const& warnings);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr uint32_t kWantedPasses = 16;      // the standard error is then accurate to a fifth
@@ -83,4 +83,4 @@ ReferenceImage FilmMerger::finish() {
     return image;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 
 #include "tools/reference/Film.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 inline constexpr uint64_t kMaxPartBytes = 0xF0000000; ///< of pixels; files are read in one piece of at most 4 GiB
 
@@ -60,4 +60,4 @@ private:
     RenderStatistics mStatistics;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

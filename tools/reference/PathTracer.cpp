@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -272,4 +272,4 @@ bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& b
     return true;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -19,7 +19,7 @@
 #include "tools/reference/SampleStream.h"
 #include "tools/reference/TracedScene.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class PathTracer {
 public:
@@ -59,4 +59,4 @@ private:
     bool mUseOcclusion;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

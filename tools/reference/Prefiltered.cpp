@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -102,4 +102,4 @@ double3 SkyHarmonics::irradiance(double3 normal) const {
     return glm::max(sum, 0.0);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// A GGX lobe around an axis (0, 0, 1), seen along it; its integral over the sphere is 1.
 class PrefilteredLobe {
@@ -64,4 +64,4 @@ private:
     std::array<double3, 9> mCoefficients{};
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -19,10 +19,10 @@
 #include "tools/reference/BsdfModel.h"
 #include "tools/reference/LightProfiles.h"
 
-#include <filament/Box.h>
-#include <filament/Camera.h>
-#include <filament/Effects.h>
-#include <filament/Light.h>
+#include <filament_core/Box.h>
+#include <filament_core/Camera.h>
+#include <filament_core/Effects.h>
+#include <filament_core/Light.h>
 
 #include <functional>
 #include <memory>
@@ -30,7 +30,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 // ---- what is drawn
 
@@ -45,7 +45,7 @@ struct ReferenceModel {
     SurfaceFinish finish{};
 };
 
-/// An equirectangular image, oriented as in <filament/Environment.h>; interpolated bilinearly.
+/// An equirectangular image, oriented as in <filament_core/Environment.h>; interpolated bilinearly.
 struct ReferenceEnvironment {
     std::shared_ptr<const assets::HdrImage> image;
     Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the image stands for
@@ -191,4 +191,4 @@ private:
 Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
                               jobs::JobSystem& jobs, Progress const& progress = {});
 
-} // namespace filament::reference
+} // namespace filament_core::reference

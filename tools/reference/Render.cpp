@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384, kMaxSamples = 1u << 20, kMaxBounces = 4096;
@@ -264,4 +264,4 @@ Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& 
     return render(**traced, view, settings, jobs, progress);
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -8,11 +8,11 @@
 ///   Memory  none. Thread: a value.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <cstdint>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": the finaliser of SplitMix64.
 constexpr uint64_t mixBits(uint64_t x) {
@@ -78,4 +78,4 @@ private:
     uint32_t mIndex;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

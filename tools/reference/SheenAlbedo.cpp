@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -72,4 +72,4 @@ double limitedSheenAlbedo(double nov, double perceptualRoughness) {
 
 double averageLimitedSheenAlbedo(double perceptualRoughness) { return limitedTable().average(perceptualRoughness); }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

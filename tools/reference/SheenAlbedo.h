@@ -5,9 +5,9 @@
 ///   Thread  any; the tables are computed at the first call: 0.3 s.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// Not limited: exceeds 1 for smooth fibres at grazing angles. nov in (0, 1], alpha in [kMinAlpha, 1].
 double integrateSheenAlbedo(double nov, double alpha, int steps = 96);
@@ -19,4 +19,4 @@ double sheenAlbedo(double nov, double perceptualRoughness);
 double limitedSheenAlbedo(double nov, double perceptualRoughness);
 double averageLimitedSheenAlbedo(double perceptualRoughness);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -62,4 +62,4 @@ double SheenLayer::scaling(double3 light, LightSource source) const {
     return std::min(scalingOfView(), lib::sheenAlbedoScaling(mColor, sheenAlbedo(nol, mRoughness)));
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 
 #include "tools/reference/StandardLobes.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class SheenLayer {
 public:
@@ -37,4 +37,4 @@ private:
     Frame mLobeFrame;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -239,4 +239,4 @@ double StandardLobes::specularPdf(double3 light) const {
     return density;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// The reflectance of a base's diffuse and specular lobe; the layers above change each in a different way.
 struct LobeValues {
@@ -77,4 +77,4 @@ private:
     double3 mLobeAlbedo{ 0.0 };
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

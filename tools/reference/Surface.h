@@ -10,7 +10,7 @@
 
 #include <optional>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 /// As in shaders/material/surface/fragment_api.glsl.
 inline constexpr double kMinNov = 1e-4;
@@ -122,4 +122,4 @@ double f90Of(double3 f0);
 /// For a base with this f0 in air, according to its coated fraction.
 double3 f0BelowCoat(double3 bareF0, double strength);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 std::array<double, 256> makeCodes(bool isSrgb) {
@@ -79,4 +79,4 @@ double4 lookUp(assets::Image const& image, Sampler const& sampler, double2 uv) {
     return upper * (1 - fy) + lower * fy;
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,11 +9,11 @@
 
 #include "filament_core/assets/gltf/ModelData.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 double4 lookUp(assets::Image const& image, Sampler const& sampler, double2 uv);
 
 /// The texel for a coordinate outside [0, size).
 int wrapped(int coordinate, int size, backend::WrapMode mode);
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using assets::kNone;
@@ -275,4 +275,4 @@ Result<TracedScenePtr> prepare(ReferenceScene const& scene, jobs::JobSystem& job
 
 std::vector<std::string> const& warnings(TracedScene const& scene) { return scene.warnings(); }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

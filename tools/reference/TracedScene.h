@@ -14,7 +14,7 @@
 
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class TracedScene {
 public:
@@ -52,4 +52,4 @@ private:
     std::vector<std::string> mWarnings;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 namespace lib = shader::lib64;
 
@@ -128,4 +128,4 @@ double TransmissionLobe::pdf(double3 light) const {
     return smithMasking(mView, mAlpha) * ggx(h, mAlpha) * voh / mView.z * (mEta * mEta * -loh / (root * root));
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -14,7 +14,7 @@
 
 #include "tools/reference/StandardLobes.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 class TransmissionLobe {
 public:
@@ -52,4 +52,4 @@ private:
     std::optional<PrefilteredLobe> mLookUpLobe;
 };
 
-} // namespace filament::reference
+} // namespace filament_core::reference

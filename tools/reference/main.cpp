@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using tools::failed;
@@ -140,10 +140,10 @@ int run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-reference", argc, argv, reference::parseOptions, reference::run,
                              "try a smaller model or size");
 }

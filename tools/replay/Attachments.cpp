@@ -5,7 +5,7 @@
 #include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/pictures/Pixels.h"
 
-namespace filament::replay {
+namespace filament_core::replay {
 namespace {
 
 Result<void> makeFolder(std::filesystem::path const& folder) {
@@ -67,4 +67,4 @@ Result<std::filesystem::path> savePicture(std::filesystem::path const& folder, s
     return path;
 }
 
-} // namespace filament::replay
+} // namespace filament_core::replay

@@ -6,7 +6,7 @@
 
 #include "toolkit/record/SavedFrame.h"
 
-namespace filament::replay {
+namespace filament_core::replay {
 
 /// Letters, digits, '-' and '.' of a name of unknown origin; '_' for all between them.
 std::string fileStem(std::string_view name);
@@ -19,4 +19,4 @@ Result<std::filesystem::path> saveAttachment(std::filesystem::path const& folder
 Result<std::filesystem::path> savePicture(std::filesystem::path const& folder, std::string const& stem,
                                           record::FramePicture const& picture);
 
-} // namespace filament::replay
+} // namespace filament_core::replay

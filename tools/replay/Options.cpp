@@ -3,7 +3,7 @@
 
 #include "tools/common/CommandLine.h"
 
-namespace filament::replay {
+namespace filament_core::replay {
 namespace {
 
 using tools::invalidOption;
@@ -92,4 +92,4 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     return std::optional(std::move(options));
 }
 
-} // namespace filament::replay
+} // namespace filament_core::replay

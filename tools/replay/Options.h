@@ -5,14 +5,14 @@
 
 #include "base/Result.h"
 
-#include <filament/Backend.h>
+#include <filament_core/Backend.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::replay {
+namespace filament_core::replay {
 
 struct Options {
     std::filesystem::path folder;
@@ -29,4 +29,4 @@ struct Options {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
-} // namespace filament::replay
+} // namespace filament_core::replay

@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace filament::replay {
+namespace filament_core::replay {
 namespace {
 
 using record::Manifest;
@@ -361,4 +361,4 @@ Result<Report> replayFolder(Options const& options, Edits const& edits) {
     return std::move(work.report);
 }
 
-} // namespace filament::replay
+} // namespace filament_core::replay

@@ -10,7 +10,7 @@
 
 #include <map>
 
-namespace filament::replay {
+namespace filament_core::replay {
 
 struct Report {
     std::string text; ///< lines
@@ -22,4 +22,4 @@ using Edits = std::map<Backend, record::EditMaker>;
 
 Result<Report> replayFolder(Options const& options, Edits const& edits = {});
 
-} // namespace filament::replay
+} // namespace filament_core::replay

@@ -4,7 +4,7 @@
 #include "tools/common/Program.h"
 #include "tools/replay/ReplayFolder.h"
 
-namespace filament::replay {
+namespace filament_core::replay {
 namespace {
 
 int run(Options const& options) {
@@ -16,10 +16,10 @@ int run(Options const& options) {
 }
 
 } // namespace
-} // namespace filament::replay
+} // namespace filament_core::replay
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-replay", argc, argv, replay::parseOptions, replay::run,
                              "close other programs: a trace needs twice its size");
 }

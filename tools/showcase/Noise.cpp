@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 int wrapped(int value, int period) {
@@ -73,4 +73,4 @@ CellularSample cellularNoise(float2 point, int2 period, uint32_t seed) {
     return result;
 }
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

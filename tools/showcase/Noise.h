@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 
 /// Uniform in [0, 1) by cell and seed.
 float cellRandom(int2 cell, uint32_t seed);
@@ -27,4 +27,4 @@ struct CellularSample {
 };
 CellularSample cellularNoise(float2 point, int2 period, uint32_t seed);
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 /// A frame whose +Z is `z`, as columns.
@@ -79,4 +79,4 @@ assets::TextureRef textured(uint32_t image) {
                           .wrapV = WrapMode::Repeat } };
 }
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 
 /// Images of one TextureSet in the scene; kNone for missing ones.
 struct TextureSetImages {
@@ -38,4 +38,4 @@ private:
 /// Trilinear, repeating.
 assets::TextureRef textured(uint32_t image);
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

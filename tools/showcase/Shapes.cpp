@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 constexpr float kTwoPi = 2 * kPi;
@@ -203,4 +203,4 @@ std::vector<float2> smoothProfile(std::span<const float2> points, uint32_t steps
     return profile;
 }
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

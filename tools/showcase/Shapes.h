@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 
 struct Shape {
     std::vector<float3> positions;
@@ -44,4 +44,4 @@ Shape lathe(std::span<const float2> profile, uint32_t segments, float2 uvRepeats
 /// A smooth curve through `points` with `steps` points per section (uniform Catmull-Rom; the ends are doubled).
 std::vector<float2> smoothProfile(std::span<const float2> points, uint32_t steps);
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -12,7 +12,7 @@
 #include <array>
 #include <utility>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 using assets::AlphaMode;
@@ -271,4 +271,4 @@ Result<std::filesystem::path> writeSky(std::filesystem::path const& folder, jobs
     return file;
 }
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -15,7 +15,7 @@
 
 #include <filesystem>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 
 Result<assets::GlbScene> makeScene(jobs::JobSystem& jobs);
 
@@ -34,4 +34,4 @@ inline constexpr uint32_t kSkyVersion = 1;
 /// kept: it is written as a whole.
 Result<std::filesystem::path> writeSky(std::filesystem::path const& folder, jobs::JobSystem& jobs);
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -4,13 +4,13 @@
 #include "base/Assert.h"
 #include "tools/showcase/Noise.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <glm/common.hpp>
 
 #include <cmath>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 std::byte code(float value) { return std::byte{ static_cast<uint8_t>(glm::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f) }; }
@@ -218,4 +218,4 @@ TextureSet brushedTextures(uint32_t size) {
     return set;
 }
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

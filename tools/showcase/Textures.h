@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 
 struct Picture {
     uint32_t size = 0; ///< width and height
@@ -33,4 +33,4 @@ TextureSet stainedGlassTextures(uint32_t size); ///< color with alpha, surface: 
 TextureSet lavaTextures(uint32_t size);         ///< color, surface, emission: glowing cracks in rock
 TextureSet brushedTextures(uint32_t size);      ///< surface: streaks of roughness along u
 
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -5,12 +5,12 @@
 #include "shaders/compiler/LanguageTables.h"
 #include "tools/common/SceneChoices.h"
 
-#include <filament/View.h>
+#include <filament_core/View.h>
 
 #include <algorithm>
 #include <iterator>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 constexpr std::string_view kBegin = "<!-- begin: ", kEnd = "<!-- end: ", kClose = " -->";
@@ -38,7 +38,7 @@ std::string viewTable() {
     for (Option const& option : optionsOf<View>()) {
         const bool isOfMember = findOption(optionsOf<Quality>(), option.name) ||
                                 findOption(optionsOf<Effects>(), option.name) ||
-                                findOption(optionsOf<ColorGrading>(), option.name);
+                                findOption(optionsOf<DisplayTransform>(), option.name);
         if (!isOfMember) text += optionRow(option, &standard);
     }
     return text;
@@ -78,7 +78,7 @@ std::vector<NamedTable> documentTables() {
     std::vector<NamedTable> tables = shader::languageTables();
     tables.emplace_back("quality-choices", optionTable<Quality>());
     tables.emplace_back("effect-options", optionTable<Effects>());
-    tables.emplace_back("grading-options", optionTable<ColorGrading>());
+    tables.emplace_back("grading-options", optionTable<DisplayTransform>());
     tables.emplace_back("view-options", viewTable());
     tables.emplace_back("scene-choices", choiceTable());
     tables.emplace_back("gltf-extensions", extensionTable());
@@ -108,4 +108,4 @@ Result<std::string> withTables(std::string_view document, std::vector<NamedTable
     return out;
 }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

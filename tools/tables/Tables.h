@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 using NamedTable = std::pair<std::string, std::string>; ///< name, text that ends with a line break
 
@@ -23,4 +23,4 @@ std::vector<NamedTable> documentTables();
 /// The document with its tables replaced. `name` is for errors.
 Result<std::string> withTables(std::string_view document, std::vector<NamedTable> const& tables, std::string_view name);
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,7 +8,7 @@
 
 #include <cstdio>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// True: the file has the current tables.
@@ -40,10 +40,10 @@ int run(std::vector<std::string> const& files, bool writes) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     tools::setProgramName("filament-tables");
     tools::routeLogToConsole();
     tools::CommandLine app("Checks or writes the tables of documents.", "filament-tables");

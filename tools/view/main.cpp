@@ -6,7 +6,7 @@
 #include "tools/view/app/RunViewer.h"
 
 int main(int argc, char** argv) {
-    using namespace filament;
+    using namespace filament_core;
     return tools::runProgram("filament-view", argc, argv, view::parseViewerOptions, view::runViewer,
                              "try a smaller model or size");
 }

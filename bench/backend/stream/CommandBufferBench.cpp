@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using bench::measureInTurns;
@@ -185,4 +185,4 @@ void hashSortedDraws(benchmark::State& state) {
 BENCHMARK(hashSortedDraws)->UseManualTime();
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

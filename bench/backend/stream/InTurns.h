@@ -11,7 +11,7 @@
 #include <chrono>
 #include <vector>
 
-namespace filament::bench {
+namespace filament_core::bench {
 
 template <class A, class B>
 void measureInTurns(benchmark::State& state, size_t items, const char* ratio, A&& a, B&& b) {
@@ -32,4 +32,4 @@ void measureInTurns(benchmark::State& state, size_t items, const char* ratio, A&
     state.counters[ratio] = medianOfA / median(timesOfB);
 }
 
-} // namespace filament::bench
+} // namespace filament_core::bench

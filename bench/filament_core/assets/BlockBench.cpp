@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kBenchSide = 1024;
@@ -35,4 +35,4 @@ BENCHMARK_CAPTURE(decodeBlocksOf, uastc, BlockFormat{ BlockKind::Uastc });
 BENCHMARK_CAPTURE(decodeBlocksOf, astc8x8, BlockFormat{ BlockKind::Astc, 8, 8 });
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

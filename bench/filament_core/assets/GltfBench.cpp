@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Smooth with some noise: compresses about as well as a painted texture.
@@ -90,4 +90,4 @@ void loadProp(benchmark::State& state) {
 BENCHMARK(loadProp)->Arg(0)->Arg(1)->Arg(3)->ArgName("workers")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

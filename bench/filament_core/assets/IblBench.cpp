@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 struct Fixture {
@@ -69,4 +69,4 @@ BENCHMARK_CAPTURE(load, cold, false)->Unit(benchmark::kMillisecond)->UseRealTime
 BENCHMARK_CAPTURE(load, warm, true)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 void checkPackage(benchmark::State& state) {
@@ -21,4 +21,4 @@ void checkPackage(benchmark::State& state) {
 BENCHMARK(checkPackage)->Unit(benchmark::kMillisecond);
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

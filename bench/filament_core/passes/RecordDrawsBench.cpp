@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -108,4 +108,4 @@ void replayRecordedDraws(benchmark::State& state) {
 BENCHMARK(replayRecordedDraws)->Apply(arguments);
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 Box8 loadBoxes(scene::BoundsColumns const& bounds, size_t i, double3 const& cameraWorld) {
@@ -99,4 +99,4 @@ BENCHMARK(objectsAgainstCopy)
         ->UseManualTime();
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

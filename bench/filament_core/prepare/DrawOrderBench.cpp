@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 enum Order : int64_t { Engine, DepthThenState, DrawThenDepth, FrontToBack, SceneOrder };
@@ -106,4 +106,4 @@ BENCHMARK(drawOrder)
         ->UseManualTime();
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 std::vector<shader::PunctualLight> hall(uint32_t count, float range) {
@@ -85,4 +85,4 @@ BENCHMARK(assign)
         ->UseManualTime();
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -4,7 +4,7 @@
 #include "bench/filament_core/prepare/PrepareSetup.h"
 #include "filament_core/prepare/SelectLights.h"
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 /// Times `step`, which takes what `before` returns.
@@ -147,4 +147,4 @@ BENCHMARK(objects)->Apply(arguments);
 BENCHMARK(frame)->Apply(arguments);
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

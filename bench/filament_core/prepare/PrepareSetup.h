@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Scene, view and jobs according to the arguments "renderables", "looks" (1, or 64 materials x 16 meshes, or one each)
 /// and "workers" (threads besides the caller).
@@ -95,4 +95,4 @@ inline constexpr const char* kRenderables = "renderables";
 inline constexpr const char* kLooks = "looks";
 inline constexpr const char* kWorkers = "workers";
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -20,7 +20,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -220,4 +220,4 @@ void addAndRemoveAModel(benchmark::State& state) {
 BENCHMARK(addAndRemoveAModel)->Unit(benchmark::kMicrosecond);
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

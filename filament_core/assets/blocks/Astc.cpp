@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 constexpr uint32_t kMaxAstcWeights = 64, kMaxAstcEnds = 18;
@@ -240,4 +240,4 @@ void decodeAstc(const std::byte* bytes, uint32_t blockWidth, uint32_t blockHeigh
     }
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

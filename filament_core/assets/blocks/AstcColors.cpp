@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/blocks/AstcColors.h"
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 using IntChannels = std::array<int32_t, 4>;
@@ -81,4 +81,4 @@ AstcEnds astcEnds(uint32_t mode, const uint8_t* values) {
     }
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

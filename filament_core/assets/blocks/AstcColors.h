@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 /// Of blocks that are no texture: "Illegal Encodings".
 inline constexpr Texel8 kAstcError{ 255, 0, 255, 255 };
@@ -37,4 +37,4 @@ inline Texel8 astcTexel(AstcEnds const& ends, std::array<uint32_t, 4> const& sha
     return { channel(0, isSrgb), channel(1, isSrgb), channel(2, isSrgb), channel(3, false) };
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 /// Mixes the bits of a seed.
 constexpr uint32_t astcHash(uint32_t p) {
@@ -46,4 +46,4 @@ private:
     uint32_t mSeeds[8]{};
 };
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

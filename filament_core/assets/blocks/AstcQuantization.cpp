@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 /// Five trits in 8 bits.
@@ -188,4 +188,4 @@ std::array<uint8_t, 32> const& astcWeightsOf(uint32_t rangeIndex) {
     return kTables[rangeIndex];
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 /// A range 0 to levels - 1: one trit or quint, or none, and bits below it.
 struct AstcRange {
@@ -37,4 +37,4 @@ std::array<uint8_t, 256> const& astcColorsOf(uint32_t rangeIndex);
 /// ... and of weights 0 to 64, up to 32 levels.
 std::array<uint8_t, 32> const& astcWeightsOf(uint32_t rangeIndex);
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

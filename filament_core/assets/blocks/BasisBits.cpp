@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 uint32_t reversedBits(uint32_t code, uint32_t length) {
@@ -113,4 +113,4 @@ uint32_t BasisHuffman::take(BasisBits& bits) const {
     return kNoSymbol;
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

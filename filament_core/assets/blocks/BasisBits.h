@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 /// The lowest bit of each byte comes first.
 class BasisBits {
@@ -76,4 +76,4 @@ private:
     std::vector<Short> mShort;                                         ///< by the next bits
 };
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 Error damaged(const char* what) { return fail(ErrorCode::Corrupt, "{}", what); }
@@ -230,4 +230,4 @@ Result<void> BasisLz::decodeSlice(std::span<const std::byte> bytes, uint32_t wid
     return {};
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

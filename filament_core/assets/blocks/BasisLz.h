@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 /// Where the slices of an image lie in the bytes of its level.
 struct BasisImage {
@@ -54,4 +54,4 @@ private:
     uint32_t mHistorySize = 0;
 };
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

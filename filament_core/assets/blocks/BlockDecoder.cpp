@@ -8,7 +8,7 @@
 #include <array>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::Texel8;
@@ -144,4 +144,4 @@ void decodeBlocks(BlockFormat format, bool isSrgb, std::span<const std::byte> by
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,11 +16,11 @@
 #include <cstddef>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// `isSrgb`: the colours of ASTC and UASTC are codes of sRGB, which are interpolated with other low bits
 /// ("Weight Application"). `pixels` has width * height texels.
 void decodeBlocks(BlockFormat format, bool isSrgb, std::span<const std::byte> blocks, uint32_t width, uint32_t height,
                   std::span<std::byte> pixels);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class BlockKind : uint8_t {
     Bc1Rgb, ///< alpha is 1
@@ -67,4 +67,4 @@ bool hasHalfTexels(BlockKind kind);
 /// Bytes of an image; 0 for an empty one. Sides up to 2^30.
 uint64_t bytesOfBlocks(BlockFormat format, uint32_t width, uint32_t height);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

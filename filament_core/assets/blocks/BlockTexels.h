@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 struct Texel8 {
     uint8_t r = 0, g = 0, b = 0, a = 255;
@@ -122,4 +122,4 @@ void decodeEacAlpha(const std::byte* block, uint8_t* codes);
 void decodeAstc(const std::byte* block, uint32_t blockWidth, uint32_t blockHeight, bool isSrgb, Texel8* texels);
 void decodeUastc(const std::byte* block, bool isSrgb, Texel8* texels);
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

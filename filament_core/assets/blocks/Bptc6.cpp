@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 /// Some bits of a value, as they follow in the block.
@@ -196,4 +196,4 @@ void decodeBc6(const std::byte* block, TexelHalf* texels) { decodeBc6Block(block
 
 void decodeBc6Signed(const std::byte* block, TexelHalf* texels) { decodeBc6Block(block, true, texels); }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 /// Table "mode-dependent BPTC parameters". All but `subsets` are counts of bits.
@@ -126,4 +126,4 @@ void decodeBc7(const std::byte* block, Texel8* texels) {
     }
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

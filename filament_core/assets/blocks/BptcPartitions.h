@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 inline constexpr std::array<uint32_t, 64> kTwoSubsets{
     0x50505050, 0x40404040, 0x54545454, 0x54505040, 0x50404000, 0x55545450, 0x55545040, 0x54504000,
@@ -57,4 +57,4 @@ inline const uint8_t* bptcWeights(uint32_t bits) {
     return bits == 2 ? kWeightsOf2Bits.data() : bits == 3 ? kWeightsOf3Bits.data() : kWeightsOf4Bits.data();
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

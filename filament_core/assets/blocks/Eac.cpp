@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 /// Table "intensity modifiers for alpha".
@@ -76,4 +76,4 @@ void decodeEacRSigned(const std::byte* block, TexelHalf* texels) { decodeChannel
 void decodeEacRg(const std::byte* block, TexelHalf* texels) { decodeChannels(block, false, true, texels); }
 void decodeEacRgSigned(const std::byte* block, TexelHalf* texels) { decodeChannels(block, true, true, texels); }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 struct IntColor {
@@ -153,4 +153,4 @@ void decodeEtc2Rgba(const std::byte* bytes, Texel8* texels) {
     for (uint32_t i = 0; i < 16; ++i) texels[i].a = alphas[i];
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

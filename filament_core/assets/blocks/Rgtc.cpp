@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 constexpr uint32_t kIndexBits = 3;
@@ -74,4 +74,4 @@ void decodeBc5Signed(const std::byte* block, TexelHalf* texels) {
     for (uint32_t i = 0; i < 16; ++i) texels[i] = { red[i], green[i], 0, TexelHalf::kOne };
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 enum class FourthColor : uint8_t { Interpolated, Black, Transparent };
@@ -60,4 +60,4 @@ void decodeBc3(const std::byte* block, Texel8* texels) {
     for (uint32_t i = 0; i < 16; ++i) texels[i].a = alphas[i];
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

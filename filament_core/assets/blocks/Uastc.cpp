@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <span>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 namespace {
 
 constexpr uint32_t kNoMode = kUastcModes.size();
@@ -135,4 +135,4 @@ void decodeUastc(const std::byte* block, bool isSrgb, Texel8* texels) {
     }
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

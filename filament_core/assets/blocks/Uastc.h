@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 enum class UastcChannels : uint8_t { Rgb, Rgba, LuminanceAlpha };
 
@@ -48,4 +48,4 @@ inline constexpr std::array<uint16_t, 11> kUastcSeedsOfThree{ 260, 74, 32, 156, 
 inline constexpr std::array<uint16_t, 19> kUastcSeedsOfMode7{ 36,  48,  61,  137, 161, 183, 226, 281, 302, 307,
                                                               479, 495, 593, 594, 605, 799, 812, 988, 993 };
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr double kSunAngularRadius = 0.00465; // radians: 16 arc minutes
@@ -215,4 +215,4 @@ Result<HdrImage> makeAnalyticSky(AnalyticSkyOptions const& options, jobs::JobSys
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

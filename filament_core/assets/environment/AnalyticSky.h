@@ -14,7 +14,7 @@
 #include "filament_core/assets/image/HdrImage.h"
 #include "jobsystem/JobSystem.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct AnalyticSkyOptions {
     uint32_t height = 512;                      ///< [8, 4096]; the width is twice that
@@ -30,4 +30,4 @@ Result<HdrImage> makeAnalyticSky(AnalyticSkyOptions const& options, jobs::JobSys
 /// light that replaces the disc.
 float3 analyticSunIlluminance(AnalyticSkyOptions const& options);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -3,7 +3,7 @@
 
 #include "base/Assert.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kPiecesOfALobe = 512; // as EnvironmentOptions::samples
@@ -57,4 +57,4 @@ HdrImage pictureFromCube(CubeLight const& light, uint32_t width, jobs::JobSystem
     return picture;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -11,7 +11,7 @@
 
 #include "filament_core/assets/environment/Environment.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct CubeLight {
     /// Level i of n is pre-filtered for the perceptual roughness i / (n - 1). A single level: pre-filtering is left to
@@ -28,4 +28,4 @@ EnvironmentData environmentFromCube(CubeLight const& light, jobs::JobSystem& job
 /// a bilinear look-up per pixel. `width` is even.
 HdrImage pictureFromCube(CubeLight const& light, uint32_t width, jobs::JobSystem& jobs);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

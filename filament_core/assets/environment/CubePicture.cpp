@@ -8,7 +8,7 @@
 #include <bit>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr const char* kCubeCure = "export it as a cube of half floats or BC6H, or as an equirectangular .hdr or .exr";
@@ -83,4 +83,4 @@ IblCube cubeFromPicture(CubePicture const& picture, uint32_t size, jobs::JobSyst
     return cube;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,7 +16,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr uint32_t kMaxCubeFace = 2048;
 
@@ -30,4 +30,4 @@ Result<CubePicture> decodeCubePicture(std::span<const std::byte> ktx2, std::stri
 /// `size` is a power of two.
 IblCube cubeFromPicture(CubePicture const& picture, uint32_t size, jobs::JobSystem& jobs);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 Result<void> checkOptions(EnvironmentOptions const& options) {
@@ -223,4 +223,4 @@ Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> fil
     return fail(ErrorCode::OutOfMemory, "not enough memory to load '{}'; make it smaller", name);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

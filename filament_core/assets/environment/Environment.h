@@ -24,7 +24,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Called on the loading thread: stage name, steps done, steps in total.
 using EnvironmentProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
@@ -90,4 +90,4 @@ uint32_t skyFaceSize(uint32_t sourceWidth);
 /// The directory from `options`, or the user's cache directory; empty if there is none.
 std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& options);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "cached environments are little-endian");
@@ -145,4 +145,4 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     return data;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Identifies a cached file: content of the panorama, options that change the result, version of the baker.
 uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options);
@@ -22,4 +22,4 @@ bool isBakedEnvironment(std::span<const std::byte> bytes);
 std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t key);
 Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint64_t key);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

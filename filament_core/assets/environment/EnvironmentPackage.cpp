@@ -14,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr const char* kLayoutVersion = "1";
@@ -217,4 +217,4 @@ Result<EnvironmentData> decodeEnvironmentPackage(Ktx2File const& file, std::stri
     return PackageReader(file, name).read();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

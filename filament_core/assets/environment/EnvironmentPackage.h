@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Whether a KTX 2.0 file claims to be such a package.
 bool isEnvironmentPackage(Ktx2File const& file);
@@ -32,4 +32,4 @@ std::vector<std::byte> encodeEnvironmentPackage(EnvironmentData const& data);
 /// `file` claims to be a package; `name` is that of its file.
 Result<EnvironmentData> decodeEnvironmentPackage(Ktx2File const& file, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

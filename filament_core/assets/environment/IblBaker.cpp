@@ -11,7 +11,7 @@
 #include <bit>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kSmallestSpecularFace = 16;
@@ -236,4 +236,4 @@ EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format for
     return result;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

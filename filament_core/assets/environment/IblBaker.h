@@ -14,13 +14,13 @@
 #include "filament_core/assets/environment/IblCube.h"
 #include "filament_core/assets/image/Image.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <array>
 #include <functional>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Levels of a specular cube: down to 16 texels per side, the minimum that looks smooth at roughness 1; at least 2
 /// levels.
@@ -60,4 +60,4 @@ bool isEnvironmentFormat(backend::Format format);
 /// so that a sun never becomes infinite.
 EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

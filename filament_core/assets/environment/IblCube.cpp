@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kCubeRowsPerJob = 4;
@@ -189,4 +189,4 @@ IblCube cubeFromEquirect(HdrImage const& image, uint32_t size, jobs::JobSystem& 
     return cube;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

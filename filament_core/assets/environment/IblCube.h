@@ -15,7 +15,7 @@
 
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Four floats in one register; the fourth is unused. A GCC and Clang extension, element-wise like scalar code.
 using Texel __attribute__((vector_size(16))) = float;
@@ -79,4 +79,4 @@ std::vector<float> texelSolidAngles(uint32_t size);
 /// The next smaller level: 2 x 2 texels weighted by their solid angles.
 IblCubeLevel halved(IblCubeLevel const& level, jobs::JobSystem& jobs);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

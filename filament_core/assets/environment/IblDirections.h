@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// s and t in [-1, 1] inside the face.
 struct CubePoint {
@@ -74,4 +74,4 @@ inline float3 directionFromEquirect(float2 uv) {
              elementary::cos(azimuth) * elementary::sin(polar) };
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

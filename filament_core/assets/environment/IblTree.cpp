@@ -4,7 +4,7 @@
 #include "base/Assert.h"
 #include "base/math/Elementary.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kQuadsPerJob = 64;
@@ -158,4 +158,4 @@ float3 IblTree::integrate(float3 axis, Lobe const& lobe) const {
     return float3(sumOf(sums.red), sumOf(sums.green), sumOf(sums.blue)) / sumOf(sums.weight);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -14,7 +14,7 @@
 
 #include "filament_core/assets/environment/IblCube.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// A GGX lobe with view = normal: its weight depends on the angle to the axis only.
 struct Lobe {
@@ -57,4 +57,4 @@ private:
     std::vector<Level> mLevels; // coarsest first
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class Diagnostics {
 public:
@@ -67,4 +67,4 @@ private:
     size_t mDropped = 0;
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

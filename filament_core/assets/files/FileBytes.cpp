@@ -17,7 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ Result<void> replaceFile(std::filesystem::path const& path, std::span<const std:
 
 size_t removeLeftovers(std::filesystem::path const& folder) { return removeLeftoverFiles(folder.c_str(), writerOf); }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

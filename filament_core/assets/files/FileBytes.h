@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path);
 
@@ -29,4 +29,4 @@ Result<void> replaceFile(std::filesystem::path const& path, std::span<const std:
 /// machine). Returns their number. Never fails.
 size_t removeLeftovers(std::filesystem::path const& folder);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

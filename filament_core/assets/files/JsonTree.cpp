@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 using nlohmann::json;
 
@@ -227,4 +227,4 @@ JsonTree::JsonTree(std::span<const std::byte> text, Diagnostics& diagnostics) : 
 
 JsonNode JsonTree::root(Diagnostics& diagnostics) const { return { mValue.get(), {}, diagnostics }; }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

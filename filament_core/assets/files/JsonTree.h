@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class JsonNode {
 public:
@@ -84,4 +84,4 @@ private:
     std::unique_ptr<nlohmann::json, TakeApart> mValue;
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

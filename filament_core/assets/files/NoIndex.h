@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr uint32_t kNone = ~0u;
 
-} // namespace filament::assets
+} // namespace filament_core::assets

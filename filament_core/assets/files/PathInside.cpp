@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ Result<std::filesystem::path> fileInside(std::filesystem::path const& folder, st
     return file;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

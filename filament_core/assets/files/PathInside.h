@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class FilesFrom : uint8_t {
     Folder,   ///< the folder of the file that names them, and below
@@ -22,4 +22,4 @@ enum class FilesFrom : uint8_t {
 Result<std::filesystem::path> fileInside(std::filesystem::path const& folder, std::string_view relative,
                                          FilesFrom from = FilesFrom::Folder);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,7 +4,7 @@
 #include "base/Result.h"
 #include "base/math/Elementary.h"
 
-#include <filament/Primitives.h>
+#include <filament_core/Primitives.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -134,4 +134,4 @@ Result<Mesh> makeIcoSphere(IcoSphereShape const& shape) {
     return textured(sphere, shape.radius);
 }
 
-} // namespace filament
+} // namespace filament_core

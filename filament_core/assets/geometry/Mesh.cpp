@@ -4,7 +4,7 @@
 #include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/geometry/Tangents.h"
 
-#include <filament/Mesh.h>
+#include <filament_core/Mesh.h>
 
 #include <algorithm>
 #include <bit>
@@ -15,7 +15,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr float kTangentScale = 32767;
@@ -197,4 +197,4 @@ Result<LineQuads> makeWireframe(Mesh const& mesh) {
     return makeLineQuads(points, PrimitiveType::Lines, colors);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of <filament/Primitives.h>. Everything is computed in double precision and rounded once, so that points that
+// Shapes of <filament_core/Primitives.h>. Everything is computed in double precision and rounded once, so that points that
 // meet have the same bits, and the last bit of a library's sine shows in no vertex.
 #include "base/Result.h"
 #include "base/math/Elementary.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 
-#include <filament/Primitives.h>
+#include <filament_core/Primitives.h>
 
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr float kLeastLength = 1e-15f, kMostLength = 1e15f;
@@ -353,4 +353,4 @@ Result<Mesh> makeTorus(TorusShape const& shape) {
     return mesh;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr float kScale = 32767.0f;
@@ -67,4 +67,4 @@ std::array<int16_t, 4> encodeTangentFrame(float3 normal, float3 tangent, float h
     return encoded;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

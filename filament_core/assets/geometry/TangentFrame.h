@@ -14,7 +14,7 @@
 #include <array>
 #include <cstdint>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// A unit vector perpendicular to the unit vector `normal`.
 ///   Duff et al. 2017, "Building an Orthonormal Basis, Revisited": continuous on either side of z = 0.
@@ -28,4 +28,4 @@ float4 tangentFrameQuaternion(float3 normal, float3 tangent, float handedness, f
 
 std::array<int16_t, 4> encodeTangentFrame(float3 normal, float3 tangent, float handedness);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

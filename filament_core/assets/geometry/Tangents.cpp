@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kCorners = 3;
@@ -257,4 +257,4 @@ TangentOutput generateTangents(TangentInput const& input) {
     return splitVertices(input, groups, tangents);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct TangentInput {
     std::span<const float3> positions, normals;
@@ -38,4 +38,4 @@ struct TangentOutput {
 
 TangentOutput generateTangents(TangentInput const& input);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

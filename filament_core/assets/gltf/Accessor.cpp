@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint64_t kMaxZeroElements = uint64_t{ 1 } << 22;
@@ -193,4 +193,4 @@ size_t replaceNonFinite(std::span<float> values) {
     return broken;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

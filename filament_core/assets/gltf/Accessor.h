@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Whether the accessor has one of the component counts and lies inside its views. `use` names its purpose: "POSITION".
 bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<const uint8_t> componentCounts,
@@ -49,4 +49,4 @@ std::vector<uint32_t> readIntegerList(GltfDocument const& document, uint32_t acc
 /// Replaces floats that are not finite by 0. Returns how many there were.
 size_t replaceNonFinite(std::span<float> values);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using enum PropertyName;
@@ -337,4 +337,4 @@ void setValue(CameraData& camera, PropertyName name, float4 value) {
         camera.farMeters = std::max(camera.nearMeters + 1, camera.nearMeters * 2);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

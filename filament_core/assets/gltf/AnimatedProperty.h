@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct CameraData;
 struct LightData;
@@ -132,4 +132,4 @@ void setValue(MaterialData& material, PropertyName name, MapName map, float4 val
 void setValue(LightData& light, PropertyName name, float4 value);
 void setValue(CameraData& camera, PropertyName name, float4 value);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// The keys before and after a moment, and the position between them, in [0, 1).
@@ -79,4 +79,4 @@ void sampleAnimation(AnimationSampler const& sampler, double seconds, std::span<
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class Interpolation : uint8_t { Step, Linear, CubicSpline };
 enum class AnimationPath : uint8_t { Translation, Rotation, Scale, Weights, Property };
@@ -44,4 +44,4 @@ struct AnimationData {
 /// out.size() == sampler.width. A time that is not a number counts as 0.
 void sampleAnimation(AnimationSampler const& sampler, double seconds, std::span<double> out);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

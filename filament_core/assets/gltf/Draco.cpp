@@ -14,7 +14,7 @@
 #include <ctime>
 #include <exception>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 namespace {
 
@@ -96,4 +96,4 @@ void DracoMesh::read(uint32_t id, uint8_t components, std::span<float> out) cons
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class DracoMesh {
 public:
@@ -47,4 +47,4 @@ private:
     std::unique_ptr<State> mState;
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct DracoPatience {
     double seconds = 2;             ///< of the processor, for a stream
@@ -13,4 +13,4 @@ struct DracoPatience {
     std::atomic<bool> isLost{ false };
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint64_t kMaxNumbers = uint64_t{ 1 } << 26;
@@ -234,4 +234,4 @@ GltfAnimations readAnimations(GltfDocument& document, GltfScene const& scene, st
     return read;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

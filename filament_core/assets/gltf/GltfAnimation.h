@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfAnimations {
     std::vector<AnimationData> animations;
@@ -30,4 +30,4 @@ struct GltfAnimations {
 GltfAnimations readAnimations(GltfDocument& document, GltfScene const& scene, std::string_view file,
                               Diagnostics& diagnostics);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

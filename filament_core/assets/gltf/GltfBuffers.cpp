@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/gltf/Meshopt.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using Bytes = std::span<const std::byte>;
@@ -99,4 +99,4 @@ void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, Glt
     if (diagnostics.ok()) decompressViews(document, compressed, jobs, diagnostics);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

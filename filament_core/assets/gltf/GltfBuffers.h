@@ -13,9 +13,9 @@
 #include "filament_core/assets/gltf/GltfUri.h"
 #include "jobsystem/JobSystem.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, GltfFolder const& folder,
                      jobs::JobSystem& jobs, Diagnostics& diagnostics);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

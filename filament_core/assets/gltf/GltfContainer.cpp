@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
@@ -85,4 +85,4 @@ Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
     return container;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

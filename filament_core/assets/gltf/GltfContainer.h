@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfContainer {
     std::span<const std::byte> json;
@@ -21,4 +21,4 @@ struct GltfContainer {
 
 Result<GltfContainer> openGltfContainer(std::span<const std::byte> file);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// values[i] += weight * deltas[i]
@@ -109,4 +109,4 @@ void applySkin(std::span<const float4x4> worldFromBind, std::string const& path,
     if (!isInRange) diagnostics.refuse(ErrorCode::Corrupt, "{}: names a joint that its skin lacks", path);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class ComponentType : uint8_t { Byte, UByte, Short, UShort, UInt, Float };
 
@@ -242,4 +242,4 @@ struct GltfDocument {
     std::shared_ptr<DracoPatience> dracoPatience = std::make_shared<DracoPatience>(); ///< with the streams of this file
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

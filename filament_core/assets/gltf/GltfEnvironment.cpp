@@ -11,7 +11,7 @@
 #include <exception>
 #include <numbers>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 const std::array<double, 9> kHarmonicConstants = [] {
     const double unit = 1 / std::sqrt(4 * std::numbers::pi);
@@ -149,4 +149,4 @@ std::optional<ImageBasedLightData> finishEnvironment(GltfDocument const& documen
                                 std::move(environment.light) };
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

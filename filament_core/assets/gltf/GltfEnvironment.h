@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr uint32_t kMaxCubeSize = 2048;
 inline constexpr float kMaxImageIntensity = 1e9f;
@@ -58,4 +58,4 @@ void decodeFace(GltfDocument const& document, GltfFaceJob& job, CubeLight& light
 /// After all faces: what looks across their edges.
 std::optional<ImageBasedLightData> finishEnvironment(GltfDocument const& document, GltfEnvironment environment);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr std::array kExtensions{
@@ -54,4 +54,4 @@ bool isSupportedGltfExtension(std::string_view name) {
     return std::ranges::find(kExtensions, name, &GltfExtension::name) != kExtensions.end();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfExtension {
     std::string_view name;   ///< as files spell it
@@ -18,4 +18,4 @@ struct GltfExtension {
 std::span<const GltfExtension> gltfExtensions();
 bool isSupportedGltfExtension(std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

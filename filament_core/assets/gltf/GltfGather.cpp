@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using backend::VertexFormat;
@@ -207,4 +207,4 @@ void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources) 
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

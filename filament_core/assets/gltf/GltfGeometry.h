@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfGeometry {
     using JointIndices = glm::uvec4;
@@ -94,4 +94,4 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
 /// Vertex i of the result is vertex sources[i]; indices do not change.
 void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <new>
 #include <tuple>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Equal for images with the same bytes: the URI, or the range of a buffer. Decompressed views have one of their own.
@@ -62,4 +62,4 @@ std::string imageName(GltfDocument const& document, uint32_t image) {
     return isFile ? fmt::format("images[{}] {}", image, uri) : fmt::format("images[{}]", image);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

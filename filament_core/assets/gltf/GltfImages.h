@@ -12,7 +12,7 @@
 
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// 8 GiB as RGBA8, a third more with mips: 128 textures of 4096 x 4096.
 inline constexpr uint64_t kMaxImagePixels = uint64_t(1) << 31;
@@ -34,4 +34,4 @@ void readImage(GltfDocument const& document, GltfFolder const& folder, GltfImage
 /// "images[3]", with the name of its file if it has one.
 std::string imageName(GltfDocument const& document, uint32_t image);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

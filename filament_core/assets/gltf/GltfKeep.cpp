@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Texels of one primitive's targets: 256 MiB.
@@ -146,4 +146,4 @@ std::vector<float3> positionsAtRest(GltfGeometry const& geometry, std::span<cons
     return std::move(posed.positions);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,7 +16,7 @@
 #include <exception>
 #include <mutex>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Counts steps and reports them to the listener.
@@ -268,4 +268,4 @@ Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::files
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

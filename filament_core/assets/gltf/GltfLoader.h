@@ -27,7 +27,7 @@
 #include <span>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class GltfStage : uint8_t {
     Structure, ///< JSON and buffers
@@ -54,4 +54,4 @@ Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& j
 Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
                                      jobs::JobSystem& jobs, GltfOptions const& options = {});
 
-} // namespace filament::assets
+} // namespace filament_core::assets

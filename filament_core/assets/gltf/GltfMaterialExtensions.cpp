@@ -3,7 +3,7 @@
 // where 16 bits do, because shaders may compute in them.
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr float kMaxHalf = 65504;
@@ -197,4 +197,4 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
     return materials;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include <exception>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// The texture coordinates that tangents follow if a material of the primitive needs tangents, else kNone. With several
@@ -122,4 +122,4 @@ std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene cons
     return meshes;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,7 +9,7 @@
 
 #include "filament_core/assets/gltf/GltfScene.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// One primitive of one request.
 struct GltfPrimitiveJob {
@@ -28,4 +28,4 @@ void buildPrimitive(GltfDocument const& document, GltfScene const& scene, Geomet
 std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,
                                     std::vector<GltfPrimitiveJob>& jobs);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

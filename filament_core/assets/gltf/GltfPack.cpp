@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using backend::VertexFormat;
@@ -261,4 +261,4 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     return primitive;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

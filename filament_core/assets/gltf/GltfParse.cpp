@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint64_t kMaxElements = uint64_t{ 1 } << 28;
@@ -456,4 +456,4 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     return document;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class JsonNode;
 
@@ -43,4 +43,4 @@ GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageC
 std::vector<uint32_t> parseGltfSceneLights(std::vector<JsonNode> const& scenes, size_t lightCount);
 void checkExtensions(JsonNode const& root, Diagnostics& diagnostics);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr float kLargestCameraMeters = 1e30f;
@@ -67,4 +67,4 @@ CameraData parseGltfCamera(JsonNode const& node) {
     return camera;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr const char* kCure = "export the light again";
@@ -111,4 +111,4 @@ std::vector<uint32_t> parseGltfSceneLights(std::vector<JsonNode> const& scenes, 
     return lights;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Answers which nodes are above others: in a walk with parents first, all that is below a node follows it at once.
@@ -108,4 +108,4 @@ void markCoarserLevels(std::vector<GltfNode>& nodes, Diagnostics& diagnostics) {
     for (uint32_t i = 0; i < nodes.size(); ++i) nodes[i].isCoarserLevel = lists.isCoarser(i);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr std::string_view kIesMimeType = "application/x-ies-lm-63";
@@ -194,4 +194,4 @@ void checkExtensions(JsonNode const& root, Diagnostics& diagnostics) {
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <array>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
@@ -37,4 +37,4 @@ std::array<float, N> parseFactors(JsonNode const& node, double fallback, double 
 /// with a warning.
 void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

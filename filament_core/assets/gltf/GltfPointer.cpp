@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kLongestPointer = 256; // the longest of the object model has 130 bytes
@@ -233,4 +233,4 @@ void keepAnimated(GltfDocument& document) {
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class GltfPointers {
 public:
@@ -42,4 +42,4 @@ void keepAnimated(GltfDocument& document);
 /// The map of a material as the file has it; null: none.
 GltfTextureInfo* textureInfoOf(GltfMaterial& material, MapName map, bool isSecond);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kMaxProfiles = 1024, kMaxProfileBytes = size_t{ 64 } << 20;
@@ -82,4 +82,4 @@ void addProfiledLights(std::vector<LightData> lights, GltfProfiles profiles, std
     model.profiles = std::move(profiles.read);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

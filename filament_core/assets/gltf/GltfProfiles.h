@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfProfiles {
     std::vector<LightProfileData> read;
@@ -27,4 +27,4 @@ GltfProfiles readProfiles(GltfDocument const& document, GltfFolder const& folder
 void addProfiledLights(std::vector<LightData> lights, GltfProfiles profiles, std::vector<LightData> const& others,
                        ModelData& model);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 // A scene and a device have 2^20 handles of a type. A primitive takes two buffers; if its positions are scaled, it
@@ -380,4 +380,4 @@ GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, G
     return scene;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

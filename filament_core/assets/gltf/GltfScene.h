@@ -19,7 +19,7 @@
 
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfMeshRequest {
     uint32_t mesh = kNone;
@@ -47,4 +47,4 @@ void adoptLevels(GltfDocument& document);
 GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, GltfLevels levels,
                     Diagnostics& diagnostics);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Section 3.8.4: without a sampler, repeat; the filters are implementation-defined.
@@ -270,4 +270,4 @@ std::vector<Image> collectImages(GltfTextures& textures) {
     return images;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

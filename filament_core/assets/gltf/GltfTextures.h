@@ -17,7 +17,7 @@
 
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GltfImageJob {
     uint32_t source = 0;                                ///< index in GltfTextures::sources
@@ -56,4 +56,4 @@ void packImagesJob(GltfDocument const& document, GltfTextures const& textures, u
 /// Moves the decoded images into their slots.
 std::vector<Image> collectImages(GltfTextures& textures);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

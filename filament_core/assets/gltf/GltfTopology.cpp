@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using backend::PrimitiveType;
@@ -142,4 +142,4 @@ void addTangents(GltfGeometry& geometry, uint32_t uvSet) {
     geometry.indices = std::move(output.indices);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

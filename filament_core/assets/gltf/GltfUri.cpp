@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <memory>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint64_t kMaxUriFileBytes = uint64_t{ 2 } << 30;
@@ -104,4 +104,4 @@ Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder cons
     return readGltfFile(*file);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

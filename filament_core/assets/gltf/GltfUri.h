@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Gives the bytes of a relative URI, percent-decoded; from any thread, also from several at once.
 using GltfResolver = std::function<Result<std::vector<std::byte>>(std::string_view uri)>;
@@ -40,4 +40,4 @@ Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder cons
 /// A whole regular file.
 Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

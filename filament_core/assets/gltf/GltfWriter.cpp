@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// The buffer, and the JSON arrays that describe it.
@@ -241,4 +241,4 @@ Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t h
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct GlbImage {
     std::string name;
@@ -84,4 +84,4 @@ struct GlbScene {
 
 Result<std::vector<std::byte>> writeGlb(GlbScene const& scene);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

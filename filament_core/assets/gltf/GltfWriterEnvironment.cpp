@@ -8,7 +8,7 @@
 #include <cstring>
 #include <numbers>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 Result<GlbImage> pictureOfFace(IblCubeLevel const& level, uint32_t face, std::string name) {
@@ -60,4 +60,4 @@ Result<GlbImageBasedLight> glbImageBasedLight(CubeLight const& light, std::vecto
     return written;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

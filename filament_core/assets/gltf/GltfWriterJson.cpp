@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 void useExtension(const char* name, Json& root) {
@@ -250,4 +250,4 @@ void addLights(GlbScene const& scene, Json& root) {
     useExtension("KHR_lights_punctual", root);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 using Json = nlohmann::ordered_json;
 
@@ -19,4 +19,4 @@ void addMaterials(GlbScene const& scene, Json& root);
 /// "extensions.KHR_lights_punctual", "extensions.EXT_lights_image_based"
 void addLights(GlbScene const& scene, Json& root);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// What is wrong with the times as the file has them.
@@ -98,4 +98,4 @@ std::string listOfNumbers(std::span<const size_t> numbers) {
     return text;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,7 +16,7 @@
 #include <span>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// What was wrong with the times of keys.
 struct KeyRepairs {
@@ -38,4 +38,4 @@ std::string toString(KeyRepairs const& repairs);
 /// "2, 4, 6-9" of growing numbers; at most 16 numbers and ranges, and a count of the rest.
 std::string listOfNumbers(std::span<const size_t> numbers);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

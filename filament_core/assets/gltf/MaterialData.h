@@ -9,14 +9,14 @@
 #include "base/math/Math.h"
 #include "filament_core/assets/files/NoIndex.h"
 
-#include <filament/Sampler.h>
+#include <filament_core/Sampler.h>
 
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// KHR_texture_transform as its file gives it.
 struct UvPlacement {
@@ -168,4 +168,4 @@ struct MaterialData {
     bool isAnimated = false, isIorAnimated = false; ///< KHR_animation_pointer: any property; the index of refraction
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

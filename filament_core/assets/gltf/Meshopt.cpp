@@ -3,7 +3,7 @@
 
 #include <meshoptimizer.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// The rules of the extension's section "Specifying compressed views".
@@ -80,4 +80,4 @@ std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<cons
     return out;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -15,9 +15,9 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<const std::byte> bytes,
                                      std::string_view path, Diagnostics& diagnostics);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 void growPoint(Box& box, double3 point) {
@@ -84,4 +84,4 @@ Box boundsOf(ModelData const& model) {
     return box;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,9 +9,9 @@
 
 #include "filament_core/assets/gltf/ModelData.h"
 
-#include <filament/Box.h>
+#include <filament_core/Box.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Extends `box` by one primitive.
 void growBounds(Box& box, PrimitiveData const& primitive, double4x4 const& worldFromMesh);
@@ -20,4 +20,4 @@ void growBounds(Box& box, PrimitiveData const& primitive, double4x4 const& world
 /// vertices.
 Box boundsOf(ModelData const& model);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

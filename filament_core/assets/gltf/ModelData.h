@@ -15,7 +15,7 @@
 #include "filament_core/assets/image/Image.h"
 #include "filament_core/assets/tables/IesFile.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <array>
 #include <cstdint>
@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// What is loaded of things with levels of detail (MSFT_lod).
 enum class GltfLevels : uint8_t {
@@ -37,7 +37,7 @@ enum class GltfDeformation : uint8_t {
     Kept,   ///< by the device, every frame
 };
 
-/// How vertices are stored (<filament/Quality.h>).
+/// How vertices are stored (<filament_core/Quality.h>).
 struct GeometryStorage {
     PositionStorage positions = PositionStorage::AsAuthored;
     TangentStorage tangents = TangentStorage::Snorm16;
@@ -178,4 +178,4 @@ struct ModelData {
     std::vector<std::string> warnings;                  ///< one line each: unsupported extensions, repaired values
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 Result<uint32_t> findVariant(std::span<const std::string> variants, std::string_view name, std::string_view model) {
     if (variants.empty())
@@ -29,4 +29,4 @@ Result<void> selectVariant(ModelData& model, std::string_view name) {
     return {};
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

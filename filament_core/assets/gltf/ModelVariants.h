@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// The index of the first variant with this name. `model`: the name of the model in messages.
 Result<uint32_t> findVariant(std::span<const std::string> variants, std::string_view name, std::string_view model);
@@ -18,4 +18,4 @@ Result<uint32_t> findVariant(std::span<const std::string> variants, std::string_
 /// Gives every primitive the material that the variant names for it; others keep theirs. "": changes nothing.
 Result<void> selectVariant(ModelData& model, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

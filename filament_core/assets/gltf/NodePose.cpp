@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 double4x4 matrixFrom(NodePose const& pose) {
     glm::dquat rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
@@ -51,4 +51,4 @@ NodePose blend(NodePose const& a, NodePose const& b, double weight) {
              a.scale + (b.scale - a.scale) * weight };
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include "base/math/Math.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct NodePose {
     double3 translation{ 0.0 };
@@ -25,4 +25,4 @@ NodePose blend(NodePose const& a, NodePose const& b, double weight);
 /// Spherical interpolation of (nearly) unit quaternions x, y, z, w; exactly `a` at 0 and `b` or -b at 1.
 double4 slerp(double4 const& a, double4 const& b, double weight);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

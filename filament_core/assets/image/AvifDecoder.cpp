@@ -15,7 +15,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// While decoding, a pixel has up to 8 bytes here and as many in the codec.
@@ -274,4 +274,4 @@ Result<DeepImage> decodeDeepAvif(std::span<const std::byte> bytes, std::string_v
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,7 +4,7 @@
 
 #include <avif/avif.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 template <class Mirror>
 auto& mirrorOf(Mirror& mirror) {
@@ -14,4 +14,4 @@ auto& mirrorOf(Mirror& mirror) {
         return mirror.mode;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

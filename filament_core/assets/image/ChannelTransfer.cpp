@@ -3,12 +3,12 @@
 
 #include "base/math/Elementary.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <cmath>
 #include <memory>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// IEC 61966-2-1.
@@ -56,4 +56,4 @@ std::vector<float> const& lightOfDeepCodes() {
     return kTable;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

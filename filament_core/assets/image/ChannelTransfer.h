@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct ChannelTransfer {
     std::array<uint16_t, 256> linearFromCode;
@@ -24,4 +24,4 @@ std::vector<float> const& lightOfDeepCodes();
 /// A plain number with 16 bits.
 inline float shareOfDeepCode(uint32_t code) { return static_cast<float>(code) / 65535.0f; }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Big-endian differences to the sample on the left, the most significant bytes of a row first; of floats 24 bits.
@@ -192,4 +192,4 @@ bool unpackExrBlock(ExrCompression compression, ExrBlock const& block, std::span
     return false;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

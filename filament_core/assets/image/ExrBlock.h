@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// As in files.
 enum class ExrCompression : uint8_t { None, Rle, Zips, Zip, Piz, Pxr24, B44, B44a, Dwaa, Dwab, Count };
@@ -51,4 +51,4 @@ bool expandRuns(std::span<const std::byte> packed, std::span<std::byte> out);
 /// RLE and ZIP store differences between neighbours, even bytes before odd ones.
 void undoPredictor(std::span<std::byte> bytes);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -21,7 +21,7 @@
 #include <optional>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kSide = 8, kSquare = kSide * kSide;
@@ -376,4 +376,4 @@ bool expandDwa(ExrBlock const& block, std::span<const std::byte> packed, std::sp
            expandCosineChannels(block, plan, *sizes, *means, *words, out);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kWords = 1 << 16;
@@ -231,4 +231,4 @@ bool expandPiz(ExrBlock const& block, std::span<const std::byte> packed, std::sp
     return true;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

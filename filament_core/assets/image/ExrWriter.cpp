@@ -11,7 +11,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kRowsOfZip = 16;
@@ -148,4 +148,4 @@ std::vector<std::byte> encodeExr(ExrPixels const& pixels) {
     return file.take();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

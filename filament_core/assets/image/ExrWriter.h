@@ -14,7 +14,7 @@
 
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Of width and height: a block then has less than 2 GiB, which its size in the file can express.
 constexpr uint32_t kMaxExrSide = uint32_t{ 1 } << 22;
@@ -28,4 +28,4 @@ struct ExrPixels {
 
 std::vector<std::byte> encodeExr(ExrPixels const& pixels);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// Reads forward through bytes and never past their end. Little-endian, like the files and all supported machines.
 class ByteCursor {
@@ -63,4 +63,4 @@ Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes);
 bool isExr(std::span<const std::byte> bytes);
 Result<HdrImage> decodeExr(std::span<const std::byte> bytes);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

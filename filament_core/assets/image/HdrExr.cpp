@@ -8,7 +8,7 @@
 #include <array>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 struct ExrHeader {
@@ -233,4 +233,4 @@ Result<HdrImage> decodeExr(std::span<const std::byte> bytes) {
     return decodeBlocks(*header, *blocks);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

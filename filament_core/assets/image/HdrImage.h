@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// A million times the sun in cd/m^2: brighter values are damage. Sums over a sky of this radiance stay finite in fp32.
 inline constexpr float kMaxRadiance = 1e15f;
@@ -36,4 +36,4 @@ struct HdrImage {
 /// Replaces values outside [0, kMaxRadiance] and counts them in image.repairs.
 void sanitise(HdrImage& image);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

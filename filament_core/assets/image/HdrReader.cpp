@@ -9,7 +9,7 @@
 #include <exception>
 #include <new>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 Result<HdrImage> decodeByContent(std::span<const std::byte> bytes) {
@@ -92,4 +92,4 @@ Result<HdrImage> readHdrImage(std::filesystem::path const& path) {
     return decodeHdrImage(*bytes, path.string());
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

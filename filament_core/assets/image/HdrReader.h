@@ -18,7 +18,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr uint32_t kMaxHdrSide = 16384;
 inline constexpr uint64_t kMaxHdrPixels = uint64_t(1) << 26; ///< 16384 x 4096: 768 MiB of floats
@@ -29,4 +29,4 @@ bool isHdrImage(std::span<const std::byte> bytes);
 Result<HdrImage> readHdrImage(std::filesystem::path const& path);
 Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kMaxHeaderLine = 4096;
@@ -168,4 +168,4 @@ Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes) {
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

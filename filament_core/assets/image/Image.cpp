@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 uint64_t Image::levelBytes(uint32_t level) const {
     FILAMENT_ASSERT(level < 32, "an image has fewer than 32 levels");
@@ -18,4 +18,4 @@ uint64_t Image::levelOffset(uint32_t level) const {
     return offset;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// `data` holds level 0, then level 1, ...; each level has `layers` images of size max(1, size >> level).
 struct Image {
@@ -22,4 +22,4 @@ struct Image {
     uint64_t levelBytes(uint32_t level) const;  ///< all layers of one level
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/image/ImageSize.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 bool begins(std::span<const std::byte> bytes, std::string_view magic) {
@@ -55,4 +55,4 @@ Result<DeepImage> decodeDeepImage(std::span<const std::byte> bytes, std::string_
     return decodeDeepPng(bytes, name);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

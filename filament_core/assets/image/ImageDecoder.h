@@ -25,13 +25,13 @@
 #include "base/Result.h"
 #include "filament_core/assets/image/Image.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <span>
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline constexpr uint32_t kMaxImageSide = 16384;
 
@@ -76,4 +76,4 @@ Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name
 Result<Image> decodeWebp(std::span<const std::byte> bytes, std::string_view name);
 Result<Image> decodeAvif(std::span<const std::byte> bytes, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using FileSpan = std::span<const std::byte>;
@@ -97,4 +97,4 @@ bool hasAlphaPng(std::span<const std::byte> bytes) {
     return hasAlpha;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -3,12 +3,12 @@
 ///   Thread  any; pure. Fails: never, for any bytes; {0, 0} if there is no size in them.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <cstddef>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 uint2 imageSize(std::span<const std::byte> bytes);
 
@@ -18,4 +18,4 @@ bool isCutShortPng(std::span<const std::byte> bytes);
 /// A PNG that has an alpha channel, or a list of transparent colours.
 bool hasAlphaPng(std::span<const std::byte> bytes);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint64_t kMaxPngPixels = uint64_t(1) << 28; // 1 GiB of RGBA8
@@ -178,4 +178,4 @@ Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image) 
     return replaceFile(path, bytes);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

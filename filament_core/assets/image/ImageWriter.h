@@ -14,12 +14,12 @@
 #include "filament_core/assets/image/HdrImage.h"
 #include "filament_core/assets/image/Image.h"
 
-#include <filament/ColorGrading.h>
+#include <filament_core/DisplayTransform.h>
 
 #include <filesystem>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// RGBA8, 4 bytes per pixel. The file says that they are codes of `space`.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
@@ -45,4 +45,4 @@ Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_
 /// RGBE with run lengths: 8 bits of mantissa shared by three components, 1e-38 to 1e38. Negative components become 0.
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

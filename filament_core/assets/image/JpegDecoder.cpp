@@ -11,7 +11,7 @@
 // after jpeglib.h
 #include <jerror.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr int kMaxScans = 500;
@@ -125,4 +125,4 @@ Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

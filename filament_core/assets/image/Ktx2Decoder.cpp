@@ -12,7 +12,7 @@
 #include <cstring>
 #include <optional>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::BasisLz;
@@ -216,4 +216,4 @@ Result<Ktx2Texture> decodeKtx2(std::span<const std::byte> bytes, std::string_vie
     return Ktx2Levels(*file, name, options).decode();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -21,7 +21,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct Ktx2Options {
     bool isFull = false;     ///< RGBA32F instead of RGBA16F
@@ -38,4 +38,4 @@ struct Ktx2Texture {
 Result<Ktx2Texture> decodeKtx2(std::span<const std::byte> bytes, std::string_view name,
                                Ktx2Options const& options = {});
 
-} // namespace filament::assets
+} // namespace filament_core::assets

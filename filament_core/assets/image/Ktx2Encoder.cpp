@@ -8,7 +8,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using KtxBytes = std::vector<std::byte>;
@@ -164,4 +164,4 @@ std::vector<std::byte> encodeKtx2(Image const& image, std::span<const Ktx2Value>
     return bytes;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

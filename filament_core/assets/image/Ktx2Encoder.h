@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// A pair of a text; its value ends with a zero, as the specification wants. Both must outlive the result.
 Ktx2Value ktx2Text(std::string_view key, const char* text);
@@ -26,4 +26,4 @@ std::vector<std::byte> encodeKtx2(Image const& image, std::span<const Ktx2Value>
 /// The format that encodeKtx2() writes as this VkFormat; nothing for others.
 std::optional<backend::Format> formatOfVkFormat(uint32_t vkFormat);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

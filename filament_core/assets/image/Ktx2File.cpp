@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using Ktx2Bytes = std::span<const std::byte>;
@@ -191,4 +191,4 @@ Result<Ktx2File> readKtx2(std::span<const std::byte> bytes, std::string_view nam
     return Ktx2Reader(bytes, name).read();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

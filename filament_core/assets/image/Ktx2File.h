@@ -9,7 +9,7 @@
 
 #include "base/Result.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class Ktx2Compression : uint32_t { None, BasisLz, Zstandard, Zlib };
 
@@ -67,4 +67,4 @@ uint2 ktx2Size(std::span<const std::byte> bytes);
 
 Result<Ktx2File> readKtx2(std::span<const std::byte> bytes, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

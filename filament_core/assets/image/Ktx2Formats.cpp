@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// A format without blocks: its channels from the lowest bit up, "r8g8b8".
@@ -174,4 +174,4 @@ void decodeFloats(Ktx2Format const& format, std::span<const std::byte> bytes, bo
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class Ktx2Numbers : uint8_t {
     Codes,  ///< unsigned, 0 to 1
@@ -47,4 +47,4 @@ void decodeCodes(Ktx2Format const& format, std::span<const std::byte> bytes, std
 /// `texels` are RGBA16F, or RGBA32F if `isFull`. Values that are no numbers are 0; too large ones the largest number.
 void decodeFloats(Ktx2Format const& format, std::span<const std::byte> bytes, bool isFull, std::span<std::byte> texels);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// An empty text, or why the bytes are not those of `buffer`.
@@ -52,4 +52,4 @@ Result<std::span<const std::byte>> inflatedLevel(Ktx2File const& file, uint32_t 
     return std::span<const std::byte>(buffer);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// What can be told before memory is allocated.
 Result<void> checkLevel(Ktx2File const& file, uint32_t level, uint64_t expected, std::string_view name);
@@ -21,4 +21,4 @@ Result<void> checkLevel(Ktx2File const& file, uint32_t level, uint64_t expected,
 Result<std::span<const std::byte>> inflatedLevel(Ktx2File const& file, uint32_t level, uint64_t expected,
                                                  std::string_view name, std::vector<std::byte>& buffer);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

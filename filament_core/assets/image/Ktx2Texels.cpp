@@ -7,7 +7,7 @@
 #include <array>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 template <class Component>
@@ -52,4 +52,4 @@ void arrangeKtx2(Ktx2File const& file, Image const& image, uint32_t level, std::
     }
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -9,9 +9,9 @@
 
 #include <span>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// `texels`: those of `level` of the image, all layers. Four channels of 8, 16 or 32 bits.
 void arrangeKtx2(Ktx2File const& file, Image const& image, uint32_t level, std::span<std::byte> texels);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr uint32_t kChannels = 4;
@@ -210,4 +210,4 @@ Image withMipMaps(Image base, bool isColor, uint32_t maxSize) {
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

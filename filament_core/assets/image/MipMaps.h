@@ -13,7 +13,7 @@
 #include "filament_core/assets/image/Image.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// `base` has one level, format RGBA8, and any number of layers: each gets its own chain. The result has format
 /// RGBA8Srgb for colours and RGBA8 for data. It starts with the first level that is not larger than `maxSize` in any
@@ -24,4 +24,4 @@ Image withMipMaps(Image base, bool isColor, uint32_t maxSize = 0);
 /// level has the nearest halves; the others are means of 16-bit light, which are exact to 1/65535.
 Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize = 0);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

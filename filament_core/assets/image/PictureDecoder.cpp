@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// RGBA pixels of floats or halves, one after the other.
@@ -93,4 +93,4 @@ Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view n
     return picture;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using PngBytes = std::vector<std::byte>;
@@ -67,4 +67,4 @@ std::vector<std::byte> encodePng16(uint32_t width, uint32_t height, std::span<co
     return png;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

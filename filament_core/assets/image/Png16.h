@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// width * height * 4 bytes, fewer than 2^32 / 6 pixels.
 std::vector<std::byte> encodePng16(uint32_t width, uint32_t height, std::span<const std::byte> rgb10a2);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

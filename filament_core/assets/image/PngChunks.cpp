@@ -3,7 +3,7 @@
 
 #include <zlib.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 void appendPngWord(std::vector<std::byte>& bytes, uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::byte>(value >> shift & 0xFF));
@@ -18,4 +18,4 @@ void appendPngChunk(std::vector<std::byte>& bytes, std::string_view name, std::s
     appendPngWord(bytes, static_cast<uint32_t>(crc32(0, checked, static_cast<uInt>(bytes.size() - first))));
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 void appendPngWord(std::vector<std::byte>& bytes, uint32_t value);
 /// `name`: four letters.
 void appendPngChunk(std::vector<std::byte>& bytes, std::string_view name, std::span<const std::byte> data);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

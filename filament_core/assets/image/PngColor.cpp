@@ -10,7 +10,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using PngBytes = std::vector<std::byte>;
@@ -83,4 +83,4 @@ std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace sp
     return result;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

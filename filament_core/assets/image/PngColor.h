@@ -5,13 +5,13 @@
 ///   Fails   never.   Memory: a second copy of the file.
 #pragma once
 
-#include <filament/ColorGrading.h>
+#include <filament_core/DisplayTransform.h>
 
 #include <cstddef>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 std::vector<std::byte> withColorSpace(std::vector<std::byte> png, OutputSpace space);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// Everything that libpng's callbacks need. Errors leave through longjmp: between setjmp and them lie only functions
@@ -126,4 +126,4 @@ Result<DeepImage> decodeDeepPng(std::span<const std::byte> bytes, std::string_vi
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 Result<void> checkShape(Ktx2File const& file, std::string_view name) {
@@ -63,4 +63,4 @@ Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize) {
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

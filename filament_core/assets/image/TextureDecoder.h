@@ -17,7 +17,7 @@
 #include <span>
 #include <string_view>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct DecodedTexture {
     Image image;                  ///< empty if `deep` is not
@@ -38,4 +38,4 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
 /// larger than `maxSize`. RGBA8Srgb of colours, RGBA8 of data, RGBA16F of deep images.
 Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

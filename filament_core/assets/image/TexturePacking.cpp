@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kPackedChannels = 4, kPackedAlpha = 3;
@@ -77,4 +77,4 @@ Image packImages(Image first, Image second, PackLayout layout) {
     return packed;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,10 +10,10 @@
 
 #include "filament_core/assets/image/Image.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 enum class PackLayout : uint8_t { RedGreen, ColorAlpha };
 
 Image packImages(Image first, Image second, PackLayout layout);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 const uint8_t* webpBytes(std::span<const std::byte> bytes) { return reinterpret_cast<const uint8_t*>(bytes.data()); }
@@ -65,4 +65,4 @@ Result<Image> decodeWebp(std::span<const std::byte> bytes, std::string_view name
     return image;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <new>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 std::vector<std::byte> deflateZlib(std::span<const std::byte> bytes, int level) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
@@ -24,4 +24,4 @@ bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out) {
            size == out.size();
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

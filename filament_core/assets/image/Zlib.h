@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// `level`: zlib's, 1 (fastest) to 9 (smallest).
 std::vector<std::byte> deflateZlib(std::span<const std::byte> bytes, int level);
@@ -17,4 +17,4 @@ std::vector<std::byte> deflateZlib(std::span<const std::byte> bytes, int level);
 /// Of exactly out.size() bytes.
 bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,12 +5,12 @@
 #include "filament_core/assets/tables/DisplayColor.h"
 #include "shaders/lib/LibCpp.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <array>
 #include <optional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr size_t kMaxBytes = size_t{ 256 } << 20, kMaxTitle = 250;
@@ -188,9 +188,9 @@ Result<void> saveLook(std::filesystem::path const& path, Look const& look) {
     return assets::replaceFile(path, std::as_bytes(std::span(text)));
 }
 
-Look bakeLook(ColorGrading const& colorGrading, Grading const& grading, uint32_t size) {
+Look bakeLook(DisplayTransform const& display, ColorGrading const& grading, uint32_t size) {
     namespace lib = shader::lib;
-    const assets::DisplayColor displayColor(colorGrading, grading.enabled ? &grading : nullptr);
+    const assets::DisplayColor displayColor(display, colorGrading.enabled ? &grading : nullptr);
     Look look{ .title = "ACEScct of linear Rec. 709 to display",
                .size = std::clamp(size, 2u, kMaxCube),
                .domainMin = float3(lib::gradingLog(0.0f)),
@@ -207,4 +207,4 @@ Look bakeLook(ColorGrading const& colorGrading, Grading const& grading, uint32_t
     return look;
 }
 
-} // namespace filament
+} // namespace filament_core

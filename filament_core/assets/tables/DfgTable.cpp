@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 namespace lib = shader::lib;
 
@@ -165,4 +165,4 @@ Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size) {
     return table;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

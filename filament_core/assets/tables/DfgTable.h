@@ -17,7 +17,7 @@
 #include "filament_core/assets/image/Image.h"
 #include "jobsystem/JobSystem.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// One entry. nov in [0.001, 1], alpha in [kMinAlpha, 1]. Returns (red, green) as above.
 float2 integrateDfg(float nov, float alpha);
@@ -30,4 +30,4 @@ float integrateVelvet(float nov, float alpha);
 
 Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size = 64);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

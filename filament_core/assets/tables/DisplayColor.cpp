@@ -5,10 +5,10 @@
 #include "filament_core/values/ToneShader.h"
 #include "shaders/lib/LibCpp.h"
 
-#include <filament/Look.h>
-#include <filament/Options.h>
+#include <filament_core/Look.h>
+#include <filament_core/Options.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 namespace lib = shader::lib;
 
@@ -32,21 +32,23 @@ static_assert(static_cast<int>(OutputSpace::Srgb) == lib::kOutputSrgb &&
               static_cast<int>(OutputSpace::DisplayP3) == lib::kOutputDisplayP3 &&
               static_cast<int>(OutputSpace::Rec2020Pq) == lib::kOutputRec2020Pq);
 
-lib::Grading asInShaders(Grading const& grading, double3x3 const& mix) {
+lib::Grading asInShaders(ColorGrading const& grading, double3x3 const& mix) {
     lib::Grading values;
-    values.nightAdaptation = grading.nightAdaptation;
+    values.nightAdaptation = colorGrading.nightAdaptation;
     values.mixRed = shaderRow(mix, 0), values.mixGreen = shaderRow(mix, 1), values.mixBlue = shaderRow(mix, 2);
-    values.shadows = grading.shadows, values.midtones = grading.midtones, values.highlights = grading.highlights;
-    values.tonalRanges = grading.tonalRanges;
-    values.slope = grading.slope, values.offset = grading.offset, values.power = grading.power;
-    values.contrast = grading.contrast, values.saturation = grading.saturation, values.vibrance = grading.vibrance;
-    values.shadowGamma = grading.shadowGamma, values.midPoint = grading.midPoint;
-    values.highlightScale = grading.highlightScale;
-    values.mapsGamut = grading.gamutMapping;
+    values.shadows = colorGrading.shadows, values.midtones = colorGrading.midtones,
+    values.highlights = colorGrading.highlights;
+    values.tonalRanges = colorGrading.tonalRanges;
+    values.slope = colorGrading.slope, values.offset = colorGrading.offset, values.power = colorGrading.power;
+    values.contrast = colorGrading.contrast, values.saturation = colorGrading.saturation,
+    values.vibrance = colorGrading.vibrance;
+    values.shadowGamma = colorGrading.shadowGamma, values.midPoint = colorGrading.midPoint;
+    values.highlightScale = colorGrading.highlightScale;
+    values.mapsGamut = colorGrading.gamutMapping;
     return values;
 }
 
-lib::ToneSettings asInShaders(ColorGrading const& grading) {
+lib::ToneSettings asInShaders(DisplayTransform const& grading) {
     return lib::toneSettings(shaderToneMapper(grading), shaderToneCurve(grading.toneCurve), shaderOutputSpace(grading),
                              whiteShareOf(grading));
 }
@@ -55,8 +57,8 @@ float3 finiteOf(float3 light) { return glm::clamp(light, float3(0), float3(1e4f)
 
 } // namespace
 
-DisplayColor::DisplayColor(ColorGrading const& colorGrading, Grading const* grading)
-        : mColorGrading(clamped(colorGrading)), mGrading(grading ? *grading : Grading{}),
+DisplayColor::DisplayColor(DisplayTransform const& display, ColorGrading const* grading)
+        : mColorGrading(clamped(display)), mGrading(grading ? *grading : ColorGrading{}),
           mMix(matrixAfterNight(mGrading)), mIsGraded(grading != nullptr) {}
 
 float3 DisplayColor::operator()(float3 light) const {
@@ -78,4 +80,4 @@ float3 DisplayColor::mapped(float3 light) const {
     return lib::encodedForDisplay(lib::linearFromSrgb(lib::saturate(color)), tone);
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

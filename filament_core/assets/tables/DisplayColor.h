@@ -4,17 +4,17 @@
 ///   Thread  any; pure.   Fails: never.
 #pragma once
 
-#include <filament/ColorGrading.h>
-#include <filament/Effects.h>
-#include <filament/Math.h>
+#include <filament_core/DisplayTransform.h>
+#include <filament_core/Effects.h>
+#include <filament_core/Math.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
-/// Of one ColorGrading and one Grading, whose fields may be out of range.
+/// Of one DisplayTransform and one ColorGrading, whose fields may be out of range.
 class DisplayColor {
 public:
     /// `grading`: null: none.
-    explicit DisplayColor(ColorGrading const& colorGrading, Grading const* grading = nullptr);
+    explicit DisplayColor(DisplayTransform const& display, ColorGrading const* grading = nullptr);
 
     /// Linear Rec. 709 -> the values of the output space, which may leave [0, 1] with a look alone.
     float3 operator()(float3 light) const;
@@ -22,10 +22,10 @@ public:
 private:
     float3 mapped(float3 light) const;
 
-    ColorGrading mColorGrading;
-    Grading mGrading;
+    DisplayTransform mColorGrading;
+    ColorGrading mGrading;
     double3x3 mMix;
     bool mIsGraded;
 };
 
-} // namespace filament::assets
+} // namespace filament_core::assets

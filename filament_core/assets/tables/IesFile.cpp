@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr size_t kMaxIesBytes = size_t{ 16 } << 20, kMaxAngles = 8192, kMaxCandelas = size_t{ 1 } << 20;
@@ -309,4 +309,4 @@ Result<IesFile> readIes(std::span<const std::byte> bytes, std::string_view name)
     return file;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,14 +12,14 @@
 
 #include "base/Result.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// How the two angles of a file name a direction. The frame is that of EXT_lights_ies: both angles zero is forward, -Z;
 /// the vertical angle grows from there towards +X at horizontal angle zero.
@@ -42,4 +42,4 @@ struct IesFile {
 
 Result<IesFile> readIes(std::span<const std::byte> bytes, std::string_view name);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using std::numbers::pi;
@@ -94,4 +94,4 @@ LightProfileTable makeLightProfileTable(IesFile const& file) {
     return table;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 
 #include <cstdint>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 struct LightProfileTable {
     uint32_t rows = 2;           ///< >= 2
@@ -29,4 +29,4 @@ struct LightProfileTable {
 
 LightProfileTable makeLightProfileTable(IesFile const& file);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,16 +4,16 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/JsonTree.h"
 
-#include <filament/Options.h>
-#include <filament/Quality.h>
-#include <filament/QualityCosts.h>
+#include <filament_core/Options.h>
+#include <filament_core/Quality.h>
+#include <filament_core/QualityCosts.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::Diagnostics;
@@ -231,4 +231,4 @@ std::string toJson(QualityCosts const& costs) {
     return text + " ]\n}\n";
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -9,15 +9,16 @@
 #include <array>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 namespace lib = shader::lib;
 
-Image bakeToneTable(jobs::JobSystem& jobs, ColorGrading const& colorGrading, uint32_t size, Grading const* grading) {
+Image bakeToneTable(jobs::JobSystem& jobs, DisplayTransform const& display, uint32_t size,
+                    ColorGrading const* grading) {
     FILAMENT_ASSERT(size >= 2, "a tone table has two entries a side or more");
     Image table{ .width = size * size, .height = size, .format = backend::Format::RGBA16F, .data = {} };
     table.data.resize(table.levelBytes(0));
-    const DisplayColor displayColor(colorGrading, grading);
+    const DisplayColor displayColor(display, grading);
     const auto lightAt = [&](size_t i) {
         return lib::lightFromToneTableCoordinate(static_cast<float>(i) / static_cast<float>(size - 1));
     };
@@ -35,4 +36,4 @@ Image bakeToneTable(jobs::JobSystem& jobs, ColorGrading const& colorGrading, uin
     return table;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

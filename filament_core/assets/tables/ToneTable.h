@@ -11,13 +11,13 @@
 #include "filament_core/assets/image/Image.h"
 #include "jobsystem/JobSystem.h"
 
-#include <filament/ColorGrading.h>
-#include <filament/Effects.h>
+#include <filament_core/DisplayTransform.h>
+#include <filament_core/Effects.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 /// size >= 2. `grading`: within its ranges; null: none.
-Image bakeToneTable(jobs::JobSystem& jobs, ColorGrading const& colorGrading, uint32_t size,
-                    Grading const* grading = nullptr);
+Image bakeToneTable(jobs::JobSystem& jobs, DisplayTransform const& display, uint32_t size,
+                    ColorGrading const* grading = nullptr);
 
-} // namespace filament::assets
+} // namespace filament_core::assets

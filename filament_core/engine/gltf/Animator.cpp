@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Animator.h>
+#include <filament_core/Animator.h>
 
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::AnimationChannel;
@@ -100,7 +100,7 @@ struct Animator::Impl {
         assets::AnimationData const& data = model.animations[animation];
         for (AnimationChannel const& channel : data.channels) {
             startAtRest(channel, into);
-            filament::apply(channel, data.samplers[channel.sampler], seconds, into);
+            filament_core::apply(channel, data.samplers[channel.sampler], seconds, into);
         }
     }
 
@@ -230,4 +230,4 @@ void Animator::rest() {
     mImpl->write();
 }
 
-} // namespace filament
+} // namespace filament_core

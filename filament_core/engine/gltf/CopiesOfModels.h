@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// A material instance that replaces a shared one in one copy. Destroyed at its end.
 class OwnMaterial {
@@ -83,4 +83,4 @@ MaterialInstance ownInstance(Scene::Impl& scene, CopyOfModel& copy, MaterialInst
 /// Scene::setVariant().
 Result<void> setVariant(Scene::Impl& scene, CopyOfModel& copy, std::string_view variant);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

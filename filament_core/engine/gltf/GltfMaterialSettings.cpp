@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::AlphaMode;
@@ -249,4 +249,4 @@ void readParameters(MaterialData const& material, GltfVertices const& vertices, 
     setAll(settings, material, vertices, scale);
 }
 
-} // namespace filament
+} // namespace filament_core

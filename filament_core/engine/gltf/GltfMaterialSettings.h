@@ -10,14 +10,14 @@
 
 #include "filament_core/assets/gltf/ModelData.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <compare>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 struct GltfMap {
     std::string stem; ///< baseColor: baseColorMap, baseColorUvMatrix, baseColorUv, baseColorTransform
@@ -52,4 +52,4 @@ GltfMaterialSettings settingsOf(assets::MaterialData const& material, GltfVertic
 void readParameters(assets::MaterialData const& material, GltfVertices const& vertices, float scale,
                     GltfParameters& parameters);
 
-} // namespace filament
+} // namespace filament_core

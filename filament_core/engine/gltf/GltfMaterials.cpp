@@ -4,7 +4,7 @@
 #include "base/Log.h"
 #include "shaders/package/GroupLayouts.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 // The engine's own packages have these parameters: a failure is a defect of GltfMaterialSettings.
@@ -68,4 +68,4 @@ MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material
     return instance;
 }
 
-} // namespace filament
+} // namespace filament_core

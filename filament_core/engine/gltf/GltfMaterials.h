@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-namespace filament {
+namespace filament_core {
 
 class GltfMaterials {
 public:
@@ -36,4 +36,4 @@ private:
     std::map<std::string, Material> mMaterials; ///< by package and constants
 };
 
-} // namespace filament
+} // namespace filament_core

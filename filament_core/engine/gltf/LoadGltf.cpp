@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Gltf.h>
+#include <filament_core/Gltf.h>
 
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
@@ -19,7 +19,7 @@
 #include <tuple>
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using assets::kNone;
 using assets::ModelData;
@@ -242,7 +242,7 @@ private:
             placed.variants.push_back({ variant.variant, instanceFor(variant.material, vertices, worldFromNode) });
     }
 
-    assets::MaterialData const& materialOf(uint32_t index) const { return filament::materialOf(mData, index); }
+    assets::MaterialData const& materialOf(uint32_t index) const { return filament_core::materialOf(mData, index); }
 
     /// One per material and kind of vertices; if the material has a volume, also one per scale.
     MaterialInstance instanceFor(uint32_t index, GltfVertices const& vertices, double4x4 const& worldFromNode) {
@@ -312,9 +312,9 @@ size_t ModelUpload::stepCount() const { return mBuilder->stepCount(); }
 size_t ModelUpload::step(size_t index) { return mBuilder->step(index); }
 std::unique_ptr<Model::Impl> ModelUpload::finish() { return mBuilder->finish(); }
 
-} // namespace filament::engine
+} // namespace filament_core::engine
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -502,4 +502,4 @@ Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions 
     });
 }
 
-} // namespace filament
+} // namespace filament_core

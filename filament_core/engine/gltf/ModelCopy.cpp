@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/ModelCopy.h>
+#include <filament_core/ModelCopy.h>
 
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <type_traits>
 
-namespace filament {
+namespace filament_core {
 namespace engine {
 namespace {
 
@@ -126,7 +126,7 @@ double3 directionOr(double3 const& other, double4 const& vector) {
 Camera cameraOf(assets::CameraData const& data, double4x4 const& worldFromNode) {
     const Lens lens{ .verticalFovDegrees = glm::degrees(data.verticalFovRadians),
                      .nearMeters = data.nearMeters,
-                     .parallelMeters = data.isParallel ? 2 * data.halfHeightMeters : 0,
+                     .orthographicHeight = data.isParallel ? 2 * data.halfHeightMeters : 0,
                      .farMeters = data.farMeters,
                      .aspect = data.aspect };
     // glTF 2.0, section 3.10.2: the camera is not scaled. Gram-Schmidt keeps its direction.
@@ -445,4 +445,4 @@ Result<void> ModelCopy::setVariant(std::string_view variant) {
     return engine::setVariant(call.scene, call.copy, variant);
 }
 
-} // namespace filament
+} // namespace filament_core

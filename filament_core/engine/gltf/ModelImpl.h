@@ -8,16 +8,16 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/Light.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Light.h>
 
 #include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 struct Model::Impl {
     static constexpr uint32_t kRoot = ~0u; ///< the node that a copy of the model is attached to
@@ -115,4 +115,4 @@ namespace engine {
 std::shared_ptr<const Model::Impl> shareOf(Model const& model, Engine::Impl const& engine);
 
 } // namespace engine
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using assets::AnimatedProperty;
@@ -315,4 +315,4 @@ void chooseLevels(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& cop
     showParts(model, scene, copy);
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

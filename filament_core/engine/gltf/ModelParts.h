@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class ModelParts {
 public:
@@ -57,4 +57,4 @@ void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root);
 void chooseLevels(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy, prepare::CoverageLens const& lens,
                   double bias);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

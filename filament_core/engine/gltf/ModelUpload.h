@@ -17,7 +17,7 @@
 #include <optional>
 #include <span>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 struct ReadModel {
     assets::ModelData data;
@@ -55,4 +55,4 @@ private:
     std::unique_ptr<Builder> mBuilder;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

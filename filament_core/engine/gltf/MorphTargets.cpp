@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -99,4 +99,4 @@ void Engine::destroy(MorphTargets targets) {
     mImpl->retire(mImpl->morphTargets, targets);
 }
 
-} // namespace filament
+} // namespace filament_core

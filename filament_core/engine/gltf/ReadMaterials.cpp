@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::kNone;
@@ -108,4 +108,4 @@ GltfReadyMaterials readMaterials(assets::ModelData const& model, GltfMaterialCho
     return ready;
 }
 
-} // namespace filament
+} // namespace filament_core

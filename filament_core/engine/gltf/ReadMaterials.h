@@ -21,7 +21,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 
 /// The properties of an engine that select the material of a glTF material. Constant while the engine lives.
 struct GltfMaterialChoice {
@@ -44,4 +44,4 @@ using GltfReadyMaterials = std::map<std::string, scene::Material>;
 GltfReadyMaterials readMaterials(assets::ModelData const& model, GltfMaterialChoice const& choice,
                                  jobs::JobSystem& jobs);
 
-} // namespace filament
+} // namespace filament_core

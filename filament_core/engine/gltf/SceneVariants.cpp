@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -57,7 +57,7 @@ Result<void> engine::setVariant(Scene::Impl& scene, CopyOfModel& copy, std::stri
 
 void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
     const PublicCall call(mImpl, "Scene::setMaterial(Renderable, MaterialInstance)");
-    filament::setMaterial(*mImpl, renderable, material);
+    filament_core::setMaterial(*mImpl, renderable, material);
 }
 
 Result<void> Scene::setVariant(Node copy, std::string_view variant) {
@@ -66,4 +66,4 @@ Result<void> Scene::setVariant(Node copy, std::string_view variant) {
     return found ? engine::setVariant(*mImpl, *found, variant) : noVariants(*mImpl, copy, variant);
 }
 
-} // namespace filament
+} // namespace filament_core

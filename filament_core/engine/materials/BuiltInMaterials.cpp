@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// <filament/BuiltInMaterials.h>: packages of shaders/material/built_in, and the values that their instances start with.
+// <filament_core/BuiltInMaterials.h>: packages of shaders/material/built_in, and the values that their instances start with.
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
 #include "base/Result.h"
@@ -7,13 +7,13 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/engine/materials/Parameters.h"
 
-#include <filament/BuiltInMaterials.h>
+#include <filament_core/BuiltInMaterials.h>
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr std::array kBuiltIn{
@@ -85,4 +85,4 @@ Result<Material> createBuiltInMaterial(Engine& engine, std::string_view name) {
     });
 }
 
-} // namespace filament
+} // namespace filament_core

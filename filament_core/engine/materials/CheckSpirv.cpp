@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using Words = std::vector<uint32_t>;
@@ -117,4 +117,4 @@ Result<void> checkSpirv(shader::MaterialPackage const& package) {
     return {};
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

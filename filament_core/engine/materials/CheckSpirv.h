@@ -12,8 +12,8 @@
 #include "base/Result.h"
 #include "shaders/package/Package.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 Result<void> checkSpirv(shader::MaterialPackage const& package);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

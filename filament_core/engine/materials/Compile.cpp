@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -160,4 +160,4 @@ CompileProgress Engine::progress(Compilation compilation) {
     return mImpl->compilations.progress(compilation);
 }
 
-} // namespace filament
+} // namespace filament_core

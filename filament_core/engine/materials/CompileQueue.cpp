@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 /// The number of creations per frame, by priority.
@@ -100,4 +100,4 @@ void CompileQueue::forget(scene::Material const& material) {
     }
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -11,14 +11,14 @@
 
 #include "filament_core/passes/PipelineCache.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <array>
 #include <deque>
 #include <functional>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// A pipeline, or (without geometry) only a program, or (full screen) a pipeline of a material without geometry.
 struct CompileWish {
@@ -81,4 +81,4 @@ private:
     uint64_t mSliceSubmission = 0;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

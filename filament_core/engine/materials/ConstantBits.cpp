@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using backend::ConstantValue;
 
@@ -41,4 +41,4 @@ ConstantData dataOf(ConstantValue::Type type, uint32_t bits) {
     return false;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <variant>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 using ConstantData = std::variant<bool, int32_t, float>;
 
@@ -17,4 +17,4 @@ backend::ConstantValue::Type typeOf(ConstantData const& value);
 uint32_t bitsOf(ConstantData const& value);
 ConstantData dataOf(backend::ConstantValue::Type type, uint32_t bits);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

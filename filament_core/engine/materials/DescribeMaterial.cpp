@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 ConstantDescription describe(shader::Constant const& constant, scene::Material const& material) {
@@ -54,4 +54,4 @@ MaterialDescription describeMaterial(scene::Material const& material) {
     return out;
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -12,7 +12,7 @@
 
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using backend::ConstantValue;
@@ -96,4 +96,4 @@ Result<void> checkSamplers(scene::Material const& material, uint32_t units, std:
                 material.name, own + engines, engines, device, units);
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -10,9 +10,9 @@
 #include "base/Result.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 Result<scene::Material> loadMaterial(MaterialDesc const& desc);
 
@@ -24,4 +24,4 @@ Result<scene::Material> specialiseMaterial(shader::MaterialPackage package, Mate
 ///   Fails   Unsupported, naming the material, what it needs and what `device` has.
 Result<void> checkSamplers(scene::Material const& material, uint32_t units, std::string_view device);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -286,4 +286,4 @@ void Engine::destroy(MaterialInstance handle) {
     mImpl->destroy(handle);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 class MaterialNumbers {
 public:
@@ -38,4 +38,4 @@ private:
     uint32_t mNext = 0, mLive = 0;
 };
 
-} // namespace filament::engine
+} // namespace filament_core::engine

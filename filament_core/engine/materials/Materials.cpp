@@ -11,7 +11,7 @@
 
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 
 using engine::PublicCall;
 
@@ -103,4 +103,4 @@ void Engine::destroy(Material material) {
     mImpl->retire(mImpl->materials, material);
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using shader::Parameter;
@@ -120,4 +120,4 @@ Result<void> writeParameters(scene::Material const& material, Parameter const& p
     return {};
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

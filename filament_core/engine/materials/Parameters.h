@@ -10,11 +10,11 @@
 #include "base/Result.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Objects.h>
+#include <filament_core/Objects.h>
 
 #include <span>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 Result<void> writeParameter(scene::Material const& material, shader::Parameter const& parameter,
                             ParameterValue const& value, std::span<std::byte> block);
@@ -24,4 +24,4 @@ Result<void> writeNumber(scene::Material const& material, shader::Parameter cons
 Result<void> writeParameters(scene::Material const& material, shader::Parameter const& parameter,
                              ParameterArray const& values, uint32_t first, std::span<std::byte> block);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

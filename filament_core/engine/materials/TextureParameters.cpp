@@ -3,7 +3,7 @@
 
 #include "backend/api/Format.h"
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using namespace backend;
@@ -94,4 +94,4 @@ Sampler samplerFor(Parameter const& parameter, Sampler const& authored, TextureF
     return parameter.format == shader::SamplerFormat::Float ? filtered(authored, filter) : unfiltered(authored);
 }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

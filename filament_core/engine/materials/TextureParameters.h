@@ -8,11 +8,11 @@
 #include "base/Result.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <string_view>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// Whether the parameter is a sampler that the app can set.
 Result<void> checkSampler(scene::Material const& material, shader::Parameter const& parameter);
@@ -28,4 +28,4 @@ size_t textureSlot(shader::MaterialPackage const& package, shader::Parameter con
 /// The app's sampler for this parameter, changed according to the view. Integers are never filtered.
 Sampler samplerFor(shader::Parameter const& parameter, Sampler const& authored, TextureFilter filter);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

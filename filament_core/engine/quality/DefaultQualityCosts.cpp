@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/QualityCosts.h>
+#include <filament_core/QualityCosts.h>
 
 #include "base/Assert.h"
 #include "filament_core/engine/quality/QualityCostsData.h"
 
-namespace filament {
+namespace filament_core {
 
 QualityCosts const& defaultQualityCosts() {
     static const QualityCosts kCosts = [] {
@@ -15,4 +15,4 @@ QualityCosts const& defaultQualityCosts() {
     return kCosts;
 }
 
-} // namespace filament
+} // namespace filament_core

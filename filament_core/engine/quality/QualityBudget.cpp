@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/QualityBudget.h>
+#include <filament_core/QualityBudget.h>
 
 #include "base/Assert.h"
 #include "base/Result.h"
 #include "filament_core/engine/quality/QualityKnapsack.h"
 
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using engine::BudgetGroup;
@@ -177,4 +177,4 @@ Result<QualityPrediction> predictQuality(Quality const& quality, QualityBudget c
     return predictionOf(point);
 }
 
-} // namespace filament
+} // namespace filament_core

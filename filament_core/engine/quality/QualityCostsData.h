@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 std::string_view defaultQualityCostsJson();
 
-} // namespace filament::engine
+} // namespace filament_core::engine

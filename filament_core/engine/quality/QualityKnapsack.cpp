@@ -3,14 +3,14 @@
 
 #include "base/Assert.h"
 
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <tuple>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 constexpr double kNanosecondsPerMillisecond = 1e6, kErrorUnits = 1e12;
@@ -151,4 +151,4 @@ double millisecondsOf(int64_t nanoseconds) { return static_cast<double>(nanoseco
 
 double errorOf(int64_t squared) { return std::sqrt(static_cast<double>(squared) / kErrorUnits); }
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -10,12 +10,12 @@
 ///   Thread  pure.
 #pragma once
 
-#include <filament/QualityBudget.h>
+#include <filament_core/QualityBudget.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace filament::engine {
+namespace filament_core::engine {
 
 /// Values of one choice, or of two choices that depend on each other.
 struct BudgetOption {
@@ -50,4 +50,4 @@ std::vector<BudgetPoint> paretoPoints(std::vector<BudgetGroup> const& groups, do
 double millisecondsOf(int64_t nanoseconds);
 double errorOf(int64_t squared);
 
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -7,8 +7,8 @@
 #include "base/math/Half.h"
 #include "filament_core/engine/PublicCall.h"
 
-#include <filament/QualityCosts.h>
-#include <filament/Renderer.h>
+#include <filament_core/QualityCosts.h>
+#include <filament_core/Renderer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 
 #include <time.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr uint32_t kFewestRounds = 15; // half of them suffice for a median between least and largest
@@ -259,4 +259,4 @@ Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, Vie
     return costs;
 }
 
-} // namespace filament
+} // namespace filament_core

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms of lit materials that <filament/Quality.h> selects. The choices are specialisation constants, so a program
-// contains only the selected terms. <filament/Quality.h> has the defaults.
+// The terms of lit materials that <filament_core/Quality.h> selects. The choices are specialisation constants, so a program
+// contains only the selected terms. <filament_core/Quality.h> has the defaults.
 
 const int kVisibilityFast = 1;
 const int kVisibilityUncorrelated = 2;

@@ -7,7 +7,7 @@
 #include <bitset>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 constexpr uint8_t kLevels = 3;
@@ -74,4 +74,4 @@ TEST(TextureRange, CountsOfZeroReachToTheEndAndNeverBeyond) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

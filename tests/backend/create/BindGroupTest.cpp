@@ -2,7 +2,7 @@
 // Four bind groups, and what a group's entry shows to the shader.
 #include "tests/backend/create/Gpu.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 DRIVER_SUITE(BindGroups);
 
@@ -114,4 +114,4 @@ DRIVER_TEST(BindGroups, GroupsBeforeTheFirstDifferenceOfTwoLayoutsStayBound) {
     EXPECT_EQ(pixels[1], (Rgba{ 17, 18, 19, 99 }));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -283,4 +283,4 @@ DRIVER_TEST(Blend, AlphaToCoverageTurnsAlphaIntoSamples) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

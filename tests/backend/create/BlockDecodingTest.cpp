@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 DRIVER_SUITE(BlockDecoding);
@@ -106,4 +106,4 @@ DRIVER_TEST(BlockDecoding, EveryModeOfBc6HasTheBitsOfDevices) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

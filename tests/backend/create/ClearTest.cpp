@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -130,4 +130,4 @@ DRIVER_TEST(Clear, EveryAttachmentHasItsOwnClearValue) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 DRIVER_SUITE(Compute);
 
@@ -285,4 +285,4 @@ DRIVER_TEST(Compute, AProgramThatDoesNotCompileIsReportedOnceAndItsDispatchSkipp
     EXPECT_THAT(errors.front().message, testing::HasSubstr("program 'broken program', compute shader"));
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class SilentSink final : public ResultSink {
@@ -194,4 +194,4 @@ TEST(MesaEnvironmentTest, OtherWidthsFallBackTo256WithAMessage) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

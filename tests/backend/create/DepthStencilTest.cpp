@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -316,4 +316,4 @@ DRIVER_TEST(DepthStencil, FrontAndBackFacesHaveTheirOwnReferencesAndOperations) 
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -10,7 +10,7 @@
 #include <bit>
 #include <filesystem>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -218,4 +218,4 @@ DRIVER_TEST(Device, AReplayedTraceGivesTheSameBitsOnAFreshDevice) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <map>
 #include <type_traits>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -370,4 +370,4 @@ DRIVER_TEST(Draw, PrimitivesCrossingTheNearPlaneAreClippedAtItsExactPlace) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

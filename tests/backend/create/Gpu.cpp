@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 const std::string_view kFullScreenVertex = R"(#version 450
 void main() {
@@ -415,4 +415,4 @@ void DriverContract::skipReason(BackendType backend) {
     GTEST_SKIP() << "no " << toString(backend) << " driver: " << streamOf(backend).reason;
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

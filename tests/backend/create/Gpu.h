@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 using Bytes = std::vector<std::byte>;
 using Rgba = std::array<float, 4>;
@@ -185,7 +185,7 @@ private:
     static void skipReason(BackendType backend);
 };
 
-} // namespace filament::backend
+} // namespace filament_core::backend
 
 /// DRIVER_SUITE once a file, then DRIVER_TEST(Suite, Name) { ... gpu ... }: runs on each API, then compares both.
 #define DRIVER_SUITE(Suite)                                                                                            \

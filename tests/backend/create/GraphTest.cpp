@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 DRIVER_SUITE(Graph);
 
@@ -280,4 +280,4 @@ DRIVER_TEST(Graph, FortyPassesHaveFortyTimes) {
     EXPECT_GT(sum, 0u);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -492,4 +492,4 @@ DRIVER_TEST(Pass, AChainOfHalvedTexturesEndsInTheAverageOfTheFirst) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

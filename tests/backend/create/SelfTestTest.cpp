@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::HasSubstr;
@@ -184,4 +184,4 @@ TEST(SelfTestOf, ADriverThatReportsSomethingWhenItIsMadePassesThatOn) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

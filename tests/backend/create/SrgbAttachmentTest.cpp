@@ -3,7 +3,7 @@
 #include "tests/backend/create/Gpu.h"
 #include "tests/backend/create/Texel.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 DRIVER_SUITE(SrgbAttachment);
@@ -190,4 +190,4 @@ DRIVER_TEST(SrgbAttachment, OneLevelIsDrawnAndTheOthersKeepWhatWasUploaded) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 template <class T>
@@ -161,4 +161,4 @@ Rgba decodeTexel(Format format, const std::byte* bytes) {
     }
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -7,7 +7,7 @@
 
 #include "tests/backend/create/Gpu.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 Bytes encodeTexel(Format format, Rgba const& color);
 Rgba decodeTexel(Format format, const std::byte* bytes);
@@ -15,4 +15,4 @@ Rgba decodeTexel(Format format, const std::byte* bytes);
 double linearFromSrgb(double encoded); ///< IEC 61966-2-1
 double srgbFromLinear(double linear);
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -2,7 +2,7 @@
 // Bind groups that show a part of a texture, while the pass writes another part of it.
 #include "tests/backend/create/Gpu.h"
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 DRIVER_SUITE(TextureRanges);
 
@@ -242,4 +242,4 @@ DRIVER_TEST(TextureRanges, AFaceOfACubeIsWrittenWhileTheLevelAboveIsSampled) {
     EXPECT_EQ(gpu.readAs<float>(cube, { 0, 0, 1, 1 }, 1, 3)[0], 106);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

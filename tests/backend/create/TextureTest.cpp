@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 DRIVER_SUITE(Texture);
@@ -487,4 +487,4 @@ DRIVER_TEST(Texture, LinearShadowSamplersFilterTheComparisons) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

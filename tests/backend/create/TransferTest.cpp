@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::Each;
@@ -368,4 +368,4 @@ DRIVER_TEST(Transfer, GeneratedLevelsOfOddSizesKeepAConstantAndTheirSize) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

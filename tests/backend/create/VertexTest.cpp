@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 DRIVER_SUITE(Vertex);
@@ -130,4 +130,4 @@ DRIVER_TEST(Vertex, AMissingAttributeStaysMissingAfterAPipelineThatHadIt) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -12,7 +12,7 @@
 #include <optional>
 #include <random>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using SampledTexel = std::array<float, 4>;
@@ -175,4 +175,4 @@ TEST(GlesBlockSampling, AstcOfEverySizeIsDecodedToTheHighest8BitsOfItsNumbers) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

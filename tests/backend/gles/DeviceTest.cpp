@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Rgba = std::array<uint8_t, 4>;
@@ -187,4 +187,4 @@ TEST_F(GlesTest, StatisticsCountCommandsPassesAndBytes) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -5,7 +5,7 @@
 #include <bit>
 #include <limits>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Float4 = std::array<float, 4>;
@@ -281,4 +281,4 @@ TEST(ConstantDefinitionsTest, TheyAreDefinesFollowedByTheNumberOfTheNextLine) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 
 class CollectingSink final : public ResultSink {
 public:
@@ -189,4 +189,4 @@ protected:
     uint64_t lastTicket = 0;
 };
 
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/backend/gles/GlesFixture.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Rgba = std::array<uint8_t, 4>;
@@ -138,4 +138,4 @@ TEST_F(GlesTest, ATextureThatDoesNotFitIsReportedAndItsPassesAreSkipped) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

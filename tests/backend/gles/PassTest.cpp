@@ -2,7 +2,7 @@
 // Passes with more than one attachment, sample or subpass.
 #include "tests/backend/gles/GlesFixture.h"
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Rgba = std::array<uint8_t, 4>;
@@ -152,4 +152,4 @@ TEST_F(GlesTest, ASetOfAttachmentsThatTheDriverRefusesIsSkippedAndNamed) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

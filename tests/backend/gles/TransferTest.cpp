@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::backend::gles {
+namespace filament_core::backend::gles {
 namespace {
 
 using Rgba = std::array<uint8_t, 4>;
@@ -269,4 +269,4 @@ TEST(RepackTest, ComponentsThatTheFormatLacksAreDropped) {
 }
 
 } // namespace
-} // namespace filament::backend::gles
+} // namespace filament_core::backend::gles

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 /// Records what reached the driver.
@@ -171,4 +171,4 @@ TEST_F(CapturedLayer, AReasonWhyThereIsNoDriverComesThrough) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

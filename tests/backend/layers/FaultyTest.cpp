@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 /// Records the names of the commands that arrive.
@@ -107,4 +107,4 @@ TEST_F(FaultyTest, ASlowDriverTakesItsTime) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend::kit {
+namespace filament_core::backend::kit {
 
 struct Errors final : ResultSink {
     std::vector<std::string> messages;
@@ -256,4 +256,4 @@ inline PassDesc mergedPassDesc(TextureHandle first, TextureHandle second) {
     return desc;
 }
 
-} // namespace filament::backend::kit
+} // namespace filament_core::backend::kit

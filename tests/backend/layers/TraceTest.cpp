@@ -15,7 +15,7 @@
 #include <random>
 #include <sstream>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using namespace kit;
@@ -322,4 +322,4 @@ TEST(Trace, SurvivesEveryTruncation) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

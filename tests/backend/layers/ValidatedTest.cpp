@@ -12,7 +12,7 @@
 
 #include <functional>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using namespace kit;
@@ -958,4 +958,4 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, ValidatedRule, testing::ValuesIn(surfaceCases
 INSTANTIATE_TEST_SUITE_P(Draws, ValidatedRule, testing::ValuesIn(drawCases()), kCaseName);
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

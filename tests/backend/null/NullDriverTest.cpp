@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 struct Answers final : ResultSink {
@@ -107,4 +107,4 @@ TEST_F(NullDriver, OffersEverythingThatLayersAboveMayWantToTest) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class FramesAhead : public testing::TestWithParam<uint32_t> {};
@@ -192,4 +192,4 @@ TEST(StreamHashes, AreThereWhenAskedForAndFollowTheContents) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

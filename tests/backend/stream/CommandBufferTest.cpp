@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 /// Executes nothing; records the order of the commands.
@@ -367,4 +367,4 @@ TEST(CommandBuffer, SurvivesRandomMixesOfRecordingJoiningAndResetting) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -8,7 +8,7 @@
 #include <array>
 #include <thread>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using namespace std::chrono_literals;
@@ -265,4 +265,4 @@ TEST(CommandStream, ASteadyFrameAllocatesNothing) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

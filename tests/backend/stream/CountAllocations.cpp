@@ -19,7 +19,7 @@ void* countedAllocation(size_t size, size_t alignment) {
 
 } // namespace
 
-uint64_t filament::allocationCount() { return gAllocations.load(std::memory_order_relaxed); }
+uint64_t filament_core::allocationCount() { return gAllocations.load(std::memory_order_relaxed); }
 
 void* operator new(size_t size) { return countedAllocation(size, alignof(std::max_align_t)); }
 void* operator new(size_t size, std::align_val_t alignment) {

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-namespace filament {
+namespace filament_core {
 
 /// Heap allocations of the whole process so far, all threads.
 uint64_t allocationCount();
 
-} // namespace filament
+} // namespace filament_core

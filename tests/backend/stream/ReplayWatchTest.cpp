@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 using testing::ElementsAre;
@@ -257,4 +257,4 @@ TEST(ReplayWatch, DescribesAtAnyTimeWhileFramesComeAndGo) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 class ShutdownInBothModes : public testing::TestWithParam<bool> {
@@ -141,4 +141,4 @@ TEST(Shutdown, ADriverThatHangsInItIsNamed) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

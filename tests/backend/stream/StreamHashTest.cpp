@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 namespace {
 
 template <class... C>
@@ -152,4 +152,4 @@ TEST(StreamHash, TicketsCountByTheirPlaceInTheStream) {
 }
 
 } // namespace
-} // namespace filament::backend
+} // namespace filament_core::backend

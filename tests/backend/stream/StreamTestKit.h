@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::backend {
+namespace filament_core::backend {
 
 using namespace std::chrono_literals;
 
@@ -140,4 +140,4 @@ inline void submitFrame(CommandStream& stream, uint64_t frame) {
     stream.submit(commands);
 }
 
-} // namespace filament::backend
+} // namespace filament_core::backend

@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr uint64_t kMiB = uint64_t{ 1 } << 20;
@@ -175,4 +175,4 @@ TEST(MemoryTypeOrder, KeepsToTheTypesThatTheResourceAllows) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr TextureUsage kTransferBoth = TextureUsage::TransferSource | TextureUsage::TransferTarget;
@@ -234,4 +234,4 @@ TEST_F(DriverTest, AnEmptyRectangleIsReadBackAsNoBytes) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

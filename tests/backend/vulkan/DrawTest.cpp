@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr Rgba8 kNothing{ 0, 0, 0, 0 };
@@ -324,4 +324,4 @@ TEST_F(DriverTest, AScissorThatBeginsLeftOfThePictureIsCutOff) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/backend/vulkan/DriverFixture.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 BufferHandle DriverTest::makeBuffer(BufferUsage usage, std::span<const std::byte> bytes) {
     const auto buffer = handle<BufferHandle>();
@@ -90,4 +90,4 @@ std::vector<float> DriverTest::readFloats(TextureHandle texture, uint32_t width,
     return values;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

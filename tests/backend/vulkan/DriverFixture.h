@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// Keeps every answer.
 class CollectingSink final : public ResultSink {
@@ -128,4 +128,4 @@ inline const std::string kRedFragment = R"(
 layout(location = 0) out vec4 color;
 void main() { color = vec4(1.0, 0.0, 0.0, 1.0); })";
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -15,7 +15,7 @@
 #include <random>
 #include <set>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 using Words = std::vector<uint32_t>;
@@ -165,4 +165,4 @@ TEST(FoldConstants, SurvivesDamagedWords) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

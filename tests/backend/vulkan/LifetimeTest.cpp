@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 // ---------------------------------------------------------------------------------------------- frames and answers
@@ -347,4 +347,4 @@ TEST(VulkanDriver, SeveralLiveOnSeveralThreads) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 TEST(Results, WithoutANameAreShownAsNumbers) {
@@ -207,4 +207,4 @@ TEST(ChooseDevice, SaysWhatToInstallWhenThereIsNone) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -2,7 +2,7 @@
 // Load and store operations, merged passes, resolves, and textures that alternate between attachment and sampled.
 #include "tests/backend/vulkan/DriverFixture.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 TEST_F(DriverTest, LoadKeepsWhatIsOutsideTheAreaAndInside) {
@@ -175,4 +175,4 @@ TEST_F(FeedbackTest, LevelsRenderedOneByOneAreSampledTogetherLater) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

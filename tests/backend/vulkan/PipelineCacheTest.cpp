@@ -9,7 +9,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 namespace fs = std::filesystem;
@@ -130,4 +130,4 @@ TEST_F(PipelineCacheTest, TheDeviceNeverSeesADamagedFile) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

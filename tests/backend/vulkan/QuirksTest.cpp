@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 /// The major version of Mesa, 0 for drivers other than lavapipe.
@@ -95,4 +95,4 @@ TEST_F(QuirkTest, DepthAloneLeavesTheBlendingOfAttachmentsWithItsCure) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr uint64_t kBlock = uint64_t{ 1 } << 20;
@@ -105,4 +105,4 @@ TEST(RangeAllocatorDeathTest, ARangeIsFreedOnce) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

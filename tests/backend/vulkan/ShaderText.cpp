@@ -8,7 +8,7 @@
 
 #include <memory>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 std::vector<uint32_t> spirvFromGlsl(ShaderStage stage, std::string const& text) {
     static const bool initialized = glslang_initialize_process() != 0;
@@ -44,4 +44,4 @@ std::vector<uint32_t> spirvFromGlsl(ShaderStage stage, std::string const& text) 
     return words;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

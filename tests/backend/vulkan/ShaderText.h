@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// Words of a module for Vulkan 1.1; fails the current test with glslang's log if the text does not compile.
 std::vector<uint32_t> spirvFromGlsl(ShaderStage stage, std::string const& text);
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 
 /// A shader as this fuzzer's files hold it, in words: the stage in bit 0 and the number of constants in bits 8 to 13;
 /// the id and the bits of each constant; the module.
@@ -68,4 +68,4 @@ inline bool fuzzShaderWords(std::span<const uint8_t> input) {
     return true;
 }
 
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <random>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 std::vector<std::vector<uint8_t>> corpusOfShaders() {
@@ -161,4 +161,4 @@ TEST(ShaderWords, OfTheCorpusMayBeDamagedAnywhere) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -2,7 +2,7 @@
 // Textures placed on the memory of others: DeviceTextureDesc::placedOn.
 #include "tests/backend/vulkan/DriverFixture.h"
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr uint32_t kSide = 64;
@@ -115,4 +115,4 @@ TEST_F(SharedMemoryTest, AHostThatCouldNotBeMadeIsNoHost) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

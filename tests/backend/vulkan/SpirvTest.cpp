@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 TEST(Spirv, FindsVertexInputsWithTheirTypesAndIgnoresBuiltIns) {
@@ -82,4 +82,4 @@ TEST(Spirv, SurvivesEveryTruncationAndRandomDamage) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

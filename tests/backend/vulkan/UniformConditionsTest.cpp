@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 constexpr uint32_t kLogicalAnd = 167, kSelect = 169;
@@ -108,4 +108,4 @@ TEST(UniformConditions, DamagedModulesCrashNothing) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-namespace filament::backend::vulkan {
+namespace filament_core::backend::vulkan {
 namespace {
 
 TEST_F(DriverTest, AClearFillsEveryPixel) {
@@ -77,4 +77,4 @@ TEST(VulkanDriver, SaysWhatToInstallOnAMachineWithoutADriver) {
 }
 
 } // namespace
-} // namespace filament::backend::vulkan
+} // namespace filament_core::backend::vulkan

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using Unary = double (*)(double);
@@ -139,4 +139,4 @@ TEST(Elementary, OfSpecialValuesIsWhatTheStandardSays) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 double integralOfPower(int count, int power) {
@@ -35,4 +35,4 @@ TEST(GaussLegendre, NodesAreInsideAndTheirOwnMirrorImage) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

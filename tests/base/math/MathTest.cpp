@@ -3,8 +3,8 @@
 #include "base/math/Frustum.h"
 #include "base/math/Half.h"
 
-#include <filament/Camera.h>
-#include <filament/Color.h>
+#include <filament_core/Camera.h>
+#include <filament_core/Color.h>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(Half, RoundTripsEveryFiniteValue) {
@@ -145,4 +145,4 @@ TEST(Color, MakesSixAndAHalfThousandKelvinWhiteAndThreeThousandWarm) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 uint32_t texelOf(uint32_t code, uint32_t divisor) { return code | code << 8 | code << 16 | divisor << 24; }
@@ -57,4 +57,4 @@ TEST(Rgbd, TheEndsOfTheRangeAreExactAndBrighterLightKeepsItsHue) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

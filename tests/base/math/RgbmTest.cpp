@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(Rgbm, WhatFitsIsKeptToAHundredthOfTheBrightestComponent) {
@@ -37,4 +37,4 @@ TEST(Rgbm, WhatIsNoLightIsBlack) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(SharedExponent, EveryPackedValueUnpacksToSomethingThatPacksToTheSameNumber) {
@@ -36,4 +36,4 @@ TEST(SharedExponent, OneIsExactAndWhatDoesNotFitIsClamped) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/math/Frustum.h"
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -134,4 +134,4 @@ TEST(Simd, GathersAnyBitOfEightBytes) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

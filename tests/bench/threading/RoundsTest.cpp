@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace filament::bench {
+namespace filament_core::bench {
 namespace {
 
 using ::testing::DoubleNear;
@@ -90,4 +90,4 @@ TEST(Targets, SayWhatTheyAskFor) {
 }
 
 } // namespace
-} // namespace filament::bench
+} // namespace filament_core::bench

@@ -3,7 +3,7 @@
 #include <jobsystem/JobSystem.h>
 #include <jobsystem/JobTrace.h>
 
-#include <filament/Version.h>
+#include <filament_core/Version.h>
 
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,7 @@
 #endif
 
 int main() {
-    using namespace filament::jobs;
+    using namespace filament_core::jobs;
     JobSystem jobs({ .workers = 2, .trace = true });
     std::atomic<uint64_t> sum{ 0 };
     JobGroup group(jobs), after(jobs);
@@ -29,6 +29,7 @@ int main() {
     uint64_t seen = 0;
     group.then<"read">(after, [&] { seen = sum; });
     after.wait();
-    std::printf("jobs: filament_core %s, sum %llu\n", filament::versionText(), static_cast<unsigned long long>(seen));
+    std::printf("jobs: filament_core %s, sum %llu\n", filament_core::versionText(),
+                static_cast<unsigned long long>(seen));
     return seen == 100'000ull * 99'999 / 2 && jobs.trace() != nullptr ? 0 : 1;
 }

@@ -4,7 +4,7 @@
 #include "tests/faults/AllocationSweep.h"
 #include "tests/faults/FaultStage.h"
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 using backend::FaultInjector;
@@ -128,4 +128,4 @@ TEST_P(DeviceFaults, AFirstFrameWithoutMemoryIsLeftOutAndTheNextOneIsRight) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

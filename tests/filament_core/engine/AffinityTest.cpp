@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where an engine's threads run: missing cores are refused, and two engines do not share pins.
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include "filament_core/engine/EngineImpl.h"
 #include "jobsystem/Topology.h"
@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using ::testing::HasSubstr;
@@ -94,4 +94,4 @@ TEST(EngineAffinity, PinsTwoEnginesToDifferentCores) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::kBothApis;
@@ -334,4 +334,4 @@ TEST(AmbientOcclusion, HasTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

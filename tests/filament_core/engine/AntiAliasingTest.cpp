@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Fan;
@@ -131,7 +131,7 @@ TEST(Fxaa, HasTheSameBitsOnBothApisForDisplays) {
         std::vector<Image> images;
         for (const Backend backend : test::kBothApis) {
             Fan fan(backend);
-            fan.view.colorGrading.dither = dither;
+            fan.view.display.dither = dither;
             fan.view.quality.antiAliasing = AntiAliasing::Fxaa;
             images.push_back(std::move(*fan.renderer.renderToImage(fan.scene, fan.view)));
         }
@@ -217,4 +217,4 @@ TEST(AntiAliasing, CostsNothingWithoutEdges) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -2,11 +2,11 @@
 // Rectangles, discs and tubes in images: closed forms, both sides, nodes, and what must not happen.
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
-#include <filament/Light.h>
+#include <filament_core/Light.h>
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Patch;
@@ -241,4 +241,4 @@ TEST(AreaLightUnits, TheFluxOfALightIsPiTimesLuminanceTimesArea) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

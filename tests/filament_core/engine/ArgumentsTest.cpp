@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers that no description may have end the process with the rule that they break; larger ones do not wrap to
 // smaller ones that it may have.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 class ArgumentsDeathTest : public testing::Test {
@@ -55,4 +55,4 @@ TEST_F(ArgumentsDeathTest, AViewHasAPixel) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,14 +3,14 @@
 // to a scene and a view: with another one, a renderer draws what one draws that has drawn nothing yet.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <functional>
 #include <optional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// An effect that looks at the frame before.
@@ -127,7 +127,7 @@ TEST(BeginAnew, FramesThatAreOnlyExpectedLeaveNothing) {
             const auto drawn = [&](bool expects) {
                 Renderer renderer(rooms.engine);
                 drawBefore(rooms, renderer, rooms.there, look, kRoomSize);
-                if (expects) renderer.expect(rooms.here, TwoRooms::view(look, 2, kOtherSize), other);
+                if (expects) renderer.prewarm(rooms.here, TwoRooms::view(look, 2, kOtherSize), other);
                 return rooms.draw(renderer, rooms.there, TwoRooms::view(look, 0));
             };
             EXPECT_EQ(test::differingPixels(drawn(false), drawn(true)), 0u) << look.name;
@@ -136,4 +136,4 @@ TEST(BeginAnew, FramesThatAreOnlyExpectedLeaveNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

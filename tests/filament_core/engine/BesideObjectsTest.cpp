@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/ShadowStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using Resolution = AmbientOcclusionResolution;
@@ -160,4 +160,4 @@ TEST(BesideObjects, FxaaKnowsWhereFringesAndSunsDiscsHaveEdges) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

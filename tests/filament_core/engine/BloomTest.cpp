@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::expectSameAsPlain;
@@ -266,4 +266,4 @@ TEST(BloomThroughDirt, IsNamedByExplain) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

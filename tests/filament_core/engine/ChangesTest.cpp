@@ -9,7 +9,7 @@
 #include <cstring>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::ShadowStage;
@@ -476,4 +476,4 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 // and picks are those of the part that is left.
 #include "tests/filament_core/engine/ShadowStage.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::ShadowStage;
@@ -63,4 +63,4 @@ TEST_P(ClipPlaneTest, WhatIsCutOffCannotBePicked) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::shadowedView;
@@ -130,4 +130,4 @@ TEST(ColoredShadows, WithoutACasterThatTransmitsChangeNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

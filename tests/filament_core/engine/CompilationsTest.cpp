@@ -9,9 +9,9 @@
 
 #include "shaders/package/EngineMaterials.h"
 
-#include <filament/BuiltInMaterials.h>
+#include <filament_core/BuiltInMaterials.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,7 +147,7 @@ TEST(Compilations, MovingPicturesWithEffectsCompileNothing) {
         view.quality.antiAliasing = AntiAliasing::Taa;
         Effects& effects = view.effects;
         effects.fog.enabled = effects.bloom.enabled = effects.depthOfField.enabled = true;
-        effects.motionBlur.enabled = effects.autoExposure.enabled = effects.grading.enabled = true;
+        effects.motionBlur.enabled = effects.autoExposure.enabled = effects.colorGrading.enabled = true;
         effects.vignette.enabled = effects.grain.enabled = effects.chromaticAberration.enabled = true;
         effects.lensFlare.enabled = true;
         effects.lensFlare.threshold = 0.1f;
@@ -155,4 +155,4 @@ TEST(Compilations, MovingPicturesWithEffectsCompileNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

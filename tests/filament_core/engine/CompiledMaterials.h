@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Variants that an image does not need.
 inline constexpr uint16_t kNoShadows = shader::kVariantShadowReceiver, // most of a lit material
@@ -39,4 +39,4 @@ inline std::span<const std::byte> compiledPackage(std::string_view text, uint16_
     return bytes;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

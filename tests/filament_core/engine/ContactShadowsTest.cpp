@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -185,4 +185,4 @@ TEST(ContactShadows, RandomScenesHaveTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -151,7 +151,7 @@ TEST_P(DebugDrawTest, AWorldsLineIsWhereItsPointsAreSeen) {
 }
 
 TEST_P(DebugDrawTest, IsInDisplayColoursWhateverTheExposureAndMixesByItsAlpha) {
-    view.colorGrading.toneMapper = ToneMapper::Filmic;
+    view.display.toneMapper = ToneMapper::Filmic;
     view.effects.autoExposure.enabled = view.effects.vignette.enabled = view.effects.bloom.enabled = true;
     view.clearColor = { 0.5f, 0.5f, 0.5f, 1 };
     const float4 bare = test::bytePixel(picture(), 40, 30);
@@ -274,4 +274,4 @@ TEST(DebugDrawDeathTest, RefusesInvisibleWidths) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

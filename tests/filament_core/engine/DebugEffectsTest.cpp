@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -13,7 +13,7 @@
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr int3 kOrange(230, 159, 0), kBlue(86, 180, 233), kGrey(153);
@@ -319,4 +319,4 @@ TEST(DebugEffects, AreDrawnInAllSizesAndTargets) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -2,14 +2,14 @@
 // DebugView::Luminance and Numerics on both APIs: images whose numbers come texel by texel from a texture.
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/DebugViews.h>
+#include <filament_core/DebugViews.h>
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Each pixel is the texel at its place.
@@ -203,4 +203,4 @@ TEST(DebugNumerics, LeavesTheNextPictureAsItWas) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

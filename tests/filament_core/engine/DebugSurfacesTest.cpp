@@ -3,7 +3,7 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/DebugViews.h>
+#include <filament_core/DebugViews.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr std::array kMaterialViews{
@@ -503,4 +503,4 @@ TEST(DebugSurfaces, AreDrawnInAllSizesAndTargets) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

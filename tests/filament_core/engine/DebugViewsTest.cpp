@@ -13,7 +13,7 @@
 #include <optional>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -472,4 +472,4 @@ TEST_P(DebugViews, LeaveNothingBehindWhenTheyAreOff) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

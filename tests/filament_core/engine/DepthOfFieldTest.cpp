@@ -4,12 +4,12 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -151,4 +151,4 @@ TEST(DepthOfField, CostsNothingWhereEverythingIsSharp) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 TEST(DeviceNeeds, ADeviceWithoutStorageBuffersInFragmentShadersIsRefusedByName) {
@@ -19,4 +19,4 @@ TEST(DeviceNeeds, ADeviceWithoutStorageBuffersInFragmentShadersIsRefusedByName) 
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

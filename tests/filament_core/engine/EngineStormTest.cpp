@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::onThreads;
@@ -140,4 +140,4 @@ TEST_P(EngineStorm, AnEngineRendersOnWhicheverThreadHasItsTurn) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

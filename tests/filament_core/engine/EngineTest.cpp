@@ -8,7 +8,7 @@
 #include "base/Log.h"
 #include "shaders/package/EngineMaterials.h"
 
-#include <filament/JobTimeline.h>
+#include <filament_core/JobTimeline.h>
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +17,7 @@
 #include <string>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// A few spheres under a sun and a point light, without an environment: small, but with every kind of draw.
@@ -66,7 +66,7 @@ std::vector<std::byte> spheresOn(Backend backend, int workers, uint8_t samples =
     if (!engine) return {};
     Spheres spheres(*engine);
     spheres.view.samples = samples;
-    spheres.view.colorGrading.dither = dither;
+    spheres.view.display.dither = dither;
     Renderer renderer(*engine);
     auto image = renderer.renderToImage(spheres.scene, spheres.view);
     EXPECT_TRUE(image.ok());
@@ -430,4 +430,4 @@ TEST(EngineCreate, ListsBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -6,9 +6,9 @@
 #include "filament_core/assets/image/Ktx2Encoder.h"
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/LoadTicket.h>
+#include <filament_core/LoadTicket.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::MaterialStage;
@@ -98,4 +98,4 @@ TEST(EnvironmentPackages, AFileThatIsNoEnvironmentSaysWhatItIs) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

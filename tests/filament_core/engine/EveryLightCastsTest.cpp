@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::shadowedView;
@@ -141,4 +141,4 @@ TEST(EveryLightCasts, AreasShineOnTheirChannels) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

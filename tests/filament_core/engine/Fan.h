@@ -6,7 +6,7 @@
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "toolkit/pictures/Flip.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -15,7 +15,7 @@
 #include <numbers>
 #include <utility>
 
-namespace filament::test {
+namespace filament_core::test {
 
 inline constexpr uint2 kFanSize(96, 80);
 
@@ -139,4 +139,4 @@ inline double flipInMotion(std::function<void(View&)> const& set, FanMotion move
     return sum;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

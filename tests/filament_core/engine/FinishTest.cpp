@@ -4,12 +4,12 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::bytePixel;
@@ -51,31 +51,31 @@ void expectFinished(float3 a, float3 b, float share, std::string const& what) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], share * std::max(b[c], 0.05f)) << what << ", component " << c;
 }
 
-float3 gradedLight(float3 light, std::function<void(Grading&)> const& set) {
+float3 gradedLight(float3 light, std::function<void(ColorGrading&)> const& set) {
     return middleOf(evenPicture(light, [&](View& view) {
-        view.effects.grading.enabled = true;
-        set(view.effects.grading);
+        view.effects.colorGrading.enabled = true;
+        set(view.effects.colorGrading);
     }));
 }
 
 const float3 kLights[] = { float3(0.18f), float3(0.5f, 0.2f, 0.05f), float3(0.02f, 0.3f, 4), float3(20, 7, 9) };
 
-TEST(Grading, ExposureIsAFactor) {
+TEST(ColorGrading, ExposureIsAFactor) {
     for (float3 const& light : kLights)
-        expectFinished(gradedLight(light, [](Grading& g) { g.exposure = 1.5f; }), light * std::exp2(1.5f), 2e-3f,
+        expectFinished(gradedLight(light, [](ColorGrading& g) { g.exposure = 1.5f; }), light * std::exp2(1.5f), 2e-3f,
                        "1.5 stops");
 }
 
-TEST(Grading, WithoutSaturationOnlyLuminanceIsLeft) {
+TEST(ColorGrading, WithoutSaturationOnlyLuminanceIsLeft) {
     for (float3 const& light : kLights) {
         const float3 grey(color::luminance(light));
-        expectFinished(gradedLight(light, [](Grading& g) { g.saturation = 0; }), grey, 3e-3f, "grey");
+        expectFinished(gradedLight(light, [](ColorGrading& g) { g.saturation = 0; }), grey, 3e-3f, "grey");
     }
 }
 
-TEST(Grading, ContrastTurnsAboutMiddleGrey) {
+TEST(ColorGrading, ContrastTurnsAboutMiddleGrey) {
     for (const float contrast : { 0.5f, 1.5f }) {
-        const auto set = [&](Grading& g) { g.contrast = contrast; };
+        const auto set = [&](ColorGrading& g) { g.contrast = contrast; };
         expectFinished(gradedLight(float3(0.18f), set), float3(0.18f), 5e-3f, "middle grey");
         // Two stops above it, on a logarithm of stops.
         expectFinished(gradedLight(float3(0.72f), set), float3(0.18f * std::exp2(2 * contrast)), 1e-2f, "two stops");
@@ -88,8 +88,8 @@ double acesLog(double x) {
 }
 double lightOfAcesLog(double y) { return std::exp2(y * 17.52 - 9.72); }
 
-TEST(Grading, SlopeOffsetAndPowerAreThoseOfTheDecisionList) {
-    const auto set = [](Grading& g) { g.slope = float3(1.1f), g.offset = float3(-0.03f), g.power = float3(1.2f); };
+TEST(ColorGrading, SlopeOffsetAndPowerAreThoseOfTheDecisionList) {
+    const auto set = [](ColorGrading& g) { g.slope = float3(1.1f), g.offset = float3(-0.03f), g.power = float3(1.2f); };
     for (const double light : { 0.05, 0.18, 1.0, 6.0 }) {
         const double expected = lightOfAcesLog(std::pow(acesLog(light) * 1.1 - 0.03, 1.2));
         expectFinished(gradedLight(float3(static_cast<float>(light)), set), float3(static_cast<float>(expected)), 5e-3f,
@@ -97,8 +97,8 @@ TEST(Grading, SlopeOffsetAndPowerAreThoseOfTheDecisionList) {
     }
 }
 
-TEST(Grading, TonalRangesTouchTheirOwnLight) {
-    const auto set = [](Grading& g) {
+TEST(ColorGrading, TonalRangesTouchTheirOwnLight) {
+    const auto set = [](ColorGrading& g) {
         g.shadows = float3(0.5f), g.midtones = float3(2), g.highlights = float3(3);
         g.tonalRanges = float4(0.1f, 0.2f, 1, 2);
     };
@@ -107,8 +107,8 @@ TEST(Grading, TonalRangesTouchTheirOwnLight) {
     expectFinished(gradedLight(float3(4), set), float3(12), 5e-3f, "highlights");
 }
 
-TEST(Grading, CurvesAreAGammaAndALine) {
-    const auto set = [](Grading& g) {
+TEST(ColorGrading, CurvesAreAGammaAndALine) {
+    const auto set = [](ColorGrading& g) {
         g.shadowGamma = float3(2), g.midPoint = float3(0.5f), g.highlightScale = float3(0.25f);
     };
     expectFinished(gradedLight(float3(0.25f), set), float3(0.125f), 5e-3f, "below");
@@ -116,20 +116,20 @@ TEST(Grading, CurvesAreAGammaAndALine) {
 }
 
 /// Light of the temperature that is to be white becomes grey, and the other way round.
-TEST(Grading, WhiteBalanceMakesDaylightWhite) {
+TEST(ColorGrading, WhiteBalanceMakesDaylightWhite) {
     const float3 cold = color::fromDaylight(25'000) * 0.4f, warm = color::fromDaylight(4000) * 0.4f;
-    const float3 fromCold = gradedLight(cold, [](Grading& g) { g.temperature = 1; });
-    const float3 fromWarm = gradedLight(warm, [](Grading& g) { g.temperature = -1; });
+    const float3 fromCold = gradedLight(cold, [](ColorGrading& g) { g.temperature = 1; });
+    const float3 fromWarm = gradedLight(warm, [](ColorGrading& g) { g.temperature = -1; });
     for (float3 const& light : { fromCold, fromWarm }) {
         EXPECT_NEAR(light.x / light.y, 1, 0.01f);
         EXPECT_NEAR(light.z / light.y, 1, 0.01f);
     }
-    EXPECT_GT(gradedLight(float3(0.5f), [](Grading& g) { g.temperature = 0.5f; }).x, 0.52f) << "warmer";
-    EXPECT_LT(gradedLight(float3(0.5f), [](Grading& g) { g.tint = 1; }).y, 0.49f) << "less green";
+    EXPECT_GT(gradedLight(float3(0.5f), [](ColorGrading& g) { g.temperature = 0.5f; }).x, 0.52f) << "warmer";
+    EXPECT_LT(gradedLight(float3(0.5f), [](ColorGrading& g) { g.tint = 1; }).y, 0.49f) << "less green";
 }
 
-TEST(Grading, TheMixerMixesChannels) {
-    const auto swapped = [](Grading& g) { g.mixRed = float3(0, 0, 1), g.mixBlue = float3(1, 0, 0); };
+TEST(ColorGrading, TheMixerMixesChannels) {
+    const auto swapped = [](ColorGrading& g) { g.mixRed = float3(0, 0, 1), g.mixBlue = float3(1, 0, 0); };
     const float3 grey = gradedLight(float3(0.4f), swapped);
     expectFinished(grey, float3(0.4f), 3e-3f, "grey stays");
     const float3 blue = gradedLight(float3(0.6f, 0.1f, 0.1f), swapped);
@@ -137,8 +137,8 @@ TEST(Grading, TheMixerMixesChannels) {
     EXPECT_LT(blue.x, 0.2f);
 }
 
-TEST(Grading, GamutMappingKeepsLuminance) {
-    const auto vivid = [](bool maps) { return [maps](Grading& g) { g.saturation = 3, g.gamutMapping = maps; }; };
+TEST(ColorGrading, GamutMappingKeepsLuminance) {
+    const auto vivid = [](bool maps) { return [maps](ColorGrading& g) { g.saturation = 3, g.gamutMapping = maps; }; };
     const float3 light(0.1f, 0.5f, 0.1f);
     EXPECT_NEAR(color::luminance(gradedLight(light, vivid(true))), color::luminance(light), 0.01f);
     EXPECT_EQ(gradedLight(light, vivid(false)).x, 0.0f) << "clipped";
@@ -146,20 +146,20 @@ TEST(Grading, GamutMappingKeepsLuminance) {
 
 constexpr ToneMapper kMappers[] = { ToneMapper::Linear, ToneMapper::Aces, ToneMapper::Filmic, ToneMapper::Mobile };
 
-void setLook(Grading& grading) {
+void setLook(ColorGrading& grading) {
     grading = { .enabled = true, .exposure = 0.5f, .temperature = 0.2f, .contrast = 1.2f, .saturation = 1.1f };
-    grading.slope = float3(1, 0.98f, 1.02f);
-    grading.shadows = float3(0.9f, 0.95f, 1.1f);
+    colorGrading.slope = float3(1, 0.98f, 1.02f);
+    colorGrading.shadows = float3(0.9f, 0.95f, 1.1f);
 }
 
-TEST(Grading, ATableHasTheColoursOfTheFormula) {
+TEST(ColorGrading, ATableHasTheColoursOfTheFormula) {
     for (const ToneMapper mapper : kMappers) {
         for (float3 const& light : kLights) {
             const auto drawn = [&](ToneMapping mapping) {
                 return evenPicture(light,
                                    [&](View& view) {
-                                       setLook(view.effects.grading);
-                                       view.colorGrading.toneMapper = mapper;
+                                       setLook(view.effects.colorGrading);
+                                       view.display.toneMapper = mapper;
                                        view.quality.toneMapping = mapping;
                                    },
                                    Format::RGBA8, { 4, 4 });
@@ -171,19 +171,19 @@ TEST(Grading, ATableHasTheColoursOfTheFormula) {
     }
 }
 
-TEST(Grading, ManyLooksAfterEachOtherKeepTheirTables) {
+TEST(ColorGrading, ManyLooksAfterEachOtherKeepTheirTables) {
     auto engine = test::makeEngine(Backend::Vulkan);
     ASSERT_TRUE(engine);
     Renderer renderer(*engine);
     const Scene scene(*engine);
     View view = evenView(float3(0.18f), { 4, 4 });
     view.quality.toneMapping = ToneMapping::Table16;
-    view.colorGrading.toneMapper = ToneMapper::Linear;
-    view.effects.grading.enabled = true;
+    view.display.toneMapper = ToneMapper::Linear;
+    view.effects.colorGrading.enabled = true;
     for (int i = 0; i < 24; ++i) {
-        view.effects.grading.exposure = static_cast<float>(i % 7) * 0.25f - 1;
+        view.effects.colorGrading.exposure = static_cast<float>(i % 7) * 0.25f - 1;
         const Image image = drawInto(*engine, renderer, scene, view, Format::RGBA8);
-        const float light = 0.18f * std::exp2(view.effects.grading.exposure);
+        const float light = 0.18f * std::exp2(view.effects.colorGrading.exposure);
         EXPECT_NEAR(bytePixel(image, 1, 1).x, color::srgbFromLinear(float3(light)).x, 0.02f) << i;
     }
     test::expectNoErrors(*engine);
@@ -223,7 +223,7 @@ TEST(Grain, HasItsDeviationAndKeepsTheMean) {
     for (const float size : { 1.0f, 1.5f, 4.0f }) {
         const Image image = evenPicture(float3(0.2140411f), // middle of the display's values
                                         [&](View& view) {
-                                            view.colorGrading.toneMapper = ToneMapper::Linear;
+                                            view.display.toneMapper = ToneMapper::Linear;
                                             view.effects.grain = { .enabled = true, .strength = 0.08f, .size = size };
                                         },
                                         Format::RGBA8, { 256, 256 });
@@ -383,12 +383,12 @@ TEST(Finish, HasTheSameBitsOnBothApisTogether) {
             for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } }) {
                 const Image image = evenPicture(float3(0.3f, 0.6f, 0.2f),
                                                 [&](View& view) {
-                                                    setLook(view.effects.grading);
+                                                    setLook(view.effects.colorGrading);
                                                     view.effects.vignette.enabled = view.effects.grain.enabled = true;
                                                     view.effects.chromaticAberration.enabled =
                                                             view.effects.autoExposure.enabled = true;
                                                     view.effects.bloom.enabled = true;
-                                                    view.colorGrading.dither = true;
+                                                    view.display.dither = true;
                                                     view.quality.antiAliasing = antiAliasing;
                                                     view.quality.toneMapping = mapping;
                                                     view.samples = samples;
@@ -409,7 +409,7 @@ TEST(Finish, CostsNothingWhereItChangesNothing) {
         View view = evenView(float3(0.3f));
         const Image plain = drawInto(*engine, renderer, scene, view, Format::RGBA8);
         const uint32_t passes = renderer.statistics().passesRun;
-        view.effects.grading.enabled = view.effects.autoExposure.enabled = true; // neutral; nothing is visible
+        view.effects.colorGrading.enabled = view.effects.autoExposure.enabled = true; // neutral; nothing is visible
         view.effects.grain = { .enabled = true, .strength = 0 };
         view.effects.chromaticAberration = { .enabled = true, .strength = 0 };
         view.effects.vignette = { .enabled = true, .color = LinearColor(1) };
@@ -421,4 +421,4 @@ TEST(Finish, CostsNothingWhereItChangesNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

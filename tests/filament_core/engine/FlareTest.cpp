@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::expectSameAsPlain;
@@ -301,4 +301,4 @@ TEST(LensFlare, ExplainsWhatItShows) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::MaterialStage;
@@ -352,4 +352,4 @@ TEST(Fog, StaysFiniteForExtremeValues) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

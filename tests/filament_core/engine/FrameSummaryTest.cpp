@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 using prepare::DrawCall;
@@ -52,4 +52,4 @@ TEST(FrameSummary, SaysNothingOfViewsThatAreNotThere) {
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

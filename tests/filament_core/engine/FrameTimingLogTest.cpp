@@ -2,13 +2,13 @@
 // Every pass of every frame has a time, however many there are.
 #include "filament_core/engine/FrameTimingLog.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 class FrameTimingLogTest : public testing::Test {
@@ -76,4 +76,4 @@ TEST_F(FrameTimingLogTest, UnrequestedFramesKeepTheTimesOfTheirPasses) {
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -10,7 +10,7 @@
 #include <atomic>
 #include <deque>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -298,4 +298,4 @@ TEST_P(FroxelBits, ExplainTellsOfFullFroxels) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

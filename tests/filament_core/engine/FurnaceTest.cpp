@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr float kBackground = 0.25f; // exact in half floats
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, FurnaceTest, testing::ValuesIn(test::kBothApi
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

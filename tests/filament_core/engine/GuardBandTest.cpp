@@ -2,7 +2,7 @@
 // Pixels drawn around the image and cropped: its border equals the centre of a larger image.
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <map>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -239,4 +239,4 @@ TEST(GuardBand, CostsNothingOff) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

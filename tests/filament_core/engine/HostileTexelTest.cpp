@@ -5,12 +5,12 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 struct NamedView {
@@ -25,8 +25,8 @@ void switchOn(View& view, std::string_view name) {
     view.effects.depthOfField.maxRadius = 0.1f;
     view.effects.motionBlur.maxRadius = 0.1f;
     view.effects.lensFlare.threshold = 0.2f;
-    view.effects.grading.contrast = 1.2f;
-    view.effects.grading.temperature = 0.2f;
+    view.effects.colorGrading.contrast = 1.2f;
+    view.effects.colorGrading.temperature = 0.2f;
     view.effects.autoExposure.speedDown = view.effects.autoExposure.speedUp = 1000; // stops a second
 }
 
@@ -157,4 +157,4 @@ TEST(HostileTexel, HasTheSameDisplayValuesOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -6,11 +6,11 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <functional>
 
-namespace filament::test {
+namespace filament_core::test {
 
 class LampStage {
 public:
@@ -77,4 +77,4 @@ inline void expectSameAsPlain(LampStage& stage, const char* reason) {
     EXPECT_NE(renderer.explain().find(reason), std::string::npos) << renderer.explain();
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -134,4 +134,4 @@ TEST_P(LayersTest, FramesThatAreGatheredFollowAChangeOfTheLayers) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

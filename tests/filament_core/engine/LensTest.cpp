@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -46,7 +46,7 @@ TEST_P(LensTest, ABoxShowsSquaresWhereTheyAre) {
         const double half = random.within(0.3, 2);
         const double3 at(random.within(-2, 2), random.within(-2, 2), random.within(-5, 5));
         stage.square.add(scene, paint, at, half);
-        const View view{ .camera = above(8, Lens::box(-3, 5, -2, 4, 0, 20)), .size = { 64, 48 } };
+        const View view{ .camera = above(8, Lens::orthographic(-3, 5, -2, 4, 0, 20)), .size = { 64, 48 } };
         const Image image = test::renderLinear(engine, scene, view);
         size_t wrong = 0, covered = 0;
         for (uint32_t y = 0; y < view.size.y; ++y) {
@@ -99,7 +99,7 @@ TEST_P(LensTest, ASmoothPlaneHasOneColourAndThatOfAFarCamera) {
     Scene scene(engine);
     stage.square.add(scene, gold, {}, 50);
     scene.add(SunLight{ .directionWorld = { 0.5f, 0.3f, -1 }, .illuminance = Lux{ 40'000 } });
-    View view{ .camera = Camera::lookAt({ -3, -2, 8 }, { 0, 0, 0 }, { .parallelMeters = 6 }), .size = { 16, 12 } };
+    View view{ .camera = Camera::lookAt({ -3, -2, 8 }, { 0, 0, 0 }, { .orthographicHeight = 6 }), .size = { 16, 12 } };
     const Image parallel = test::renderLinear(engine, scene, view);
     const float4 color = test::halfPixel(parallel, 0, 0);
     EXPECT_GT(color.x, 0.01f);
@@ -145,7 +145,7 @@ struct LensStage {
     Image draw(bool isParallel, LensCase const& effect, bool isOn) {
         const double3 back = glm::normalize(double3(1, -2, 2));
         const double distance = isParallel ? 10 : 10 + kFar;
-        const Lens lens = isParallel ? Lens{ .nearMeters = 0.5f, .parallelMeters = kHigh, .farMeters = 100 }
+        const Lens lens = isParallel ? Lens{ .nearMeters = 0.5f, .orthographicHeight = kHigh, .farMeters = 100 }
                                      : Lens{ .verticalFovDegrees = static_cast<float>(
                                                      glm::degrees(2 * std::atan(kHigh / 2 / (10 + kFar)))),
                                              .nearMeters = static_cast<float>(kFar) };
@@ -203,7 +203,8 @@ TEST_P(LensTest, PickingAndDepthsAreThoseOfTheBox) {
     const Renderable high = stage.square.add(scene, stage.white, { 1, 0.5, 2 }, 0.6);
     Renderer renderer(engine);
     for (const bool isShifted : { false, true }) {
-        View view{ .camera = above(5, { .nearMeters = 0, .parallelMeters = 4, .farMeters = 50 }), .size = { 32, 32 } };
+        View view{ .camera = above(5, { .nearMeters = 0, .orthographicHeight = 4, .farMeters = 50 }),
+                   .size = { 32, 32 } };
         if (isShifted) view.camera.lens.shift = { 0.125f, -0.25f };
         for (const uint2 pixel : { uint2(3, 28), uint2(16, 16), uint2(22, 10), uint2(24, 14) }) {
             const PickHit hit = renderer.waitPick(renderer.pick(scene, view, pixel)).value();
@@ -225,7 +226,7 @@ TEST_P(LensTest, NothingIsOutOfFocusForAParallelLens) {
     Scene scene(engine);
     stage.square.add(scene, stage.white, { 0, 0, -1 }, 3);
     Renderer renderer(engine);
-    View view{ .camera = above(5, { .parallelMeters = 4 }), .size = { 32, 32 } };
+    View view{ .camera = above(5, { .orthographicHeight = 4 }), .size = { 32, 32 } };
     view.camera.exposure.aperture = 1;
     view.effects.depthOfField = { .enabled = true, .focusMeters = 1, .blurScale = 50 };
     const Image blurred = test::renderLinear(engine, renderer, scene, view);
@@ -260,7 +261,7 @@ TEST_P(LensTest, EveryFrameOfAMovingParallelCameraIsFinite) {
     for (int frame = 0; frame < 6; ++frame) {
         const double turn = frame * 0.2;
         const Lens lens{ .nearMeters = 0,
-                         .parallelMeters = 3 + 0.5f * static_cast<float>(frame),
+                         .orthographicHeight = 3 + 0.5f * static_cast<float>(frame),
                          .farMeters = 60,
                          .shift = { 0.1f * static_cast<float>(frame), 0 } };
         View view{ .camera = Camera::lookAt({ 6 * std::cos(turn), 6 * std::sin(turn), 4 }, { 0, 0, 0 }, lens, {},
@@ -275,4 +276,4 @@ TEST_P(LensTest, EveryFrameOfAMovingParallelCameraIsFinite) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

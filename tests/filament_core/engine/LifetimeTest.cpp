@@ -4,12 +4,12 @@
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
-#include <filament/Animator.h>
+#include <filament_core/Animator.h>
 
 #include <functional>
 #include <optional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr const char* kUvPaint = R"(material { name : paint, shadingModel : unlit, requires : [ uv0 ],
@@ -307,4 +307,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, ModelLifetimeTest, testing::ValuesIn(test::kB
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,9 +4,9 @@
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
-#include <filament/Photometry.h>
+#include <filament_core/Photometry.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -224,4 +224,4 @@ TEST(LightsDeathTest, ScenesRefuseAreasThatAreNotNumbersByName) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 #include "tests/filament_core/prepare/BoxScene.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/LightProfile.h>
+#include <filament_core/LightProfile.h>
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@
 #include <functional>
 #include <sstream>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Patch;
@@ -391,4 +391,4 @@ TEST(LightProfilesDeathTest, DirectionsOfZeroAreAssertions) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

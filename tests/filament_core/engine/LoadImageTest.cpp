@@ -5,9 +5,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <filament/BuiltInMaterials.h>
-#include <filament/Color.h>
-#include <filament/Image.h>
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/Color.h>
+#include <filament_core/Image.h>
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@
 #include <fstream>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 Image imageOf(Format format, uint2 size, size_t bytesPerPixel) {
@@ -170,4 +170,4 @@ TEST(TextureOf, AnImageIsDrawnWithItsMipsAlikeOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::HasSubstr;
@@ -531,4 +531,4 @@ TEST(GltfMemory, AResolverThatThrowsIsAnError) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

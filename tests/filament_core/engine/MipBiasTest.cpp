@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::rmsBetween;
@@ -200,4 +200,4 @@ TEST(MipBias, CostsNothingWhereFramesHaveAllPixels) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

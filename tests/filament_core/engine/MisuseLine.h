@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// A regular expression of EXPECT_DEATH for this line, and nothing besides.
 inline std::string misuseLine(std::string_view text) {
@@ -17,4 +17,4 @@ inline std::string misuseLine(std::string_view text) {
     return regex + "\n$";
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

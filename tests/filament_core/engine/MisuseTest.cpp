@@ -6,11 +6,11 @@
 #include "tests/filament_core/engine/MisuseLine.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Animator.h>
-#include <filament/BuiltInMaterials.h>
-#include <filament/LightProfile.h>
-#include <filament/LoadTicket.h>
-#include <filament/ModelCopy.h>
+#include <filament_core/Animator.h>
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/LightProfile.h>
+#include <filament_core/LoadTicket.h>
+#include <filament_core/ModelCopy.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr const char* kProfile = "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n100 50\n";
@@ -306,13 +306,13 @@ std::vector<Use> usesOfTargets() {
           [](World& world, Handles const& bad) {
               Renderer(world.engine).render(world.scene, smallView(), bad.chain);
           } },
-        { "Renderer::expect(Scene, View, RenderTarget)", "render target", "mirror",
+        { "Renderer::prewarm(Scene, View, RenderTarget)", "render target", "mirror",
           [](World& world, Handles const& bad) {
-              Renderer(world.engine).expect(world.scene, smallView(), bad.target);
+              Renderer(world.engine).prewarm(world.scene, smallView(), bad.target);
           } },
-        { "Renderer::expect(Scene, View, SwapChain)", "swap chain", "shop",
+        { "Renderer::prewarm(Scene, View, SwapChain)", "swap chain", "shop",
           [](World& world, Handles const& bad) {
-              Renderer(world.engine).expect(world.scene, smallView(), bad.chain);
+              Renderer(world.engine).prewarm(world.scene, smallView(), bad.chain);
           } },
         { "Renderer::readPixels(RenderTarget)", "render target", "mirror",
           [](World& world, Handles const& bad) { (void)Renderer(world.engine).readPixels(bad.target); } },
@@ -322,8 +322,8 @@ std::vector<Use> usesOfTargets() {
           [](World& world, Handles const& bad) { world.engine.resize(bad.chain, uint2(2)); } },
         { "Renderer::present(SwapChain)", "swap chain", "shop",
           [](World& world, Handles const& bad) { Renderer(world.engine).present(bad.chain); } },
-        { "Renderer::mayPresent(SwapChain)", "swap chain", "shop",
-          [](World& world, Handles const& bad) { (void)Renderer(world.engine).mayPresent(bad.chain); } },
+        { "Renderer::canPresent(SwapChain)", "swap chain", "shop",
+          [](World& world, Handles const& bad) { (void)Renderer(world.engine).canPresent(bad.chain); } },
     };
 }
 
@@ -349,8 +349,8 @@ std::vector<Use> usesOfRenderables() {
             [](Scene& s, Renderable bad) { s.setLightChannels(bad, 1); }),
         use("Scene::setLayers(Renderable, Layers, Layers)", [](Scene& s, Renderable bad) { s.setLayers(bad, 1, 1); }),
         use("Scene::layers(Renderable)", [](Scene& s, Renderable bad) { (void)s.layers(bad); }),
-        use("Scene::setDrawPlace(Renderable, DrawPlace)", [](Scene& s, Renderable bad) { s.setDrawPlace(bad, {}); }),
-        use("Scene::drawPlace(Renderable)", [](Scene& s, Renderable bad) { (void)s.drawPlace(bad); }),
+        use("Scene::setDrawOrder(Renderable, DrawOrder)", [](Scene& s, Renderable bad) { s.setDrawOrder(bad, {}); }),
+        use("Scene::drawOrder(Renderable)", [](Scene& s, Renderable bad) { (void)s.drawOrder(bad); }),
         use("Scene::setTransform(Renderable, double4x4)",
             [](Scene& s, Renderable bad) { s.setTransform(bad, double4x4(1)); }),
         use("Scene::setMorphWeights(Renderable, span<float>)",
@@ -434,7 +434,7 @@ std::vector<Use> usesOfNodes() {
         use("Scene::setLightChannels(Node, LightChannels)", [](Scene& s, Node bad) { s.setLightChannels(bad, 1); }),
         use("Scene::setVisible(Node, bool)", [](Scene& s, Node bad) { s.setVisible(bad, true); }),
         use("Scene::setLayers(Node, Layers, Layers)", [](Scene& s, Node bad) { s.setLayers(bad, 1, 1); }),
-        use("Scene::setDrawPlace(Node, DrawPlace)", [](Scene& s, Node bad) { s.setDrawPlace(bad, {}); }),
+        use("Scene::setDrawOrder(Node, DrawOrder)", [](Scene& s, Node bad) { s.setDrawOrder(bad, {}); }),
         use("Scene::setVariant(Node, string_view)", [](Scene& s, Node bad) { (void)s.setVariant(bad, "x"); }),
         use("Scene::parentFromNode(Node)", [](Scene& s, Node bad) { (void)s.parentFromNode(bad); }),
         use("Scene::worldFromNode(Node)", [](Scene& s, Node bad) { (void)s.worldFromNode(bad); }),
@@ -518,9 +518,10 @@ TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
     EXPECT_DEATH(renderer.render(other.scene, view, world.all.chain), line("Renderer::render(Scene, View, SwapChain)"));
     EXPECT_DEATH(renderer.render(other.scene, view, world.all.target),
                  line("Renderer::render(Scene, View, RenderTarget)"));
-    EXPECT_DEATH(renderer.expect(other.scene, view, world.all.chain), line("Renderer::expect(Scene, View, SwapChain)"));
-    EXPECT_DEATH(renderer.expect(other.scene, view, world.all.target),
-                 line("Renderer::expect(Scene, View, RenderTarget)"));
+    EXPECT_DEATH(renderer.prewarm(other.scene, view, world.all.chain),
+                 line("Renderer::prewarm(Scene, View, SwapChain)"));
+    EXPECT_DEATH(renderer.prewarm(other.scene, view, world.all.target),
+                 line("Renderer::prewarm(Scene, View, RenderTarget)"));
     EXPECT_DEATH(renderer.pick(other.scene, view, {}), line("Renderer::pick(Scene, View, uint2)"));
     EXPECT_DEATH((void)renderer.renderToImage(other.scene, view), line("Renderer::renderToImage(Scene, View)"));
 }
@@ -690,4 +691,4 @@ TEST(Misuse, DestroyingNothingDoesNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

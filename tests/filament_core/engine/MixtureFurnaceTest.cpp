@@ -8,7 +8,7 @@
 
 #include "shaders/package/EngineMaterials.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr float kMixtureBackground = 0.25f; // exact in half floats
@@ -155,4 +155,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, MixtureFurnaceTest, testing::ValuesIn(test::k
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

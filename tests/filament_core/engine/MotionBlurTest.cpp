@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -12,7 +12,7 @@
 #include <functional>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -177,4 +177,4 @@ TEST(MotionBlur, CostsNothingWhereNothingMoves) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

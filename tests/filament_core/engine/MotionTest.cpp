@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -263,4 +263,4 @@ TEST(Motion, CostsNothingWithoutATemporalEffect) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

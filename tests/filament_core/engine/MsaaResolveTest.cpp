@@ -3,14 +3,14 @@
 // it is, beside supersampling of what is displayed.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <cmath>
 #include <map>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -159,8 +159,8 @@ TEST(MsaaResolve, FollowsTheToneMapperAndTheGrading) {
                                      ToneMapper::PbrNeutral, ToneMapper::AcesReference, ToneMapper::Generic }) {
         for (const float stops : { 0.0f, -3.0f }) {
             LampEdge lamp(Backend::Vulkan, 2e3f);
-            lamp.view.colorGrading.toneMapper = mapper;
-            lamp.view.effects.grading = { .enabled = stops != 0, .exposure = stops };
+            lamp.view.display.toneMapper = mapper;
+            lamp.view.effects.colorGrading = { .enabled = stops != 0, .exposure = stops };
             const std::vector<double> exact = supersampled(lamp);
             const double average = rmsBeside(exact, lamp.draw(MsaaResolve::Average));
             const double aware = rmsBeside(exact, lamp.draw(MsaaResolve::ToneAware));
@@ -323,4 +323,4 @@ TEST(MsaaResolve, ResolvesWhatRefractsThePictureWithIt) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -272,4 +272,4 @@ TEST(PickDeathTest, APixelLiesInTheView) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

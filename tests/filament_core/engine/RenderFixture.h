@@ -5,7 +5,7 @@
 #include "base/math/Half.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 inline constexpr Backend kBothApis[] = { Backend::Vulkan, Backend::Gles };
 
@@ -151,4 +151,4 @@ protected:
     }
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

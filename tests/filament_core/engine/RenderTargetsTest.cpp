@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -117,23 +117,23 @@ std::vector<std::pair<const char*, View>> viewsOfEveryLastPass(View const& filme
     };
     add("plain", [](View&) {});
     add("samples", [](View& view) { view.samples = 4; });
-    add("dither", [](View& view) { view.colorGrading.dither = true; });
+    add("dither", [](View& view) { view.display.dither = true; });
     add("fxaa", [](View& view) { view.quality.antiAliasing = AntiAliasing::Fxaa; });
     add("enlarged", [](View& view) { view.effects.resolution.scale = float2(0.5f); });
     add("bloom and grain", [](View& view) { view.effects.bloom.enabled = view.effects.grain.enabled = true; });
     add("a part", [](View& view) {
         view.size = { 15, 11 };
-        view.viewport = filament::Viewport{ .offset = { 9, 4 } };
+        view.viewport = filament_core::Viewport{ .offset = { 9, 4 } };
     });
     add("a part of a cleared target", [](View& view) {
         view.size = { 15, 11 };
-        view.viewport = filament::Viewport{ .offset = { 9, 4 },
-                                            .contents = TargetContents::Clear,
-                                            .clearColor = { 0.25f, 0.5f, 0.125f, 0.5f } };
+        view.viewport = filament_core::Viewport{ .offset = { 9, 4 },
+                                                 .contents = TargetContents::Clear,
+                                                 .clearColor = { 0.25f, 0.5f, 0.125f, 0.5f } };
     });
     add("translucent", [](View& view) {
         view.clearColor = { 0.5f, 0.25f, 0, 0.5f };
-        view.viewport = filament::Viewport{ .blending = ViewBlending::Translucent };
+        view.viewport = filament_core::Viewport{ .blending = ViewBlending::Translucent };
     });
     return views;
 }
@@ -166,7 +166,7 @@ TEST_P(RenderTargetsTest, AnSrgbPictureHasTheBytesOfAnRgba8One) {
 TEST_P(RenderTargetsTest, ASquareShowsTheLightOfAnSrgbPicture) {
     const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8Srgb) }),
                               again = target({ .color = texture(Format::RGBA8Srgb) });
-    filmed.colorGrading.toneMapper = shown.colorGrading.toneMapper = ToneMapper::Linear;
+    filmed.display.toneMapper = shown.display.toneMapper = ToneMapper::Linear;
     camera.render(scene, filmed, film);
     show(engine.colorOf(film));
     const Image seen = room16(), codes = pixelsOf(film), light = test::renderLinear(engine, scene, filmed);
@@ -197,7 +197,7 @@ TEST_P(RenderTargetsTest, ACompositeShowsTargetsOfEveryFormatInTheFrameThatDraws
         EXPECT_TRUE(engine.set(screens.back(), "picture", engine.colorOf(films.back()), Sampler{}));
         square.add(wall, screens.back(), { 2.0 * static_cast<double>(films.size()) - 5, 0, 0 });
     }
-    View composite{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, Lens::box(-4, 4, -1, 1)),
+    View composite{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, Lens::orthographic(-4, 4, -1, 1)),
                     .size = { 4 * kFilmSide, kFilmSide } };
     for (Owned<RenderTarget> const& film : films) camera.render(scene, filmed, film);
     const Image seen = test::renderLinear(engine, renderer, wall, composite);
@@ -228,7 +228,7 @@ TEST_P(RenderTargetsTest, DepthsOfAParallelLensAreMetresToo) {
     const Owned<RenderTarget> film = target({ .color = texture(Format::RGBA8), .depth = texture(Format::R32F) });
     show(engine.depthOf(film));
     for (const DepthRange range : { DepthRange::Reversed, DepthRange::Ordinary }) {
-        View view{ .camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, Lens::box(-2, 2, -2, 2, 0, 40)),
+        View view{ .camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, Lens::orthographic(-2, 2, -2, 2, 0, 40)),
                    .size = uint2(kFilmSide) };
         view.quality.depthRange = range;
         camera.render(walls, view, film);
@@ -265,7 +265,7 @@ TEST_P(RenderTargetsTest, DepthsAreMetresAlongTheView) {
     }
     View part = filmed;
     part.size = uint2(16);
-    part.viewport = filament::Viewport{ .offset = { 10, 4 } };
+    part.viewport = filament_core::Viewport{ .offset = { 10, 4 } };
     std::vector<float> depths;
     depthsOf(part, depths);
     EXPECT_NEAR(depths[12 * kFilmSide + 12], 5, 4e-3f) << "the left half of the part";
@@ -358,4 +358,4 @@ TEST(RenderTargetsDeathTest, RefusesTexturesThatDoNotFit) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::bytePixel;
@@ -42,7 +42,7 @@ Image patterned(std::string const& formula, uint2 size, SetView const& set, Form
         Scene scene(stage.engine);
         stage.square.add(scene, stage.instance, double3(0), 8);
         View view = test::SquareMesh::view(size);
-        view.colorGrading.toneMapper = ToneMapper::Linear;
+        view.display.toneMapper = ToneMapper::Linear;
         set(view);
         images.push_back(drawnPicture(stage.engine, scene, view, format));
     }
@@ -156,7 +156,7 @@ TEST(Upscaling, LeavesGrainAndDitherToTheLargePicture) {
     for (const Upscaling filter : kUpscalings) {
         const auto noisy = [](View& view) {
             view.effects.grain = { .enabled = true, .strength = 0.1f };
-            view.colorGrading.dither = true;
+            view.display.dither = true;
         };
         const Image plain = patterned("0.4", { 40, 30 }, noisy);
         const Image large = patterned("0.4", { 40, 30 }, [&](View& view) {
@@ -275,7 +275,7 @@ TEST(Sharpening, RaisesContrastByTheLargestWeightThatThereIsRoomFor) {
 TEST(Sharpening, HasTheSameBitsBesideEveryOtherEffectOfThePicture) {
     const SetView others[] = { [](View& view) { view.quality.antiAliasing = AntiAliasing::Fxaa; },
                                [](View& view) { view.quality.antiAliasing = AntiAliasing::Taa; },
-                               [](View& view) { view.colorGrading.dither = true; },
+                               [](View& view) { view.display.dither = true; },
                                [](View& view) { view.effects.grain.enabled = view.effects.vignette.enabled = true; },
                                enlarged(Upscaling::EdgeAdaptive, float2(0.67f)) };
     for (const bool isLinear : { false, true }) {
@@ -310,4 +310,4 @@ TEST(Sharpening, OfNoStrengthOrOfNothingCostsNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

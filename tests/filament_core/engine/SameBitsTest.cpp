@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 struct Threads {
@@ -141,4 +141,4 @@ TEST(SameBits, TheImageDoesNotDependOnWorkersOrAffinityOnEitherApi) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

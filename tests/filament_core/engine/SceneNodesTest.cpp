@@ -11,7 +11,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 double4x4 movedBy(double3 offset, double scale = 1) {
@@ -301,4 +301,4 @@ TEST(SceneNodesImages, HaveTheSameBitsOnBothApisForAnyNumberOfWorkers) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr const char* kPhoto = R"(material { name : photo, shadingModel : unlit, requires : [ uv0 ],
@@ -173,4 +173,4 @@ TEST_P(SeveralViewsOnADevice, EachHasThePictureThatItHasAlone) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

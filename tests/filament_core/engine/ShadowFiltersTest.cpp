@@ -6,7 +6,7 @@
 #include <numbers>
 #include <variant>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -319,4 +319,4 @@ TEST(ShadowFilters, ExtremesAreNumbersAndHaveTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace filament::test {
+namespace filament_core::test {
 
 inline constexpr ShadowFilter kShadowFilters[] = { ShadowFilter::Hard,    ShadowFilter::Pcf2, ShadowFilter::Pcf3,
                                                    ShadowFilter::Pcf5,    ShadowFilter::Vsm,  ShadowFilter::Evsm,
@@ -89,4 +89,4 @@ inline void addCrowd(ShadowStage& stage, Scene& scene, prepare::Random& random, 
                          .rangeMeters = range });
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

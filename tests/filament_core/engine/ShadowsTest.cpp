@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -330,4 +330,4 @@ TEST(Shadows, RenderablesThatReceiveNoneAreLitAmongOthersThatDo) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <memory>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Radiance `base` + slope * direction, the same at every roughness, and its reflection by a white diffuse surface.
 struct Sky {
@@ -121,4 +121,4 @@ inline void expectNear(float4 seen, float3 expected, float tolerance) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], tolerance) << "component " << c;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -4,14 +4,14 @@
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
-#include <filament/BuiltInMaterials.h>
-#include <filament/Primitives.h>
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/Primitives.h>
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -61,7 +61,7 @@ TEST_P(SmallObjectsTest, LeavingThemOutChangesNoBit) {
         Renderer someRenderer(engine), allRenderer(engine);
         View view{ .size = { 160, 120 } };
         view.quality.shadows = ShadowFilter::Off;
-        if (seed % 3 == 0) view.camera.lens = Lens::box(-12, 12, -9, 9, 0, 100);
+        if (seed % 3 == 0) view.camera.lens = Lens::orthographic(-12, 12, -9, 9, 0, 100);
         const Image drawn = test::renderLinear(engine, someRenderer, some, view);
         EXPECT_EQ(test::differingPixels(drawn, test::renderLinear(engine, allRenderer, all, view)), 0u) << seed;
         EXPECT_GT(allRenderer.statistics().visible, someRenderer.statistics().visible + 500) << seed;
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, SmallObjectsTest, testing::ValuesIn(test::kBo
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -331,4 +331,4 @@ TEST(SunDiscsOfBothApis, HaveTheSameBits) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

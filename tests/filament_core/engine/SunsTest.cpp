@@ -2,7 +2,7 @@
 // Any number of suns: light adds up, whichever of them is the brightest.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr const char* kSunPaint = R"(material { name : paint, shadingModel : lit }
@@ -41,4 +41,4 @@ TEST(Suns, SeveralGiveTheSumOfWhatEachGivesOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

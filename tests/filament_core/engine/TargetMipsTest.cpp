@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 // A texel a pixel, of one level.
@@ -176,4 +176,4 @@ TEST_P(TargetMipsTest, OfSrgbFollowEveryViewAndItsViewports) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 // motion leaves of that, and that the size of the frames may change meanwhile.
 #include "tests/filament_core/engine/Fan.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Fan;
@@ -167,4 +167,4 @@ TEST(DynamicResolution, ShrinksThePictureOnlyWhenFramesTakeTooLong) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <functional>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr uint2 kRampSize(2048, 2);
@@ -31,7 +31,7 @@ std::vector<Image> ramps(Format format, std::function<void(View&)> const& set) {
         stage.square.add(scene, stage.instance, wide);
         View view{ .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 90 }),
                    .size = kRampSize };
-        view.colorGrading = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::Rec2020Pq };
+        view.display = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::Rec2020Pq };
         set(view);
         const Owned<Texture> pixels = stage.engine.own(stage.engine.create(TextureDesc{
                 .format = format, .width = kRampSize.x, .height = kRampSize.y, .renderable = true, .name = "ramp" }));
@@ -68,7 +68,7 @@ TEST(TenBits, HoldThePqOfARampInFinerStepsThanEight) {
     EXPECT_EQ(ten.format, Format::RGB10A2);
     EXPECT_LE(greens(eight), 256u);
     EXPECT_GT(greens(ten), 3 * greens(eight));
-    const assets::DisplayColor displayColor(shown.colorGrading, nullptr);
+    const assets::DisplayColor displayColor(shown.display, nullptr);
     float worst = 0;
     for (uint32_t x = 0; x < ten.width; ++x) {
         const double stops = (x + 0.5) / ten.width * kRampStops - 9;
@@ -83,7 +83,7 @@ TEST(TenBits, HoldThePqOfARampInFinerStepsThanEight) {
 
 TEST(TenBits, NeedNoDither) {
     const Image plain = ramps(Format::RGB10A2, [](View&) {})[0];
-    const Image dithered = ramps(Format::RGB10A2, [](View& view) { view.colorGrading.dither = true; })[0];
+    const Image dithered = ramps(Format::RGB10A2, [](View& view) { view.display.dither = true; })[0];
     EXPECT_EQ(plain.pixels, dithered.pixels);
 }
 
@@ -105,4 +105,4 @@ TEST(TenBits, StayTenThroughTheLastPasses) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,14 +4,14 @@
 #include "filament_core/assets/image/MipMaps.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -109,4 +109,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, TextureMips, testing::ValuesIn(test::kBothApi
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,11 +3,11 @@
 #include "filament_core/assets/tables/DisplayColor.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr ToneMapper kMappers[] = { ToneMapper::Linear,  ToneMapper::Aces,         ToneMapper::Filmic,
@@ -47,14 +47,14 @@ Colors shown(View view) {
         }
         test::expectNoErrors(*engine);
     }
-    EXPECT_EQ(ofApis[0], ofApis[1]) << toString(view.colorGrading.toneMapper);
+    EXPECT_EQ(ofApis[0], ofApis[1]) << toString(view.display.toneMapper);
     return ofApis[0];
 }
 
 /// As the CPU computes them, in steps of 255.
 std::vector<float3> computed(View const& view) {
-    const assets::DisplayColor displayColor(view.colorGrading,
-                                            view.effects.grading.enabled ? &view.effects.grading : nullptr);
+    const assets::DisplayColor displayColor(view.display,
+                                            view.effects.colorGrading.enabled ? &view.effects.colorGrading : nullptr);
     std::vector<float3> colors;
     for (float3 const& light : kLights) {
         float3 stored;
@@ -77,7 +77,7 @@ constexpr float kRounded = 0.65f; // half a step, and the rounding of light to 1
 TEST(ToneMappers, ShadersShowWhatTheCpuComputes) {
     for (const ToneMapper mapper : kMappers) {
         View view;
-        view.colorGrading.toneMapper = mapper;
+        view.display.toneMapper = mapper;
         // The ACES transforms come from a table, whose entries are 1/4 of a stop apart.
         const float steps = mapper == ToneMapper::AcesReference ? 6 : kRounded;
         expectNear(shown(view), computed(view), steps, toString(mapper));
@@ -86,16 +86,16 @@ TEST(ToneMappers, ShadersShowWhatTheCpuComputes) {
 
 TEST(ToneMappers, LooksOfAgxAndPointsOfTheGenericCurveReachTheShaders) {
     View view;
-    view.colorGrading.toneMapper = ToneMapper::Agx;
+    view.display.toneMapper = ToneMapper::Agx;
     const Colors base = shown(view);
     for (const AgxLook look : { AgxLook::Golden, AgxLook::Punchy }) {
-        view.colorGrading.agxLook = look;
+        view.display.agxLook = look;
         const Colors drawn = shown(view);
         EXPECT_NE(drawn, base);
         expectNear(drawn, computed(view), kRounded, toString(look));
     }
-    view.colorGrading.toneMapper = ToneMapper::Generic;
-    view.colorGrading.toneCurve = { .contrast = 2, .midGreyIn = 0.2f, .midGreyOut = 0.3f, .maximum = 50 };
+    view.display.toneMapper = ToneMapper::Generic;
+    view.display.toneCurve = { .contrast = 2, .midGreyIn = 0.2f, .midGreyOut = 0.3f, .maximum = 50 };
     expectNear(shown(view), computed(view), kRounded, "curve");
 }
 
@@ -103,7 +103,7 @@ TEST(ToneMappers, TablesHaveTheColoursOfTheFormulas) {
     for (const ToneMapper mapper : kMappers) {
         if (mapper == ToneMapper::DisplayRange) continue; // its colours do not follow light evenly
         View view;
-        view.colorGrading.toneMapper = mapper;
+        view.display.toneMapper = mapper;
         view.quality.toneMapping = ToneMapping::Table64;
         const bool hasKink = mapper == ToneMapper::Linear || mapper == ToneMapper::PbrNeutral;
         expectNear(shown(view), computed(view), hasKink ? 8 : 6, toString(mapper));
@@ -114,7 +114,7 @@ TEST(OutputSpaces, ShadersShowWhatTheCpuComputes) {
     for (const OutputSpace space : { OutputSpace::LinearRec709, OutputSpace::DisplayP3, OutputSpace::Rec2020Pq }) {
         for (const ToneMapper mapper : { ToneMapper::Linear, ToneMapper::Aces, ToneMapper::Mobile, ToneMapper::Agx }) {
             View view;
-            view.colorGrading = { .toneMapper = mapper, .outputSpace = space, .whiteNits = 250 };
+            view.display = { .toneMapper = mapper, .outputSpace = space, .whiteNits = 250 };
             expectNear(shown(view), computed(view), kRounded, toString(space));
         }
     }
@@ -123,7 +123,7 @@ TEST(OutputSpaces, ShadersShowWhatTheCpuComputes) {
 TEST(OutputSpaces, OnesOfTablesAreThoseOfFormulas) {
     for (const OutputSpace space : { OutputSpace::DisplayP3, OutputSpace::Rec2020Pq }) {
         View view;
-        view.colorGrading = { .toneMapper = ToneMapper::Filmic, .outputSpace = space };
+        view.display = { .toneMapper = ToneMapper::Filmic, .outputSpace = space };
         view.quality.toneMapping = ToneMapping::Table64;
         expectNear(shown(view), computed(view), 3, toString(space));
     }
@@ -133,7 +133,7 @@ TEST(OutputSpaces, LightStaysRec709) {
     auto engine = test::makeEngine(Backend::Vulkan);
     ASSERT_TRUE(engine);
     View view{ .size = { 4, 4 }, .clearColor = float4(0.5f, 0.25f, 4, 1) };
-    view.colorGrading.outputSpace = OutputSpace::Rec2020Pq;
+    view.display.outputSpace = OutputSpace::Rec2020Pq;
     EXPECT_EQ(float3(test::halfPixel(test::renderLinear(*engine, Scene(*engine), view), 1, 1)), float3(0.5f, 0.25f, 4));
 }
 
@@ -144,10 +144,10 @@ std::shared_ptr<const Look> inverse() {
 TEST(Looks, AreAppliedToWhatTheToneMapperShows) {
     for (const ToneMapper mapper : { ToneMapper::Filmic, ToneMapper::AcesReference }) {
         View view;
-        view.colorGrading = { .toneMapper = mapper, .look = inverse() };
+        view.display = { .toneMapper = mapper, .look = inverse() };
         const Colors drawn = shown(view);
         expectNear(drawn, computed(view), mapper == ToneMapper::Filmic ? 2 : 6, "inverse");
-        view.colorGrading.look = nullptr;
+        view.display.look = nullptr;
         view.quality.toneMapping = ToneMapping::Table64;
         const Colors plain = shown(view);
         for (size_t i = 0; i < plain.size(); ++i)
@@ -164,7 +164,7 @@ TEST(Looks, ManyAfterEachOtherKeepTheirColours) {
     view.quality.toneMapping = ToneMapping::Table16;
     for (int i = 0; i < 20; ++i) {
         const float value = static_cast<float>(i % 7) / 8;
-        view.colorGrading.look =
+        view.display.look =
                 std::make_shared<Look>(Look{ .isCube = false, .size = 2, .entries = { float3(value), float3(value) } });
         auto image = renderer.renderToImage(scene, view);
         ASSERT_TRUE(image);
@@ -176,8 +176,8 @@ TEST(Looks, ManyAfterEachOtherKeepTheirColours) {
 TEST(NightVision, ShadersShowWhatTheCpuComputes) {
     for (const float amount : { 0.3f, 1.0f }) {
         View view;
-        view.colorGrading.toneMapper = ToneMapper::Filmic;
-        view.effects.grading = { .enabled = true, .nightAdaptation = amount, .exposure = -1 };
+        view.display.toneMapper = ToneMapper::Filmic;
+        view.effects.colorGrading = { .enabled = true, .nightAdaptation = amount, .exposure = -1 };
         const Colors drawn = shown(view);
         expectNear(drawn, computed(view), kRounded + 0.1f, "night");
         EXPECT_GT(drawn[1][2], drawn[1][0]) << "dark greys are blue";
@@ -188,13 +188,13 @@ TEST(NightVision, ShadersShowWhatTheCpuComputes) {
 
 TEST(NightVision, OffChangesNoBit) {
     View view;
-    view.effects.grading = { .enabled = true, .contrast = 1.2f };
+    view.effects.colorGrading = { .enabled = true, .contrast = 1.2f };
     const Colors without = shown(view);
-    view.effects.grading.nightAdaptation = 1;
+    view.effects.colorGrading.nightAdaptation = 1;
     EXPECT_NE(shown(view), without);
-    view.effects.grading.enabled = false;
+    view.effects.colorGrading.enabled = false;
     EXPECT_EQ(shown(view), shown(View{}));
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -161,7 +161,7 @@ TEST(Transparency, EqualDistancesKeepTheOrderOfTheScene) {
 
 TEST(Transparency, PriorityAndBlendOrderComeBeforeDistance) {
     struct Placed {
-        DrawPlace far, near;
+        DrawOrder far, near;
         bool isSwapped;
     };
     for (Placed const& placed :
@@ -176,9 +176,9 @@ TEST(Transparency, PriorityAndBlendOrderComeBeforeDistance) {
                 const Renderable near =
                         stage.add(material, { { .color = { 0, 0, 0.5f, 0.5f } } }, Pane{ .z = 1 }.world());
                 const Renderable far = stage.add(material, { { .color = { 0.5f, 0, 0, 0.5f } } }, double4x4(1));
-                stage.scene.setDrawPlace(near, placed.near);
-                stage.scene.setDrawPlace(far, placed.far);
-                EXPECT_EQ(stage.scene.drawPlace(far), placed.far);
+                stage.scene.setDrawOrder(near, placed.near);
+                stage.scene.setDrawOrder(far, placed.far);
+                EXPECT_EQ(stage.scene.drawOrder(far), placed.far);
             });
             const float3 first = placed.isSwapped ? float3(0, 0, 0.5f) : float3(0.5f, 0, 0);
             const float3 second = placed.isSwapped ? float3(0.5f, 0, 0) : float3(0, 0, 0.5f);
@@ -528,4 +528,4 @@ TEST(Transparency, RunsOnlyWhereTwoObjectsMayOverlap) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using prepare::Random;
@@ -83,7 +83,7 @@ TEST_P(ViewportTest, AViewHasInItsPlaceTheBitsThatItHasAloneWithEveryEffect) {
         { "fxaa and dither",
           [](View& view) {
               view.quality.antiAliasing = AntiAliasing::Fxaa;
-              view.colorGrading.dither = true;
+              view.display.dither = true;
           } },
         { "taa", [](View& view) { view.quality.antiAliasing = AntiAliasing::Taa; }, 3 },
         { "bloom, vignette and grain",
@@ -105,7 +105,7 @@ TEST_P(ViewportTest, AViewHasInItsPlaceTheBitsThatItHasAloneWithEveryEffect) {
             const Owned<SwapChain> target = chain(format);
             renderer.render(scene, whole, target);
             const Image before = read(target);
-            view.viewport = filament::Viewport{ .offset = kOffset };
+            view.viewport = filament_core::Viewport{ .offset = kOffset };
             Renderer own(stage.engine);
             for (int i = 0; i < one.frames; ++i) own.render(other, view, target);
             const Image after = read(target);
@@ -119,9 +119,9 @@ TEST_P(ViewportTest, AClearedTargetHasTheColourAroundTheView) {
     const Owned<SwapChain> target = chain(Format::RGBA8);
     renderer.render(scene, whole, target);
     View view = part;
-    view.viewport = filament::Viewport{ .offset = kOffset,
-                                        .contents = TargetContents::Clear,
-                                        .clearColor = { 1, 0.2f, 0, 0.6f } };
+    view.viewport = filament_core::Viewport{ .offset = kOffset,
+                                             .contents = TargetContents::Clear,
+                                             .clearColor = { 1, 0.2f, 0, 0.6f } };
     small.render(other, view, target);
     const Image image = read(target);
     EXPECT_EQ(cut(image, kOffset, kViewSize), alone(part, Format::RGBA8, 1).pixels);
@@ -132,7 +132,7 @@ TEST_P(ViewportTest, AClearedTargetHasTheColourAroundTheView) {
 TEST_P(ViewportTest, AnUndrawnTargetIsCleared) {
     const Owned<SwapChain> target = chain(Format::RGBA8);
     View view = part;
-    view.viewport = filament::Viewport{ .offset = kOffset, .clearColor = { 0, 0, 1, 1 } };
+    view.viewport = filament_core::Viewport{ .offset = kOffset, .clearColor = { 0, 0, 1, 1 } };
     small.render(other, view, target);
     EXPECT_EQ(test::bytePixel(read(target), 0, 0), float4(0, 0, 1, 1));
 }
@@ -144,7 +144,7 @@ TEST_P(ViewportTest, ViewsThatKeepContentsJoinTheLastImageOfASwapChain) {
         whole.clearColor.x = 0.2f * static_cast<float>(frame);
         renderer.render(scene, whole, target);
         const Image before = read(target);
-        view.viewport = filament::Viewport{ .offset = { frame, 2 * frame } };
+        view.viewport = filament_core::Viewport{ .offset = { frame, 2 * frame } };
         small.render(other, view, target);
         view.viewport->offset = { 40, 30 };
         small.render(other, view, target);
@@ -160,7 +160,7 @@ TEST_P(ViewportTest, AViewportThatIsTheWholeTargetCostsNoPass) {
     for (int i = 0; i < 2; ++i) renderer.render(scene, whole, target); // the second keeps the shadow maps
     const Image expected = read(target);
     const uint32_t passes = renderer.statistics().passesRun;
-    whole.viewport = filament::Viewport{};
+    whole.viewport = filament_core::Viewport{};
     renderer.render(scene, whole, target);
     EXPECT_EQ(read(target).pixels, expected.pixels);
     EXPECT_EQ(renderer.statistics().passesRun, passes);
@@ -186,8 +186,8 @@ struct TranslucentTest : ViewportTest {
     TranslucentTest() {
         stage.square.add(panes, pane, { -0.5, 0, 0 }, 0.5);
         over.clearColor = float4(0);
-        over.viewport = filament::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
-        over.colorGrading.toneMapper = ToneMapper::Linear;
+        over.viewport = filament_core::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
+        over.display.toneMapper = ToneMapper::Linear;
     }
     void setLight(float4 premultiplied) { EXPECT_TRUE(stage.engine.set(pane, "color", premultiplied)); }
 };
@@ -238,11 +238,11 @@ TEST_P(TranslucentTest, ScenesOfLightAreAddedAsLight) {
 TEST_P(TranslucentTest, IsOpaqueWhereItsAlphaIsOneWhateverTheToneMapper) {
     for (const ToneMapper mapper : { ToneMapper::Aces, ToneMapper::Filmic, ToneMapper::Linear }) {
         View view = part;
-        view.colorGrading.toneMapper = mapper;
+        view.display.toneMapper = mapper;
         const Image expected = alone(view, Format::RGBA8, 1); // its background has alpha 1
         const Owned<SwapChain> target = chain(Format::RGBA8);
         renderer.render(scene, whole, target);
-        view.viewport = filament::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
+        view.viewport = filament_core::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
         small.render(other, view, target);
         EXPECT_EQ(cut(read(target), kOffset, kViewSize), expected.pixels) << toString(mapper);
     }
@@ -266,7 +266,7 @@ TEST(Viewport, BothApisComposeTheSameBits) {
         View over = test::SquareMesh::view(kViewSize);
         over.samples = 4;
         over.clearColor = float4(0);
-        over.viewport = filament::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
+        over.viewport = filament_core::Viewport{ .offset = kOffset, .blending = ViewBlending::Translucent };
         renderer.render(panes, over, target);
         const auto image = renderer.waitPixels(renderer.readPixels(target));
         ASSERT_TRUE(image);
@@ -285,15 +285,15 @@ TEST(ViewportDeathTest, AViewportLiesInItsTarget) {
     View view{ .size = { 32, 32 } };
     EXPECT_DEATH(renderer.render(scene, view, target), "without a viewport has the size of its swap chain");
     for (const uint2 offset : { uint2(33, 0), uint2(0, 17), uint2(~0u, 0), uint2(64, 48) }) {
-        view.viewport = filament::Viewport{ .offset = offset };
+        view.viewport = filament_core::Viewport{ .offset = offset };
         EXPECT_DEATH(renderer.render(scene, view, target), "a viewport lies in its target");
     }
-    view.viewport = filament::Viewport{ .clearColor = { 0, std::nanf(""), 0, 1 } };
+    view.viewport = filament_core::Viewport{ .clearColor = { 0, std::nanf(""), 0, 1 } };
     EXPECT_DEATH(renderer.render(scene, view, target), "clearColor is finite");
-    view.viewport = filament::Viewport{ .offset = { 32, 16 } };
+    view.viewport = filament_core::Viewport{ .offset = { 32, 16 } };
     renderer.render(scene, view, target);
     test::expectNoErrors(*engine);
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,12 +3,12 @@
 
 #include "base/math/Half.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 
 /// Radiance 1 from everywhere.
 class WhiteEnvironment {
@@ -38,4 +38,4 @@ private:
     Owned<IndirectLight> mLight;
 };
 
-} // namespace filament
+} // namespace filament_core

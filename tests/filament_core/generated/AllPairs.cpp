@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 /// Which pairs are still to be met: a bit for each two values of two factors.
@@ -123,4 +123,4 @@ size_t missingPairs(std::span<const uint32_t> counts, std::span<const PairRow> r
     return open.count();
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Numerical Recipes' quick generator, upper bits.
 class Chance {
@@ -39,4 +39,4 @@ std::vector<PairRow> allPairs(std::span<const uint32_t> counts, uint32_t seed);
 /// The pairs of values that no row has.
 size_t missingPairs(std::span<const uint32_t> counts, std::span<const PairRow> rows);
 
-} // namespace filament::test
+} // namespace filament_core::test

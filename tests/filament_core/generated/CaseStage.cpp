@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 constexpr std::string_view kMetal = R"(material { name : metal, reflections : screenspace }
@@ -179,4 +179,4 @@ Image CaseStage::draw(ViewCase const& viewCase, int frames) {
     return drawFrames(target.get(), viewCase, viewCase.view, frames);
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

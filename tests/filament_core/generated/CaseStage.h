@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 class CaseStage {
 public:
@@ -51,4 +51,4 @@ private:
     uint64_t mCommands = 0;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

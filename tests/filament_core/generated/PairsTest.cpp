@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::CaseStage;
@@ -101,4 +101,4 @@ TEST(GeneratedViews, WithFourSamplesHaveTheSameBitsThroughAnyLens) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <iterator>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 void append(std::vector<ViewFactor>& all, std::vector<ViewFactor> more) {
@@ -72,8 +72,8 @@ std::vector<ViewFactor> factorsOfLens() {
     return {
         { "lens",
           { { "perspective", [](ViewCase&) {} },
-            { "parallel", [](ViewCase& c) { c.view.camera.lens = { .parallelMeters = 4, .farMeters = 30 }; } },
-            { "box", [](ViewCase& c) { c.view.camera.lens = Lens::box(-3, 1, -2, 2, 0.5f, 40); } },
+            { "parallel", [](ViewCase& c) { c.view.camera.lens = { .orthographicHeight = 4, .farMeters = 30 }; } },
+            { "box", [](ViewCase& c) { c.view.camera.lens = Lens::orthographic(-3, 1, -2, 2, 0.5f, 40); } },
             { "offCenter", [](ViewCase& c) { c.view.camera.lens = Lens::offCenter(-0.8f, 0.2f, -0.1f, 0.7f); } } } },
         { "samples", { { "1", [](ViewCase&) {} }, { "4", [](ViewCase& c) { c.view.samples = 4; } } } },
         { "msaaResolve",
@@ -225,25 +225,25 @@ std::vector<ViewFactor> factorsOfFinish() {
           { { "off", [](ViewCase&) {} },
             { "on",
               [](ViewCase& c) {
-                  c.view.effects.grading = { .enabled = true,
-                                             .nightAdaptation = 0.5f,
-                                             .temperature = 0.7f,
-                                             .power = float3(0.5f, 1, 3),
-                                             .contrast = 1.8f,
-                                             .vibrance = 2,
-                                             .gamutMapping = true };
+                  c.view.effects.colorGrading = { .enabled = true,
+                                                  .nightAdaptation = 0.5f,
+                                                  .temperature = 0.7f,
+                                                  .power = float3(0.5f, 1, 3),
+                                                  .contrast = 1.8f,
+                                                  .vibrance = 2,
+                                                  .gamutMapping = true };
               } } } },
         { "toneMapper",
-          { { "linear", [](ViewCase& c) { c.view.colorGrading.toneMapper = ToneMapper::Linear; } },
+          { { "linear", [](ViewCase& c) { c.view.display.toneMapper = ToneMapper::Linear; } },
             { "aces", [](ViewCase&) {} },
             { "agxTable",
               [](ViewCase& c) {
-                  c.view.colorGrading = { .toneMapper = ToneMapper::Agx, .dither = true };
+                  c.view.display = { .toneMapper = ToneMapper::Agx, .dither = true };
                   c.view.quality.toneMapping = ToneMapping::Table16;
               } },
             { "pq",
               [](ViewCase& c) {
-                  c.view.colorGrading = { .toneMapper = ToneMapper::PbrNeutral, .outputSpace = OutputSpace::Rec2020Pq };
+                  c.view.display = { .toneMapper = ToneMapper::PbrNeutral, .outputSpace = OutputSpace::Rec2020Pq };
               } } } },
     };
 }
@@ -286,4 +286,4 @@ ViewCase viewCase(PairRow const& row) {
 
 uint2 targetSize(ViewCase const& viewCase) { return viewCase.view.size + (viewCase.view.viewport ? 5u : 0u); }
 
-} // namespace filament::test
+} // namespace filament_core::test

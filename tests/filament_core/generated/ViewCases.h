@@ -5,14 +5,14 @@
 
 #include "tests/filament_core/generated/AllPairs.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 enum class SeenScene : uint8_t { Everything, Empty, SkyOnly, UnlitOnly, BlendedOnly };
 enum class SeenTarget : uint8_t { Rgba8, Rgb10A2, HalfFloats, SrgbWithMips, LightWithDepth };
@@ -42,4 +42,4 @@ ViewCase viewCase(PairRow const& row);
 /// The size of what the case is drawn to: that of the view, and around a viewport a few pixels.
 uint2 targetSize(ViewCase const& viewCase);
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 
 class DrawFixture {
 public:
@@ -111,4 +111,4 @@ private:
     backend::BufferHandle lastVertices, lastIndices;
 };
 
-} // namespace filament::passes
+} // namespace filament_core::passes

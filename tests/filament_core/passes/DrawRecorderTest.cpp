@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -154,4 +154,4 @@ TEST_P(SameBits, TheStreamIsTheOneRecordedWithoutAJobSystem) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

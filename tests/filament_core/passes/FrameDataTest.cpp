@@ -17,7 +17,7 @@
 #include <set>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::CmdCreateBuffer;
@@ -325,4 +325,4 @@ TEST_F(FrameDataTest, FramesOfManyAndOfOneViewTakeTurnsWithoutCreatingAnything) 
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using shader::Parameter;
@@ -85,4 +85,4 @@ TEST(FullScreenMaterial, IsRefusedWhereItDrawsSurfacesOrIsAlwaysMerged) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

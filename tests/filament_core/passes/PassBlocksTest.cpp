@@ -9,7 +9,7 @@
 #include <memory>
 #include <set>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using backend::BindGroupEntry;
@@ -77,4 +77,4 @@ TEST_F(PassBlocksTest, GrowToTheLargestFrameAndStay) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

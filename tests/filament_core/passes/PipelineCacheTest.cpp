@@ -7,7 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -369,4 +369,4 @@ TEST(PipelineTableDeathTest, InsertingAKeyTwice) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

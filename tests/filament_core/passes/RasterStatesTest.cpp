@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -53,4 +53,4 @@ TEST_F(RasterStates, OfAFullScreenTriangleCullNothingAndReadNoVertices) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 constexpr ShadedLights kAreas{ .hasAreas = true }, kProfiles{ .hasProfiles = true };
@@ -112,4 +112,4 @@ TEST(ShadingKey, ColoursOfShadowsAreAKeyOnlyWhereAMapHasThem) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

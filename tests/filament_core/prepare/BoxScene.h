@@ -10,7 +10,7 @@
 #include <deque>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 
 /// Numerical Recipes' quick generator, upper bits.
 class Random {
@@ -85,4 +85,4 @@ inline FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::Scen
     return prepareFrame(jobs, arena, scene, std::span(&view, 1));
 }
 
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 class CoveredPixelsTest : public testing::Test {
@@ -123,4 +123,4 @@ TEST_F(CoveredPixelsTest, AreOfOnePixelOrMore) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

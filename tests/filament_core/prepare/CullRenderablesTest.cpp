@@ -10,7 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -194,4 +194,4 @@ TEST_F(CullTest, SpansHoldTheNearestAndTheFarthestVisibleRenderableOfEachDraw) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

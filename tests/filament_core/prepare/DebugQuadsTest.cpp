@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 TEST(DebugQuads, ALineIsARectangleOfItsWidthAroundItsEnds) {
@@ -30,4 +30,4 @@ TEST(DebugQuads, ALineIsARectangleOfItsWidthAroundItsEnds) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -11,7 +11,7 @@
 
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 double4x4 moved(double x, double y, double z) { return glm::translate(double4x4(1.0), double3(x, y, z)); }
@@ -123,4 +123,4 @@ TEST_F(DeformationDataTest, TheSameBitsForAnyNumberOfWorkers) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr uint32_t kWindow = shader::kObjectsPerWindow;
@@ -148,7 +148,7 @@ TEST_F(DrawListTest, PriorityThenBlendOrderThenDistanceThenTheOrderOfTheScene) {
     Random random(5);
     struct Added {
         bool blends;
-        DrawPlace place;
+        DrawOrder place;
         double distance;
     };
     std::vector<Added> added;
@@ -156,7 +156,7 @@ TEST_F(DrawListTest, PriorityThenBlendOrderThenDistanceThenTheOrderOfTheScene) {
         const Added one{ random.next() % 2 == 0,
                          { static_cast<uint8_t>(random.next() % 8), static_cast<uint16_t>(random.next() % 3 * 30'000) },
                          static_cast<double>(random.next() % 5) };
-        setDrawPlace(scene.renderables, add({ 0.0, 0.0, -one.distance }, one.blends ? glass : overlay), one.place);
+        setDrawOrder(scene.renderables, add({ 0.0, 0.0, -one.distance }, one.blends ? glass : overlay), one.place);
         added.push_back(one);
     }
     std::vector<uint32_t> expected(added.size());
@@ -220,8 +220,8 @@ TEST_F(AnyOrderTest, OnlyWhatCoversTestsDepthLeavesNoneAndHasTheDefaultPlace) {
     at(7, unlike([](auto& look) { look.raster.depthWrite = true; }));
     at(7, unlike([](auto& look) { look.raster.depthCulling = false; }));
     at(7, unlike([](auto& look) { look.raster.colorWrite = false; }));
-    setDrawPlace(scene.renderables, at(7, transparent), { .priority = 3 });
-    setDrawPlace(scene.renderables, at(7, transparent), { .blendOrder = 1 });
+    setDrawOrder(scene.renderables, at(7, transparent), { .priority = 3 });
+    setDrawOrder(scene.renderables, at(7, transparent), { .blendOrder = 1 });
     const ViewPacket packet = prepare();
     EXPECT_EQ(composed(packet), (std::vector<uint32_t>{ 1, 2, 2, 0 })) << "one of them in two passes";
     EXPECT_EQ(packet.counts.anyOrderObjects, 3u);
@@ -388,4 +388,4 @@ TEST_F(DrawListTest, TheHashTellsEveryKindOfDifference) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr double kSize = 1024; // texels
@@ -227,4 +227,4 @@ TEST(PenumbraOfDepth, FollowsSimilarTriangles) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -334,4 +334,4 @@ TEST_F(FroxelsTest, ListsAreTheSameForAnyNumberOfWorkers) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -198,4 +198,4 @@ TEST(LightChannels, AChangeOfChannelsMovesARenderableToAnotherDraw) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

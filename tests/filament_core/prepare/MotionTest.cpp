@@ -9,7 +9,7 @@
 #include <cstring>
 #include <set>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 struct MotionTest : testing::Test, BoxScene {
@@ -171,4 +171,4 @@ TEST_F(MotionTest, TheLastFrameIsSeenFromThisOne) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 struct PictureCopyTest : testing::Test, BoxScene {
@@ -218,4 +218,4 @@ TEST_F(PictureCopyTest, FewerLevelsLieInTheSameRectangle) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 bool overlap(ShadowTile a, ShadowTile b) {
@@ -114,4 +114,4 @@ TEST(PlaceShadowMaps, BudgetsOfAnyNumberOfBytesGiveAnAtlas) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

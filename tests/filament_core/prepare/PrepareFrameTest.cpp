@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -406,4 +406,4 @@ TEST_F(PrepareFrameTest, AnEmptySceneIsAnEmptyPacket) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

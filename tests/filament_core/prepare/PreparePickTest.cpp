@@ -12,7 +12,7 @@
 #include <cmath>
 #include <set>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 struct PreparePickTest : testing::Test, BoxScene {
@@ -80,4 +80,4 @@ TEST_F(PreparePickTest, PrimitivesAreCountedInTheOrderInWhichTheyWereAdded) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -7,7 +7,7 @@
 
 #include <bit>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -381,4 +381,4 @@ TEST_F(PrepareShadowsTest, PacketsAreTheSameForAnyNumberOfWorkers) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

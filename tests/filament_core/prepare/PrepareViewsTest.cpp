@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 using scene::LightRecord;
@@ -189,4 +189,4 @@ using PrepareViewsDeathTest = PrepareViewsTest;
 TEST_F(PrepareViewsDeathTest, AFrameWithoutAViewIsRefused) { EXPECT_DEATH(prepare({}), "a frame has a main view"); }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

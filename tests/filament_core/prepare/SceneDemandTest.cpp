@@ -8,7 +8,7 @@
 
 #include <set>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 /// What findDemand() reads, with the view as the user asks for it.
@@ -235,17 +235,17 @@ TEST(SceneDemand, NeedsAntiAliasingOnlyWhereThereIsSomethingToSmooth) {
 
 TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
     DemandCase input;
-    EXPECT_EQ(words(Effect::Grading, input), "switched off: grading=off");
+    EXPECT_EQ(words(Effect::ColorGrading, input), "switched off: colorGrading=off");
     EXPECT_EQ(words(Effect::Vignette, input), "switched off: vignette=off");
     EXPECT_EQ(words(Effect::Grain, input), "switched off: grain=off");
     EXPECT_EQ(words(Effect::ChromaticAberration, input), "switched off: chromaticAberration=off");
-    input.effects.grading.enabled = input.effects.vignette.enabled = true;
+    input.effects.colorGrading.enabled = input.effects.vignette.enabled = true;
     input.effects.grain.enabled = input.effects.chromaticAberration.enabled = true;
-    EXPECT_EQ(words(Effect::Grading, input), "its values change nothing");
-    input.effects.grading.midPoint = float3(0.5f);
-    EXPECT_EQ(words(Effect::Grading, input), "its values change nothing") << "without a gamma or a scale";
-    input.effects.grading.contrast = 1.1f;
-    for (const Effect effect : { Effect::Grading, Effect::Vignette, Effect::Grain, Effect::ChromaticAberration })
+    EXPECT_EQ(words(Effect::ColorGrading, input), "its values change nothing");
+    input.effects.colorGrading.midPoint = float3(0.5f);
+    EXPECT_EQ(words(Effect::ColorGrading, input), "its values change nothing") << "without a gamma or a scale";
+    input.effects.colorGrading.contrast = 1.1f;
+    for (const Effect effect : { Effect::ColorGrading, Effect::Vignette, Effect::Grain, Effect::ChromaticAberration })
         EXPECT_EQ(words(effect, input), "changes the whole picture") << nameOf(effect);
     input.effects.vignette.color = float3(1);
     input.effects.grain.strength = input.effects.chromaticAberration.strength = 0;
@@ -253,7 +253,7 @@ TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
     EXPECT_EQ(words(Effect::Grain, input), "its intensity is 0");
     EXPECT_EQ(words(Effect::ChromaticAberration, input), "its intensity is 0");
     input.debugView = DebugView::Lights;
-    EXPECT_EQ(words(Effect::Grading, input), "a debug view is shown");
+    EXPECT_EQ(words(Effect::ColorGrading, input), "a debug view is shown");
 }
 
 TEST(SceneDemand, NeedsALensFlareOnlyOfSomethingThatShines) {
@@ -400,7 +400,7 @@ TEST(SceneDemand, DrawsAGuardBandOnlyForWhatLooksBesideThePicture) {
     EXPECT_FALSE(looks([](Quality& quality, Effects& effects) {
         quality.antiAliasing = AntiAliasing::Fxaa;
         effects.resolution.upscaling = Upscaling::EdgeAdaptive;
-        effects.vignette.enabled = effects.grain.enabled = effects.grading.enabled = effects.autoExposure.enabled =
+        effects.vignette.enabled = effects.grain.enabled = effects.colorGrading.enabled = effects.autoExposure.enabled =
                 true;
         effects.chromaticAberration.enabled = effects.sharpening.enabled = effects.fog.enabled = true;
     })) << "these come after the cut, or look at their own pixel alone";
@@ -578,4 +578,4 @@ TEST(SceneDemand, NamesEveryEffectOnce) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

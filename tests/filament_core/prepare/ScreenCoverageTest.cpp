@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/ScreenCoverage.h"
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
@@ -31,7 +31,7 @@ TEST(ScreenCoverage, OfAPerspectiveLensFallsWithTheSquareOfTheDistance) {
 }
 
 TEST(ScreenCoverage, OfAParallelLensIsThatOfTheDisc) {
-    const CoverageLens lens = lensAt({ 0, 0, 10 }, { .parallelMeters = 4 }, 2); // 8 m x 4 m
+    const CoverageLens lens = lensAt({ 0, 0, 10 }, { .orthographicHeight = 4 }, 2); // 8 m x 4 m
     EXPECT_NEAR(screenCoverage(lens, double3(0.0), 1), kPi / 32, 1e-8);
     EXPECT_NEAR(screenCoverage(lens, { 3, 4, -500 }, 1), kPi / 32, 1e-8);
     EXPECT_NEAR(screenCoverage(lens, { 0, 0, 10 }, 1), kPi / 32, 1e-8) << "the camera has no place in it";
@@ -39,7 +39,7 @@ TEST(ScreenCoverage, OfAParallelLensIsThatOfTheDisc) {
 
 TEST(ScreenCoverage, IsDefinedEverywhere) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (Lens const& lens : { Lens{}, Lens{ .parallelMeters = 3 } }) {
+    for (Lens const& lens : { Lens{}, Lens{ .orthographicHeight = 3 } }) {
         const CoverageLens at = lensAt(double3(0.0), lens);
         EXPECT_EQ(screenCoverage(at, { 0, 0, -5 }, 0), 0);
         EXPECT_EQ(screenCoverage(at, double3(0.0), 0), 0) << "a point at the eye";
@@ -87,4 +87,4 @@ TEST(ScreenCoverage, BoundariesBelongToTheFinerLevel) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

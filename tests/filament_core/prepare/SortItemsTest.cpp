@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 /// Keys are random in the bits of `mask`, constant elsewhere.
@@ -63,4 +63,4 @@ TEST(SortItems, AcceptsWhatIsSortedAlreadyOrBackwards) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 constexpr float kFarthest = std::numeric_limits<float>::infinity();
@@ -45,7 +45,7 @@ TEST(SortKey, BlendedKeysFallWithDepthToTheLastBit) {
 /// Places, ascending.
 std::vector<uint32_t> someOfAllPlaces() {
     std::vector<uint32_t> places;
-    for (uint8_t priority = 0; priority <= DrawPlace::kLastPriority; ++priority)
+    for (uint8_t priority = 0; priority <= DrawOrder::kLastPriority; ++priority)
         for (const uint32_t order : { 0u, 1u, 255u, 256u, 65535u })
             places.push_back(scene::placeOrder({ priority, static_cast<uint16_t>(order) }));
     return places;
@@ -146,4 +146,4 @@ TEST(SortKey, SlicesHoldTheirStepRiseWithItAndAreFullOnTheAverage) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

@@ -12,7 +12,7 @@
 #include <map>
 #include <optional>
 
-namespace filament::prepare {
+namespace filament_core::prepare {
 namespace {
 
 /// The same numbers on every run and machine.
@@ -413,4 +413,4 @@ TEST(UpdateTransformsDeathTest, ARenderableOfANodeHasNoTransformOfItsOwn) {
 }
 
 } // namespace
-} // namespace filament::prepare
+} // namespace filament_core::prepare

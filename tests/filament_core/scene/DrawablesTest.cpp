@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 struct DrawablesTest : testing::Test {
@@ -91,4 +91,4 @@ TEST_F(DrawablesDeathTest, RefusesToReleaseWhatNobodyUses) {
 }
 
 } // namespace
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 struct SceneDataTest : testing::Test {
@@ -104,4 +104,4 @@ TEST(GeometryLayouts, GivesEqualLayoutsTheSameIndex) {
 }
 
 } // namespace
-} // namespace filament::scene
+} // namespace filament_core::scene

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 double4x4 movedBy(double x, double y, double z) { return glm::translate(double4x4(1.0), double3(x, y, z)); }
@@ -257,4 +257,4 @@ TEST_F(SkinsTest, DeformedRenderablesOfOneMeshAreNotOneDraw) {
 }
 
 } // namespace
-} // namespace filament::scene
+} // namespace filament_core::scene

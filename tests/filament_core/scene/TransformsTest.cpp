@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace filament::scene {
+namespace filament_core::scene {
 namespace {
 
 using testing::ElementsAre;
@@ -241,4 +241,4 @@ TEST_F(TransformsDeathTest, NamesTheRuleOfAStaleHandle) {
 }
 
 } // namespace
-} // namespace filament::scene
+} // namespace filament_core::scene

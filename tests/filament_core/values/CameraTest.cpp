@@ -3,7 +3,7 @@
 #include "base/math/Elementary.h"
 #include "base/math/Math.h"
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <cstring>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Lenses of every kind.
@@ -20,7 +20,7 @@ public:
     Lens next(bool isParallel) {
         Lens lens{ .verticalFovDegrees = within(5, 150), .nearMeters = within(0.01f, 1) };
         if (isParallel) {
-            lens.parallelMeters = within(0.1f, 100);
+            lens.orthographicHeight = within(0.1f, 100);
             lens.farMeters = lens.nearMeters + within(1, 1000);
         }
         if (coin()) lens.shift = { within(-2, 2), within(-2, 2) };
@@ -53,7 +53,7 @@ TEST(Camera, ThePictureShowsWhatItSaysThatItShows) {
         EXPECT_NEAR(clip.x, at.x, 2e-5) << i;
         EXPECT_NEAR(clip.y, at.y, 2e-5) << i;
         const double far = camera.lens.farMeters;
-        const double depth = camera.lens.isParallel() ? (far - distance) / (far - near) : near / distance;
+        const double depth = camera.lens.isOrthographic() ? (far - distance) / (far - near) : near / distance;
         EXPECT_NEAR(clip.z, depth, 2e-6) << i;
     }
 }
@@ -79,8 +79,8 @@ TEST(Camera, ABoxShowsItsEdges) {
         const float left = random.within(-10, 5), right = left + random.within(0.1f, 10);
         const float bottom = random.within(-10, 5), top = bottom + random.within(0.1f, 10);
         Camera camera;
-        camera.lens = Lens::box(left, right, bottom, top, 0.5f, 20);
-        EXPECT_TRUE(camera.lens.isParallel());
+        camera.lens = Lens::orthographic(left, right, bottom, top, 0.5f, 20);
+        EXPECT_TRUE(camera.lens.isOrthographic());
         const double3 low = project(camera, { left, bottom, -0.5 }, 3), high = project(camera, { right, top, -20 }, 3);
         EXPECT_NEAR(low.x, -1, 1e-4);
         EXPECT_NEAR(low.y, 1, 1e-4) << "row 0 is at the top";
@@ -89,7 +89,7 @@ TEST(Camera, ABoxShowsItsEdges) {
         EXPECT_NEAR(high.y, -1, 1e-4);
         EXPECT_NEAR(high.z, 0, 1e-6);
         camera.lens = Lens::offCenter(left, right, bottom, top, 0.5f);
-        EXPECT_FALSE(camera.lens.isParallel());
+        EXPECT_FALSE(camera.lens.isOrthographic());
         const double3 there = project(camera, double3(left, bottom, -1) * 7.0, 3);
         EXPECT_NEAR(there.x, -1, 1e-4);
         EXPECT_NEAR(there.y, 1, 1e-4);
@@ -106,7 +106,7 @@ TEST(Camera, AFocalLengthShowsWhatTheSensorCovers) {
         const float focal = random.within(4, 800), height = random.within(2, 60), near = random.within(0.01f, 1);
         Camera camera;
         camera.lens = Lens::fromFocalLength(focal, height, near);
-        EXPECT_FALSE(camera.lens.isParallel());
+        EXPECT_FALSE(camera.lens.isOrthographic());
         const double3 edge = project(camera, double3(height / 2, height / 2, -focal) * 2.0, 1);
         EXPECT_NEAR(edge.x, 1, 2e-5) << focal << " mm, " << height << " mm";
         EXPECT_NEAR(edge.y, -1, 2e-5) << "row 0 is at the top";
@@ -150,13 +150,13 @@ TEST(CameraDeathTest, LensesThatCannotBeAreRefused) {
     EXPECT_DEATH(matrixOf({ .nearMeters = 0 }), rule);
     EXPECT_DEATH(matrixOf({ .nearMeters = NAN }), rule);
     EXPECT_DEATH(matrixOf({ .verticalFovDegrees = 180 }), rule);
-    EXPECT_DEATH(matrixOf({ .nearMeters = 5, .parallelMeters = 1, .farMeters = 5 }), rule);
-    EXPECT_DEATH(matrixOf({ .nearMeters = -1, .parallelMeters = 1 }), rule);
+    EXPECT_DEATH(matrixOf({ .nearMeters = 5, .orthographicHeight = 1, .farMeters = 5 }), rule);
+    EXPECT_DEATH(matrixOf({ .nearMeters = -1, .orthographicHeight = 1 }), rule);
     EXPECT_DEATH(matrixOf({ .shift = { INFINITY, 0 } }), "finite");
     EXPECT_DEATH(matrixOf({ .aspect = -1 }), "finite");
-    EXPECT_DEATH(Lens::box(1, 1, 0, 1), "left < right");
+    EXPECT_DEATH(Lens::orthographic(1, 1, 0, 1), "left < right");
     EXPECT_DEATH(Lens::offCenter(0, 1, 1, 0), "bottom < top");
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names and colours of debug views. That images have these colours is tested where they are drawn
 // (tests/filament_core/engine).
-#include <filament/DebugViews.h>
-#include <filament/View.h>
+#include <filament_core/DebugViews.h>
+#include <filament_core/View.h>
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(DebugViewNames, AreDistinctAndListedOnceInTheirOrder) {
@@ -102,4 +102,4 @@ TEST(DebugColors, OfMipLevelsAreOfZeroToTen) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Options: every one of every type is read back as written, its limits hold, and nothing else is accepted.
-#include <filament/Options.h>
-#include <filament/View.h>
+#include <filament_core/Options.h>
+#include <filament_core/View.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 #include <limits>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 template <class T>
 class OptionsOf : public testing::Test {};
-using Types = testing::Types<View, Quality, Effects, ColorGrading>;
+using Types = testing::Types<View, Quality, Effects, DisplayTransform>;
 TYPED_TEST_SUITE(OptionsOf, Types);
 
 std::string repeated(Option const& option, double number) {
@@ -140,10 +140,10 @@ TEST(Options, ErrorsNameTheNearestOptionAndTheRange) {
 
 TEST(Options, OfAViewAreThoseOfItsMembers) {
     EXPECT_EQ(optionsOf<View>().size(),
-              optionsOf<Quality>().size() + optionsOf<Effects>().size() + optionsOf<ColorGrading>().size() + 2);
+              optionsOf<Quality>().size() + optionsOf<Effects>().size() + optionsOf<DisplayTransform>().size() + 2);
     View view;
     ASSERT_TRUE(setOption(view, "toneCurve.contrast", "2"));
-    EXPECT_EQ(view.colorGrading.toneCurve.contrast, 2);
+    EXPECT_EQ(view.display.toneCurve.contrast, 2);
     ASSERT_TRUE(setOption(view, "shadowCascades", "3"));
     EXPECT_EQ(view.quality.shadowCascades, 3);
     ASSERT_TRUE(setOption(view, "debugView", "froxels"));
@@ -153,4 +153,4 @@ TEST(Options, OfAViewAreThoseOfItsMembers) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

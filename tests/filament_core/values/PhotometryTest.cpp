@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lamps and colour temperatures against integrals: flux over the sphere, Planck's law, and published chromaticities.
-#include <filament/Color.h>
-#include <filament/Math.h>
-#include <filament/Photometry.h>
+#include <filament_core/Color.h>
+#include <filament_core/Math.h>
+#include <filament_core/Photometry.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using std::numbers::pi;
@@ -164,4 +164,4 @@ TEST(ColorTemperature, EveryTemperatureIsAColourOfLuminanceOne) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

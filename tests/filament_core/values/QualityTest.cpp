@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of quality choices: each can be read back as written, and errors for unknown ones list valid names.
-#include <filament/EnvironmentFormat.h>
-#include <filament/Options.h>
-#include <filament/Quality.h>
+#include <filament_core/EnvironmentFormat.h>
+#include <filament_core/Options.h>
+#include <filament_core/Quality.h>
 
 #include <gtest/gtest.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(Quality, ValuesOfOneChoiceAreDifferentQualities) {
@@ -61,4 +61,4 @@ TEST(Quality, PresetsHaveNamesAndTheHighOneIsTheDefault) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

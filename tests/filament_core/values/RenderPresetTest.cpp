@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/RenderPreset.h>
+#include <filament_core/RenderPreset.h>
 
 #include <gtest/gtest.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr RenderPreset kAll[] = { RenderPreset::Fast, RenderPreset::Balanced, RenderPreset::Fine,
@@ -37,20 +37,20 @@ TEST(RenderPreset, LeavesWhatIsAMatterOfTaste) {
         View view;
         view.effects.bloom.strength = 0.3f;
         view.effects.ambientOcclusion.radiusMeters = 0.7f;
-        view.effects.grading = { .enabled = true, .contrast = 1.2f };
+        view.effects.colorGrading = { .enabled = true, .contrast = 1.2f };
         view.effects.fog = { .enabled = true, .density = 0.4f };
         view.effects.depthOfField = { .enabled = true, .focusMeters = 7 };
-        view.colorGrading.toneMapper = ToneMapper::Agx;
+        view.display.toneMapper = ToneMapper::Agx;
         const View before = view;
         applyPreset(view, preset);
         EXPECT_EQ(view.effects.bloom.strength, 0.3f);
         EXPECT_EQ(view.effects.ambientOcclusion.radiusMeters, 0.7f);
-        EXPECT_EQ(view.effects.grading, before.effects.grading) << toString(preset);
+        EXPECT_EQ(view.effects.colorGrading, before.effects.colorGrading) << toString(preset);
         EXPECT_EQ(view.effects.fog, before.effects.fog) << toString(preset);
         EXPECT_EQ(view.effects.depthOfField, before.effects.depthOfField) << toString(preset);
-        EXPECT_EQ(view.colorGrading.toneMapper, ToneMapper::Agx);
+        EXPECT_EQ(view.display.toneMapper, ToneMapper::Agx);
     }
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The controller of dynamic resolution on frames whose time is known: a fixed part and one that grows with the pixels.
 // It settles within the frames that it promises, does not oscillate, and holds the target where that is possible.
-#include <filament/ResolutionController.h>
+#include <filament_core/ResolutionController.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Milliseconds of a frame of a share of the pixels.
@@ -197,4 +197,4 @@ TEST(ResolutionController, SurvivesOptionsThatChangeEveryFrame) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 struct Placed {
@@ -88,4 +88,4 @@ std::vector<HardCase> distanceRows() {
     return rows;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -4,7 +4,7 @@
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include <optional>
 #include <unistd.h>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 int repetitions(Backend backend, int onDevices) {
@@ -125,4 +125,4 @@ TEST_P(Endless, SwapChainsOfEverySizeComeAndGoInTheSameMemory) {
 }
 
 } // namespace
-} // namespace filament::hard
+} // namespace filament_core::hard

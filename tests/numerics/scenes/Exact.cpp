@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 namespace lib = shader::lib64;
@@ -64,4 +64,4 @@ void expectSunOnWall(Picture const& picture, View const& view, Look const& look,
     EXPECT_EQ(wrong, 0u) << "components of " << asked << " pixels";
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -6,7 +6,7 @@
 
 #include "tests/numerics/scenes/Stage.h"
 
-namespace filament::hard {
+namespace filament_core::hard {
 
 /// Unit vector from the camera through the centre of a pixel, in world space.
 double3 directionThroughPixel(View const& view, uint32_t x, uint32_t y);
@@ -20,4 +20,4 @@ double3 sunOnWall(View const& view, Look const& look, SunLight const& sun, doubl
 void expectSunOnWall(Picture const& picture, View const& view, Look const& look, SunLight const& sun, double relative,
                      double radius = 1e9);
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 using assets::test::kFloat;
@@ -143,4 +143,4 @@ std::vector<HardCase> fileRows() {
     return rows;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::hard {
+namespace filament_core::hard {
 
 using SceneBuilder = std::function<void(Stage&)>;
 
@@ -33,4 +33,4 @@ std::vector<HardCase> lightRows();    ///< noon, moonlight, lamps; what half flo
 std::vector<HardCase> lensRows();     ///< near planes and odd targets
 std::vector<HardCase> fileRows();     ///< degenerate glTF attributes; surfaces in one place
 
-} // namespace filament::hard
+} // namespace filament_core::hard

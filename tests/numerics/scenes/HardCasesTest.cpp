@@ -9,7 +9,7 @@
 #include <cctype>
 #include <filesystem>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 constexpr Backend kBothApis[] = { Backend::Vulkan, Backend::Gles };
@@ -99,4 +99,4 @@ INSTANTIATE_TEST_SUITE_P(Rows, HardCases, testing::ValuesIn(allRows()),
 // GoogleTest prints parameters; a row prints its claim.
 void PrintTo(HardCase const& row, std::ostream* stream) { *stream << row.name; }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 void balls(Stage& stage, float nearMeters) {
@@ -101,4 +101,4 @@ std::vector<HardCase> lensRows() {
     return rows;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 constexpr Exposure kNoon{ 16, 1.0f / 100, 100 };   // EV 14.6
@@ -153,4 +153,4 @@ std::vector<HardCase> lightRows() {
     return rows;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of the largest size that a device allows, and larger ones: drawn, or refused in one line that names the
 // size.
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <optional>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 class Limits : public testing::TestWithParam<Backend> {
@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(BothApis, Limits, testing::Values(Backend::Vulkan, Back
 std::vector<std::string> drawEmpty(Engine& engine, uint2 size, bool& hasPixels) {
     Scene scene(engine);
     Renderer renderer(engine);
-    const View view{ .size = size, .colorGrading = { .toneMapper = ToneMapper::Linear }, .clearColor = float4(1) };
+    const View view{ .size = size, .display = { .toneMapper = ToneMapper::Linear }, .clearColor = float4(1) };
     const Result<Image> image = renderer.renderToImage(scene, view);
     hasPixels = image.ok();
     if (image.ok()) {
@@ -70,4 +70,4 @@ TEST_P(Limits, APictureIsDrawnAfterOneThatWasRefused) {
 }
 
 } // namespace
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {
@@ -107,4 +107,4 @@ void forEachCovered(Picture const& picture, std::function<void(uint32_t, uint32_
     }
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -5,14 +5,14 @@
 
 #include "backend/layers/Captured.h"
 
-#include <filament/Image.h>
-#include <filament/Math.h>
+#include <filament_core/Image.h>
+#include <filament_core/Math.h>
 
 #include <cstdint>
 #include <functional>
 #include <string>
 
-namespace filament::hard {
+namespace filament_core::hard {
 
 /// Largest half float: brighter light is stored as this, because Mesa's conversion saturates.
 inline constexpr float kLargestStored = 65504;
@@ -46,4 +46,4 @@ uint32_t bytesAt(Image const& display, uint32_t x, uint32_t y);
 /// Calls for every pixel that a surface covers.
 void forEachCovered(Picture const& picture, std::function<void(uint32_t x, uint32_t y, float4 color)> const& visit);
 
-} // namespace filament::hard
+} // namespace filament_core::hard

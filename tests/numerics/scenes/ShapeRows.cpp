@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 void light(Stage& stage, double3 eye = { 0.5, 0.8, 3 }, float nearMeters = 0.01f) {
@@ -224,4 +224,4 @@ std::vector<HardCase> shapeRows() {
     return rows;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <span>
 
-namespace filament::hard {
+namespace filament_core::hard {
 namespace {
 
 Owned<Material> loadMaterial(Engine& engine, const char* package, std::vector<MaterialConstant> constants = {}) {
@@ -203,4 +203,4 @@ Picture Stage::take() {
     return picture;
 }
 
-} // namespace filament::hard
+} // namespace filament_core::hard

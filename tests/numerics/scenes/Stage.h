@@ -8,7 +8,7 @@
 
 #include "tests/numerics/scenes/Picture.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::hard {
+namespace filament_core::hard {
 
 struct Vertex {
     float3 position{ 0 };
@@ -96,4 +96,4 @@ private:
 double4x4 translation(double3 by);
 double4x4 scaling(double3 by);
 
-} // namespace filament::hard
+} // namespace filament_core::hard

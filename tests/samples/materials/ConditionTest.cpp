@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::samples {
+namespace filament_core::samples {
 namespace {
 
 // A loop, which drivers do not turn into a selection between two values.
@@ -57,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(
         [](auto const& test) { return test.param.name; });
 
 } // namespace
-} // namespace filament::samples
+} // namespace filament_core::samples

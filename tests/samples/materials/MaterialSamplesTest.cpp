@@ -13,7 +13,7 @@
 #include <iterator>
 #include <set>
 
-namespace filament::samples {
+namespace filament_core::samples {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ TEST(SampleFolder, SaysInEachMaterialWhatItShows) {
 }
 
 } // namespace
-} // namespace filament::samples
+} // namespace filament_core::samples

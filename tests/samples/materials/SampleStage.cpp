@@ -13,7 +13,7 @@
 #include <cstring>
 #include <map>
 
-namespace filament::samples {
+namespace filament_core::samples {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ void saveSheet() {
     EXPECT_TRUE(saved.ok()) << (saved.ok() ? "" : saved.error().message);
 }
 
-} // namespace filament::samples
+} // namespace filament_core::samples

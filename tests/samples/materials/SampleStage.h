@@ -8,12 +8,12 @@
 #include "tools/materials/MaterialFile.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/Backend.h>
-#include <filament/Image.h>
+#include <filament_core/Backend.h>
+#include <filament_core/Image.h>
 
 #include <vector>
 
-namespace filament::samples {
+namespace filament_core::samples {
 
 inline const std::filesystem::path kSampleFolder = tools::sourceDir() / "samples/materials";
 
@@ -29,4 +29,4 @@ void save(std::string const& name, Picture const& picture);
 /// All images saved by this process, in alphabetical order, row by row: sheet.png.
 void saveSheet();
 
-} // namespace filament::samples
+} // namespace filament_core::samples

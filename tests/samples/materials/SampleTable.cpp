@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/samples/materials/SampleTable.h"
 
-namespace filament::samples {
+namespace filament_core::samples {
 
 std::vector<Sample> samples() {
     constexpr auto kBrighter = Effect::Brighter, kDarker = Effect::Darker;
@@ -84,4 +84,4 @@ std::vector<Sample> samples() {
     // clang-format on
 }
 
-} // namespace filament::samples
+} // namespace filament_core::samples

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::samples {
+namespace filament_core::samples {
 
 /// Effect of the property on the mean of the image.
 enum class Effect : uint8_t { Differs, Brighter, Darker };
@@ -88,4 +88,4 @@ inline constexpr const char* kPropertiesOfTheGuide[] = {
     "specularAntiAliasingThreshold :",
 };
 
-} // namespace filament::samples
+} // namespace filament_core::samples

@@ -7,18 +7,18 @@
 #include "tools/materials/MaterialTerms.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <filesystem>
 
-namespace filament::tools {
+namespace filament_core::tools {
 void PrintTo(MaterialTerm const& term, std::ostream* out) { *out << term.name; }
-} // namespace filament::tools
+} // namespace filament_core::tools
 
-namespace filament::samples {
+namespace filament_core::samples {
 namespace {
 
 using tools::MaterialTerm;
@@ -157,4 +157,4 @@ std::string testName(testing::TestParamInfo<MaterialTerm> const& test) {
 INSTANTIATE_TEST_SUITE_P(Of, WhiteFurnace, testing::ValuesIn(tools::materialTerms()), testName);
 
 } // namespace
-} // namespace filament::samples
+} // namespace filament_core::samples

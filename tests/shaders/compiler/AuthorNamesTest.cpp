@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr const char* kModels[] = { "lit", "unlit", "cloth", "subsurface", "specularGlossiness" };
@@ -149,4 +149,4 @@ TEST(GlslOutline, ReadsWhatATextDeclares) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// Look-ups of a module, with and without a bias, and by gradients.
@@ -98,4 +98,4 @@ TEST(BiasTextures, LeavesWhatHasNoTexturesAndWhatDrawsPicturesAlone) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Broken {
@@ -88,7 +88,7 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: a full-screen triangle has no instances; leave out instanced" },
     { "material {\n wideLines : true }" GOOD_FRAGMENT,
       "a.mat:2: wideLines finds the other end of a segment in custom0; add requires : [ custom0 ], and make the mesh "
-      "with makeLineQuads() of <filament/Lines.h>" },
+      "with makeLineQuads() of <filament_core/Lines.h>" },
     { "material { shadingModel : unlit, vertexDomain : device, requires : [ custom0 ],\n wideLines : true "
       "}" GOOD_FRAGMENT,
       "a.mat:2: wideLines needs positions in space; leave out vertexDomain : device" },
@@ -307,4 +307,4 @@ TEST(BrokenMaterials, AreNotThoseWhoseLoopsHaveAnExit) {
 TEST(BrokenMaterials, NameTheLineOfTheCode) { expectMessages(kCode); }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

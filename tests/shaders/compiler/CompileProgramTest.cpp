@@ -8,7 +8,7 @@
 
 #include <thread>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using backend::BindingType;
@@ -226,4 +226,4 @@ TEST(CompileProgram, GivesTheSameBytesFromEveryThread) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 InstructionCounts countsOf(std::string const& code) {
@@ -51,4 +51,4 @@ TEST(Cost, GrowsWithEveryFetchOfAMaterial) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using testing::HasSubstr;
@@ -92,4 +92,4 @@ TEST(EsslConditions, AreBalancedInEveryMaterialOfTheEngine) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// A fragment shader that stores `expression` (a vec4) made from the uniforms a, b, c (vec4), x, y, s (float), m, n
@@ -201,4 +201,4 @@ TEST(ExactLowering, LeavesAModuleWithoutSuchOperationsAsItIs) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 constexpr const char* kMaterials[] = {
@@ -157,4 +157,4 @@ TEST(ForeignMaterials, AllCompile) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using testing::HasSubstr;
@@ -101,4 +101,4 @@ TEST(GlslLimits, WhatIsWithinThemCompiles) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::TextMateTokenizer;
@@ -168,4 +168,4 @@ TEST(Grammar, ColoursCornersOfTheLanguage) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 /// What the guide's examples show, in our own words, for machines without the guide.
@@ -173,4 +173,4 @@ TEST(GuideExamples, CompileInOurOwnWords) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

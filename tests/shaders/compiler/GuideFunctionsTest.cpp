@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Call {
@@ -203,4 +203,4 @@ TEST(GuideSpellings, CompileAsTheyAreWritten) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

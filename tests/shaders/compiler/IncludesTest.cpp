@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using Files = std::map<std::string, std::string, std::less<>>;
@@ -119,4 +119,4 @@ TEST(Includes, EndAtALimitAndNotAtTheMemory) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Member {
@@ -274,4 +274,4 @@ TEST(InterfaceLimits, ArraySizesAgree) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

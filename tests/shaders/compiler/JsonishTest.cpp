@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using ::testing::HasSubstr;
@@ -120,4 +120,4 @@ TEST(Jsonish, SurvivesEveryTruncationAndRandomBytes) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::string contents(std::filesystem::path const& path) {
@@ -83,4 +83,4 @@ TEST(Language, GrammarHasPatternsThatARegularExpressionCanBe) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::optional<std::string> engineFile(std::string_view path) {
@@ -122,4 +122,4 @@ TEST(MaterialAnalysis, GivesTheSamePackageForEveryNeutralMemberAsForNone) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using ::testing::HasSubstr;
@@ -586,4 +586,4 @@ TEST(MaterialCompiler, CompilesEveryVertexDomainAndBlending) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

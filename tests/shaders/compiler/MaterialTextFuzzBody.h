@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 /// Every include exists and has the same text, so a file may include itself.
 inline std::optional<std::string> includedByEverybody(std::string_view) {
@@ -39,4 +39,4 @@ inline bool fuzzMaterialText(std::string_view text) {
     return vertex.ok() && fragment.ok();
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

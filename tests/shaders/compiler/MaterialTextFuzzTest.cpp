@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::vector<std::string> corpus() {
@@ -66,4 +66,4 @@ TEST(MaterialText, SurvivesEditsAnywhere) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

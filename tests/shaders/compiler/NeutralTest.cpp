@@ -13,7 +13,7 @@
 #include <cmath>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct Default {
@@ -147,4 +147,4 @@ TEST(Neutral, MembersAtTheirNeutralValueChangeNoByteOfAnyShadingModel) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

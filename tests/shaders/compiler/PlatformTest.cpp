@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::string lit(std::string const& properties, std::string const& line = "") {
@@ -99,4 +99,4 @@ TEST(SampleMask, IsInTheCodeOfMaterialsWithAlphaToCoverageAlone) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using backend::BlendFactor;
@@ -176,4 +176,4 @@ TEST(Properties, AllowAsManySamplersAsChapterSevenAndTheDeviceDo) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 /// Empty if SPIRV-Tools finds the module valid for Vulkan 1.1, else its complaint.
 inline std::string validationErrors(std::span<const uint32_t> spirv) {
@@ -78,4 +78,4 @@ private:
 
 inline DerivativeUse derivativeUse(std::span<const uint32_t> spirv) { return DerivativeSearch(spirv).search(); }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 namespace {
 
 constexpr int kMaxIncludes = 8;
@@ -132,4 +132,4 @@ TextMateTokenizer::Result TextMateTokenizer::run(std::string_view text) const {
     return { std::move(state.scopes), state.open.size() };
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

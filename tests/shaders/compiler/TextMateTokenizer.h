@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 /// The scopes of one character, the outermost first, separated by blanks.
 using Scopes = std::string;
@@ -51,4 +51,4 @@ private:
     std::map<std::string, std::vector<Rule>> mLists;
 };
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

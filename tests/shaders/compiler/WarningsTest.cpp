@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -101,4 +101,4 @@ TEST(Warnings, AreNotGivenForOurOwnSamples) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 
 #include <span>
 
-namespace filament::shader::composition {
+namespace filament_core::shader::composition {
 
 struct Inputs {
     vec3 color{ 1.0 }, tint{ 1.0 }; ///< of the base; of the layers above, below or behind
@@ -31,4 +31,4 @@ std::span<const Composition> compositions();
 /// The split-sum table (DfgTable.h), with more samples and without rounding to 16 bits.
 vec4 splitSum(vec2 uv);
 
-} // namespace filament::shader::composition
+} // namespace filament_core::shader::composition

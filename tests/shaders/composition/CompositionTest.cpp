@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader::composition {
+namespace filament_core::shader::composition {
 namespace {
 
 using lib64::viewAt;
@@ -184,4 +184,4 @@ TEST(Composition, TheStandardMaterialIsTheLobesOfTheLibrary) {
 }
 
 } // namespace
-} // namespace filament::shader::composition
+} // namespace filament_core::shader::composition

@@ -7,11 +7,11 @@
 
 #include "shaders/lib/GlslBuiltIns.h"
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <glm/matrix.hpp>
 
-namespace filament::shader::composition {
+namespace filament_core::shader::composition {
 
 using uint = unsigned;
 using vec2 = glm::dvec2;
@@ -107,4 +107,4 @@ inline vec4 texelFetch(sampler2D const&, ivec2, int) { return vec4(1.0); }
 inline vec4 gl_FragCoord{ 0.5f, 0.5f, 0.5f, 1.0f };
 inline bool gl_FrontFacing = true;
 
-} // namespace filament::shader::composition
+} // namespace filament_core::shader::composition

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace filament::shader::composition {
+namespace filament_core::shader::composition {
 namespace {
 
 constexpr int kSize = 64; // as the engine's
@@ -34,4 +34,4 @@ vec4 splitSum(vec2 uv) {
     return mix(mix(row[0], row[1], part.x), mix(row[kSize], row[kSize + 1], part.x), part.y);
 }
 
-} // namespace filament::shader::composition
+} // namespace filament_core::shader::composition

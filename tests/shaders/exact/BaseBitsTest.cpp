@@ -4,7 +4,7 @@
 #include "shaders/lib/LibCpp.h"
 #include "tests/shaders/exact/LayerFixture.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::kBlack;
@@ -142,4 +142,4 @@ TEST_F(LayerBits, ReflectionsFadeAsANormalMapTurnsThemBelowTheSurface) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

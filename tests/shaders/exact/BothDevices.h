@@ -10,7 +10,7 @@
 
 #include <memory>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 template <class Rig>
 class BothDevices : public ::testing::Test {
@@ -34,4 +34,4 @@ private:
     }
 };
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -3,7 +3,7 @@
 // Vulkan interpolates it.
 #include "tests/shaders/exact/PictureFixture.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::MaterialScene;
@@ -58,4 +58,4 @@ INSTANTIATE_TEST_SUITE_P(
         [](auto const& each) { return std::string(each.param.name); });
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::ExpressionRig;
@@ -176,4 +176,4 @@ TEST_F(ExactBits, DifferSomewhereWithoutTheLowering) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 namespace {
 
 using namespace backend;
@@ -180,4 +180,4 @@ Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expressio
     return words;
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 inline constexpr uint32_t kSide = 64; ///< inputs: kSide * kSide
 
@@ -39,4 +39,4 @@ private:
     backend::TextureHandle mTarget;
 };
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

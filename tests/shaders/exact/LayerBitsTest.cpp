@@ -3,7 +3,7 @@
 // form.
 #include "tests/shaders/exact/LayerFixture.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::kBlack;
@@ -224,4 +224,4 @@ TEST_F(LayerBits, PolishedLayersWithoutRoughnessStayFinite) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

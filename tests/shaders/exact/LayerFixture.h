@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 /// One colour channel of the pixels that the object covers.
 using Pixels = std::vector<float>;
@@ -77,4 +77,4 @@ protected:
 
 inline constexpr const char* kBlack = "m.baseColor.rgb = vec3(0.0);";
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

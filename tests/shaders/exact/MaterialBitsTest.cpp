@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::MaterialScene;
@@ -150,4 +150,4 @@ TEST_F(MaterialBits, SunAndPunctualLightsAddUp) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <random>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 namespace {
 
 using namespace backend;
@@ -341,4 +341,4 @@ Result<std::vector<float>> MaterialRig::render(MaterialScene const& scene) {
     return picture;
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 inline constexpr uint32_t kPictureSide = 64;
 
@@ -63,4 +63,4 @@ private:
     uint32_t mIndexCount = 0;
 };
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::MaterialScene;
@@ -35,4 +35,4 @@ INSTANTIATE_TEST_SUITE_P(Of, OpaqueBlending, ::testing::Values("opaque", "transp
                          [](auto const& each) { return std::string(each.param); });
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

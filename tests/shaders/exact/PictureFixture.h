@@ -9,7 +9,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 class PictureFixture : public BothDevices<MaterialRig> {
 protected:
@@ -40,4 +40,4 @@ private:
     }
 };
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::ExpressionRig;
@@ -184,4 +184,4 @@ INSTANTIATE_TEST_SUITE_P(
         [](auto const& each) { return std::string(each.param.name); });
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

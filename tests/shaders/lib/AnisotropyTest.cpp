@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 const vec2 kAnisotropicAlphas[] = { { 0.05, 0.6 }, { 0.3, 0.3 }, { 1.6, 0.4 }, { 2.0, 0.1 } };
@@ -155,4 +155,4 @@ TEST(Anisotropy, TheBentNormalIsANumberWhereTheEyeLooksAlongTheGroovesOrFromBehi
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 vec3 viewAt(float nov) { return { std::sqrt(1 - nov * nov), 0, nov }; }
@@ -199,4 +199,4 @@ TEST(Brdf, NoArgumentOfTheEdgeGridYieldsNanOrInfinity) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

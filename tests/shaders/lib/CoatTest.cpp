@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 /// The reflectance of the coat's own lobe towards v.
@@ -130,4 +130,4 @@ TEST(Coat, TheDiffuseBaseGetsTheSameFromTheSkyAsFromItsLights) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 constexpr std::array<int, 4> kMappers{ kToneMapLinear, kToneMapAces, kToneMapFilmic, kToneMapMobile };
@@ -77,4 +77,4 @@ TEST(Color, LuminanceOfWhiteIsOneAndGreenOutweighsRedOutweighsBlue) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

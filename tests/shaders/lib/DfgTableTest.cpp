@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 constexpr std::array kRoughnesses{ 0.045, 0.1, 0.2, 0.4, 0.7, 1.0 };
@@ -138,4 +138,4 @@ TEST(DfgTable, EntriesAreWhereTheHeaderSaysAndReflectNoMoreThanArrives) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

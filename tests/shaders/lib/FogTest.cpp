@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 struct FogCase {
@@ -110,4 +110,4 @@ TEST(Fog, TheGlowSumsUpToTheLightOfTheSun) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 
 inline constexpr double kPiOfTests = std::numbers::pi;
 /// Allowance for rounding and quadrature above an albedo of 1.
@@ -62,4 +62,4 @@ double meanOverSamples(Sampler&& sampler, G&& g, uint count = 1 << 14) {
     return sum / count;
 }
 
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

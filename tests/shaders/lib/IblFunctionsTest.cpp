@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(IblFunctions, FiveLevelsHoldTheRoughnessesOfTheTalk) {
@@ -166,4 +166,4 @@ TEST(IblFunctions, TheSplitSumOfAWhiteMetalIsTheTablesGreenAndCompensatedOne) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

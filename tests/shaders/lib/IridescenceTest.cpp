@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 /// Airy's sum of all orders for one wavelength, with the amplitudes of Schlick's reflectances as in the paper.
@@ -97,4 +97,4 @@ TEST(Iridescence, F0OfAReflectanceIsTheOneThatSchlickMakesItOf) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdio>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 constexpr double kLayerCosines[] = { 0.05, 0.2, 0.5, 0.9 };
@@ -151,4 +151,4 @@ TEST(Layers, LayersOfStrengthZeroAreNotThere) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

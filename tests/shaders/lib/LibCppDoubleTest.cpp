@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 std::string textOf(std::filesystem::path const& path) {
@@ -114,4 +114,4 @@ TEST(LibCppDouble, HexadecimalLiteralsSurvive) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(Light, WithoutRangeTheInverseSquareLawHoldsExactly) {
@@ -47,4 +47,4 @@ TEST(Light, ASpotIsFullInsideOfItsInnerConeAndDarkOutsideOfItsOuter) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 struct Area {
@@ -203,4 +203,4 @@ TEST(Ltc, AMirrorsLobeIsAroundTheMirroredView) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 double circularDistance(double a, double b, double period) {
@@ -70,4 +70,4 @@ TEST(TimeModulo, MultiplesOfThePeriodAreZero) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(Moments, DepthsAreLinearInMeters) {
@@ -122,4 +122,4 @@ TEST(Moments, WarpsFitIntoFloats) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(Noise, GradientNoiseIsUniformAndDiffersBetweenNeighbours) {
@@ -38,4 +38,4 @@ TEST(Noise, DirectionsGoOnceAroundAndAreUnit) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

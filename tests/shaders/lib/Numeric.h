@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 
 inline constexpr double kPiExact = std::numbers::pi;
 
@@ -51,4 +51,4 @@ double integrateSphere(F&& f, int polarSteps = 200, int azimuthSteps = 200) {
 
 inline bool isFinite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 TEST(Cones, TheVisibleConeIntegratesToItsVisibility) {
@@ -87,4 +87,4 @@ TEST(Normals, ReorientingIsARotation) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using std::numbers::pi;
@@ -59,4 +59,4 @@ TEST(Profiles, PlacesAreInsideOfTheTableInEveryDirection) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms that <filament/Quality.h> offers besides the defaults, compared with closed forms and second formulas.
+// The terms that <filament_core/Quality.h> offers besides the defaults, compared with closed forms and second formulas.
 #include "filament_core/assets/tables/DfgTable.h"
 #include "tests/shaders/lib/Numeric.h"
 
@@ -7,7 +7,7 @@
 
 #include <complex>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 // Smith's G1 with lambda = (sqrt(1 + alpha^2 tan^2) - 1) / 2: Heitz 2014, eq. 72.
@@ -126,4 +126,4 @@ TEST(SplitSum, TheAnalyticFitIsAsNearToTheIntegralAsItsCommentSaysAndOrderedAsAT
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

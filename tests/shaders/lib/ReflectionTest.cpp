@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(Reflection, WeightsAreOneWhereAHitIsCertainAndZeroWhereItIsUnknown) {
@@ -43,4 +43,4 @@ TEST(Reflection, TheLevelGrowsByOneForEachDoublingOfTheRadius) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

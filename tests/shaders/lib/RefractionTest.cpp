@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 const vec3 kNormal(0, 0, 1);
@@ -189,4 +189,4 @@ TEST(Specular, SpecularGlossinessLeavesToTheDiffuseLobeWhatItDoesNotReflect) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

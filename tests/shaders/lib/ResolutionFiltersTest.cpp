@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(ResolutionFilters, CatmullRomWeightsKeepParabolas) {
@@ -104,4 +104,4 @@ TEST(ResolutionFilters, TheShareOfASampleSumsToOneForAnyRamp) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

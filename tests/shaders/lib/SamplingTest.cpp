@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 TEST(Sampling, TheRadicalInverseMirrorsTheBits) {
@@ -77,4 +77,4 @@ TEST(Sampling, EdgesOfTheUnitSquareGiveFiniteDirections) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

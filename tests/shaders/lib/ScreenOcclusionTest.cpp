@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 constexpr int kSteps = 20'000;
@@ -128,4 +128,4 @@ TEST(ScreenOcclusionLean, TexelsOfEightBitsKeepZeroExactAndTheRestToHalfAStep) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

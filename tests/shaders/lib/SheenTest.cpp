@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 constexpr double kAlphas[] = { 0.04, 0.16, 0.49, 1.0 };
@@ -153,4 +153,4 @@ TEST(Sheen, TheFurnaceOfAWhiteBaseBelowASheenHasNoGain) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib64 {
+namespace filament_core::shader::lib64 {
 namespace {
 
 /// Over all directions: both halves of the sphere.
@@ -81,4 +81,4 @@ TEST(Subsurface, TheSkyBehindIsBlurredAsFarAsTheLobeReaches) {
 }
 
 } // namespace
-} // namespace filament::shader::lib64
+} // namespace filament_core::shader::lib64

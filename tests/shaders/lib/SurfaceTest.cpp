@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 // Kaplanyan's filter adds at most `threshold` to alpha^2, and nothing if the normal is constant.
@@ -77,4 +77,4 @@ TEST(TangentFrame, NegatingATangentQuaternionFlipsTheBitangentOnly) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 constexpr std::array<int, 8> kMappers{
@@ -229,4 +229,4 @@ TEST(NightVision, ShiftsDarkColoursToBlue) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

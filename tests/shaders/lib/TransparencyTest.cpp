@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::shader::lib {
+namespace filament_core::shader::lib {
 namespace {
 
 constexpr float kEndless = std::numeric_limits<float>::infinity();
@@ -84,4 +84,4 @@ TEST(TransparencySums, NothingOverflowsAndNothingIsNothing) {
 }
 
 } // namespace
-} // namespace filament::shader::lib
+} // namespace filament_core::shader::lib

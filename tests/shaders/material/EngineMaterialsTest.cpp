@@ -15,7 +15,7 @@
 #include <bit>
 #include <tuple>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 MaterialPackage read(std::string_view name) {
@@ -192,4 +192,4 @@ TEST(EngineMaterials, SkyAndPostProcessNeedNoGeometry) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

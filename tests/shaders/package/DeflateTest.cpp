@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -107,4 +107,4 @@ TEST(Deflate, SurvivesAnyBytes) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::shader::test {
+namespace filament_core::shader::test {
 
 /// A file of this engine's version and a valid checksum around its sections: mutations of them reach the code behind
 /// the header's checks, and a corpus of them outlives a change of the version.
@@ -51,4 +51,4 @@ inline bool fuzzPackage(std::span<const std::byte> bytes) {
     return readAndRewrite(withHeader(bytes)) || isFile;
 }
 
-} // namespace filament::shader::test
+} // namespace filament_core::shader::test

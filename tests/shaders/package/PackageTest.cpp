@@ -20,7 +20,7 @@
 #include <map>
 #include <random>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using test::fuzzPackage;
@@ -329,4 +329,4 @@ TEST(ParameterLayout, PlacesAFloatIntoTheGapBehindAFloat3) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

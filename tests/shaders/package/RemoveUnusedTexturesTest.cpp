@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace filament::shader {
+namespace filament_core::shader {
 namespace {
 
 using backend::BindingType;
@@ -160,4 +160,4 @@ TEST(RemoveUnusedTextures, SurvivesCodeThatIsNone) {
 }
 
 } // namespace
-} // namespace filament::shader
+} // namespace filament_core::shader

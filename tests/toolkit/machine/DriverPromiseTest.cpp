@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(CpuFeatures, AreThoseThatMesaUses) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 TEST(Flip, OfAPictureAndItselfIsZeroAndOfBlackAndWhiteNearlyOne) {
@@ -98,4 +98,4 @@ TEST(ImageChecks, NameThePixelThatIsNotFinite) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

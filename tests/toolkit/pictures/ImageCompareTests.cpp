@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 Image grey8(uint32_t width, uint32_t height, uint8_t value) {
@@ -114,4 +114,4 @@ TEST(ImageCompare, TheDifferencePictureDimsWhatAgreesAndReddensWithTheDistance) 
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -2,11 +2,11 @@
 /// Generated images for the tests of comparisons.
 #pragma once
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <array>
 
-namespace filament::tools {
+namespace filament_core::tools {
 
 /// One opaque colour everywhere, sRGB codes.
 inline Image flat(std::array<uint8_t, 3> const& color, uint32_t side = 32) {
@@ -20,4 +20,4 @@ inline Image flat(std::array<uint8_t, 3> const& color, uint32_t side = 32) {
 
 inline Image grey(uint8_t value, uint32_t side = 32) { return flat({ value, value, value }, side); }
 
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using backend::CapturedAttachment;
@@ -83,4 +83,4 @@ TEST(Bisect, LooksForNoDrawWherePassesAreMergedOtherwise) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::FrameFolder;
@@ -76,4 +76,4 @@ TEST_F(FrameFiles, AreNotMistakenForEachOther) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

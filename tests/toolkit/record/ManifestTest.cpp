@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 using ::testing::HasSubstr;
@@ -127,4 +127,4 @@ TEST(Manifest, AFolderWithoutOneIsNoSavedFrame) {
 }
 
 } // namespace
-} // namespace filament::record
+} // namespace filament_core::record

@@ -9,7 +9,7 @@
 
 #include <set>
 
-namespace filament::record {
+namespace filament_core::record {
 namespace {
 
 using test::FrameFolder;
@@ -321,4 +321,4 @@ TEST(Trace, ListsThePassesAndDrawsThatACaptureSees) {
 }
 
 } // namespace
-} // namespace filament::record
+} // namespace filament_core::record

@@ -7,7 +7,7 @@
 #include "tests/scenes/Sphere.h"
 #include "toolkit/record/SavedFrame.h"
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include <fstream>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// A folder of this test, removed with it.
 class FrameFolder {
@@ -93,4 +93,4 @@ inline record::SaveRequest spheresRequest(FrameFolder const& folder) {
     return request;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

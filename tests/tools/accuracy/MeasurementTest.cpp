@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 const std::filesystem::path kFolder = tools::sourceDir() / "tools" / "accuracy";
@@ -105,4 +105,4 @@ TEST(Measurement, AnUnknownEffectIsRefusedWithTheNearestName) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using testing::DoubleNear;
@@ -118,4 +118,4 @@ TEST(Picture, HalfFloatsAndCodesBecomeLinearLight) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <set>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(ReportPictures, OfOneNameOrNoneAtAllAreAnErrorThatNamesThem) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -13,7 +13,7 @@
 #include <functional>
 #include <random>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,4 +115,4 @@ TEST_F(AccuracyShards, ThatAreNoCompleteRunAreRefused) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

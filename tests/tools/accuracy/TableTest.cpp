@@ -12,7 +12,7 @@
 
 #include <fstream>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using testing::AllOf;
@@ -204,4 +204,4 @@ TEST(EffectReport, ThePageNamesMachineCommitAndTheCommandOfEveryRow) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

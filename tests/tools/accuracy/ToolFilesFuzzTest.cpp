@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::fuzzToolFile;
@@ -102,4 +102,4 @@ TEST(ToolFiles, OfEveryReaderSurviveTheFilesOfTheOthers) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -13,7 +13,7 @@
 
 #include <unistd.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ TEST_F(Cmgen, APackageBecomesTheSamePackageButNeverReplacesItself) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

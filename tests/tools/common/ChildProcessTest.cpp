@@ -11,7 +11,7 @@
 #include <iterator>
 #include <thread>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 class Child : public testing::Test {
@@ -85,4 +85,4 @@ TEST_F(Child, ThatCannotStartIsAnErrorWithItsName) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

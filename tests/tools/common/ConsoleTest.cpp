@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using namespace std::chrono_literals;
@@ -28,4 +28,4 @@ TEST(ProgressPace, WorkThatReportsSeldomHasALineEachTime) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 /// How a process that runs `work` ends.
@@ -71,4 +71,4 @@ TEST(Interrupt, WhatTheParentIgnoresStaysIgnored) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 TEST(RoundStep, IsOneTwoOrFiveInItsDecade) {
@@ -28,4 +28,4 @@ TEST(RoundStep, IsNeverTooSmallAndNeverTwoAndAHalfTimesTooLarge) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using ::testing::HasSubstr;
@@ -69,4 +69,4 @@ TEST(SceneChoices, OfASunNeedASunAndOthersBelongToOthers) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 TEST(Shard, IsAnIndexBelowACount) {
@@ -53,4 +53,4 @@ TEST(Shards, ThatAreMissingOrThereTwiceAreNamed) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

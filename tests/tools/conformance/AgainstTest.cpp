@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST_F(Against, AFolderWithoutAReportIsAnErrorWithItsPath) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

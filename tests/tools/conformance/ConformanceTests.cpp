@@ -8,7 +8,7 @@
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/Photometry.h>
+#include <filament_core/Photometry.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,7 +23,7 @@
 #include <set>
 #include <thread>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 Options optionsFor(std::string const& name) {
@@ -311,4 +311,4 @@ TEST(Shards, MergeToTheResultsOfOneRun) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

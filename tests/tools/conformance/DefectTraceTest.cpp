@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using namespace backend;
@@ -196,4 +196,4 @@ TEST(Mutants, ThatReachNoDrawAreErrorsOfABisectionToo) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

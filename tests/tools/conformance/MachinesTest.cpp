@@ -18,7 +18,7 @@
 #include <fstream>
 #include <set>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using testing::HasSubstr;
@@ -262,4 +262,4 @@ TEST(RealMachines, DrawOtherBitsWithoutFmaAndTheSameWithOtherVectors) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 constexpr uint32_t kSide = 128, kLevels = 8;
@@ -61,4 +61,4 @@ TEST(MipChain, ShowsOneCodeThatIsOffInOneTexelOfAnyLevelAsThatPixel) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

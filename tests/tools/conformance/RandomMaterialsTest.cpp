@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 TEST(RandomMaterials, AreTheSameForASeedAndOthersForAnother) {
@@ -87,4 +87,4 @@ TEST(Reducer, FindsTheTextureFetchBehindAnInjectedDifference) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 
 #include <fstream>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 using Path = std::filesystem::path;
@@ -260,4 +260,4 @@ TEST(Baselines, HaveThumbnailsOfTheMeanColour) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

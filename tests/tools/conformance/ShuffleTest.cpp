@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 std::vector<SceneSpec> numberedCases(int count) {
@@ -89,4 +89,4 @@ TEST(Shuffle, LeavesEveryPictureAndTheReportAsTheyAre) {
 }
 
 } // namespace
-} // namespace filament::conformance
+} // namespace filament_core::conformance

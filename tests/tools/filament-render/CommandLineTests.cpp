@@ -19,7 +19,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using ::testing::HasSubstr;
@@ -458,4 +458,4 @@ TEST_F(RenderProgram, HelpListsTheOptionsAndSucceeds) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -2,12 +2,12 @@
 // Size: AllReachTheirFields is a list: every option on a command line once, every field once.
 #include "tools/filament-render/Options.h"
 
-#include <filament/RenderPreset.h>
+#include <filament_core/RenderPreset.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using ::testing::HasSubstr;
@@ -44,8 +44,8 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     EXPECT_EQ(options.iblIntensity.value, 30'000.0f);
     EXPECT_FALSE(options.sun);
     EXPECT_TRUE(options.skybox);
-    EXPECT_EQ(options.view.colorGrading.toneMapper, ToneMapper::Aces);
-    EXPECT_FALSE(options.view.colorGrading.dither);
+    EXPECT_EQ(options.view.display.toneMapper, ToneMapper::Aces);
+    EXPECT_FALSE(options.view.display.dither);
     EXPECT_EQ(options.tolerance, 0u);
     EXPECT_EQ(options.out, "out");
 }
@@ -220,8 +220,8 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.sun->illuminance.value, 1000.0f);
     EXPECT_EQ(options.sun->directionWorld, float3(0, -1, 0.5f));
     EXPECT_FALSE(options.skybox);
-    EXPECT_EQ(options.view.colorGrading.toneMapper, ToneMapper::Filmic);
-    EXPECT_TRUE(options.view.colorGrading.dither);
+    EXPECT_EQ(options.view.display.toneMapper, ToneMapper::Filmic);
+    EXPECT_TRUE(options.view.display.dither);
     EXPECT_EQ(options.tolerance, 2u);
     EXPECT_EQ(options.out, "x/y");
     EXPECT_EQ(options.format, PictureFormat::Exr);
@@ -307,4 +307,4 @@ TEST(Options, EyeAndTargetAtOnePointAreRefused) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

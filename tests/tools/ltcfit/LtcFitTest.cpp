@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <vector>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace lib = shader::lib64;
@@ -157,4 +157,4 @@ TEST(LtcFit, ASmallTableHasAMirrorFirstAndLambertsLobeNowhere) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -2,7 +2,7 @@
 #include "shaders/package/Package.h"
 #include "tools/paths/Paths.h"
 
-#include <filament/Version.h>
+#include <filament_core/Version.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ struct Outcome {
     std::string output; ///< both streams
 };
 
-const std::string kProgram = (filament::tools::buildDir() / "bin/matc ").string();
+const std::string kProgram = (filament_core::tools::buildDir() / "bin/matc ").string();
 
 Outcome shell(std::string const& command) {
     Outcome outcome;
@@ -60,9 +60,9 @@ protected:
     }
     std::string path(std::string const& name) const { return (mFolder / name).string(); }
 
-    filament::shader::MaterialPackage package(std::string const& name) const {
+    filament_core::shader::MaterialPackage package(std::string const& name) const {
         const std::string bytes = contents(path(name));
-        auto read = filament::shader::readPackage(std::as_bytes(std::span(bytes.data(), bytes.size())));
+        auto read = filament_core::shader::readPackage(std::as_bytes(std::span(bytes.data(), bytes.size())));
         if (read) return std::move(*read);
         ADD_FAILURE() << name << ": " << read.error().message;
         return {};
@@ -164,10 +164,10 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -a vulkan -o " + path("vulkan") + " " + input).status, 0);
-    const auto isUnlit = [](filament::shader::Variant const& variant) {
-        return (variant.key & (filament::shader::kVariantSun | filament::shader::kVariantPunctual)) == 0;
+    const auto isUnlit = [](filament_core::shader::Variant const& variant) {
+        return (variant.key & (filament_core::shader::kVariantSun | filament_core::shader::kVariantPunctual)) == 0;
     };
-    const std::vector<filament::shader::Variant> all = package("all").variants;
+    const std::vector<filament_core::shader::Variant> all = package("all").variants;
     EXPECT_EQ(package("one").variants.size(), static_cast<size_t>(std::ranges::count_if(all, isUnlit)));
     EXPECT_TRUE(std::ranges::all_of(package("one").variants, isUnlit));
     EXPECT_FALSE(std::ranges::all_of(all, isUnlit));
@@ -383,7 +383,7 @@ TEST_F(Matc, DefinesMacrosAndFillsTemplates) {
                                             "m.baseColor.r = AMOUNT;\n#else\nmissing();\n#endif\n} }");
     ASSERT_EQ(matc("-D LEVEL=3 -DAMOUNT=0.25 -T NAME=stone -T MODEL=unlit -o " + path("out") + " " + input).status, 0);
     EXPECT_EQ(package("out").name, "stone");
-    EXPECT_EQ(package("out").shading, filament::shader::ShadingModel::Unlit);
+    EXPECT_EQ(package("out").shading, filament_core::shader::ShadingModel::Unlit);
     const Outcome without = matc("-T NAME=stone -o " + path("none") + " " + input);
     EXPECT_EQ(without.status, 1);
     EXPECT_THAT(without.output, HasSubstr("t.mat:1: the template name 'MODEL' has no value; give -T MODEL=VALUE"));
@@ -399,7 +399,7 @@ TEST_F(Matc, EndsWithTheStatusThatItsHelpNames) {
     EXPECT_THAT(help.output, HasSubstr("Exit status: 0 written or printed; 1 the material"));
     const Outcome version = matc("--version");
     EXPECT_EQ(version.status, 0);
-    EXPECT_THAT(version.output, HasSubstr("matc of filament_core " + std::string(filament::versionText())));
+    EXPECT_THAT(version.output, HasSubstr("matc of filament_core " + std::string(filament_core::versionText())));
     EXPECT_EQ(matc(input).status, 2) << "no -o";
     EXPECT_EQ(matc("--no-such-option " + input).status, 2);
     EXPECT_EQ(matc("-a metal -o x " + input).status, 2);
@@ -425,7 +425,7 @@ TEST_F(Matc, PrintsEachErrorAndEachWarningOnALine) {
 // ---------------------------------------------------------------------------------------------- matinfo
 
 Outcome matinfo(std::string const& arguments) {
-    return shell((filament::tools::buildDir() / "bin/matinfo ").string() + arguments + " 2>&1");
+    return shell((filament_core::tools::buildDir() / "bin/matinfo ").string() + arguments + " 2>&1");
 }
 
 TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {

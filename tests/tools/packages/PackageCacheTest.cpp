@@ -17,7 +17,7 @@
 #include <functional>
 #include <thread>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 namespace fs = std::filesystem;
@@ -200,4 +200,4 @@ TEST(CompilerIdentity, IsThatOfTheMatcOfThisBuild) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <random>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 inline double3 directionAt(double cosine, double azimuth) {
     const double sine = std::sqrt(1 - cosine * cosine);
@@ -113,4 +113,4 @@ inline double chiSquareDeviations(Bsdf const& bsdf) {
     return (std::cbrt(statistic / degrees) - (1 - 2 / (9 * degrees))) / std::sqrt(2 / (9 * degrees));
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <random>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr double kViewCosines[] = { 0.05, 0.3, 0.7, 1.0 };
@@ -276,4 +276,4 @@ TEST(DirectionalAlbedo, ItsTableIsGoodToTwoTenThousandths) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 ReferenceSettings settingsOf(Integrator integrator, uint32_t samples = 64) {
@@ -299,4 +299,4 @@ TEST(ClosedForm, ASmoothMetalShowsTheSkyInTheMirrorDirection) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 assets::MaterialData lamp(float radiance) {
@@ -110,4 +110,4 @@ TEST(EmissiveLights, AnotherSurfaceShadowsALamp) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

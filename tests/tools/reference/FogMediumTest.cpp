@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -73,4 +73,4 @@ TEST(FogMedium, TakesItsColourFromTheEnvironmentOfItsDirection) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

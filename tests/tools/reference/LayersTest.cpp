@@ -5,7 +5,7 @@
 #include "tools/reference/DirectionalAlbedo.h"
 #include "tools/reference/SheenAlbedo.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -410,4 +410,4 @@ TEST(Cloth, ReachesAroundTheEdgeOnlyWithASubsurfaceColour) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

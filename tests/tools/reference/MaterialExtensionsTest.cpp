@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using backend::Format;
@@ -266,4 +266,4 @@ TEST(MaterialExtensions, IridescenceIsTracedWithoutAWarning) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

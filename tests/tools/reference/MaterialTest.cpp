@@ -7,7 +7,7 @@
 #include "tools/reference/Material.h"
 #include "tools/reference/TextureLookup.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using backend::Filter;
@@ -254,4 +254,4 @@ TEST(Geometry, ReadsEveryFormatThatTheLoaderPacks) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

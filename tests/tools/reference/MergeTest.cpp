@@ -14,7 +14,7 @@
 #include <set>
 #include <unistd.h>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using ::testing::HasSubstr;
@@ -327,4 +327,4 @@ TEST(FilmFile, SurvivesEditsAnywhere) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -5,7 +5,7 @@
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/Mixture.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -82,4 +82,4 @@ TEST(Mixture, WithoutAFilmNothingChanges) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 const double kAlphas[] = { 0.002025, 0.05, 0.3, 0.7, 0.99, 0.9999, 1.0 };
@@ -172,4 +172,4 @@ TEST(PrefilteredLight, ShadowsAndDisneysLobeAreRefusedWithIt) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

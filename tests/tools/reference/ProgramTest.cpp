@@ -18,7 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using ::testing::HasSubstr;
@@ -315,4 +315,4 @@ TEST_F(Program, PrintsItsOptions) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 using ::testing::HasSubstr;
@@ -341,4 +341,4 @@ TEST(ModelBounds, AreThoseThatTheEngineFitsIntoTheUnitCube) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <set>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 TEST(SampleStream, EveryElementaryIntervalOfSixteenSamplesHoldsOne) {
@@ -142,7 +142,7 @@ TEST(EnvironmentLight, CellsOfALargePictureShareTheirPixels) {
 }
 
 TEST(EnvironmentLight, StandsWhereTheEngineHasIt) {
-    // One bright pixel; <filament/Environment.h>: u = 0.5 - atan2(x, z) / 2 pi, v = acos(y) / pi.
+    // One bright pixel; <filament_core/Environment.h>: u = 0.5 - atan2(x, z) / 2 pi, v = acos(y) / pi.
     auto image = makeSky(64, [](double3) { return float3(0.0f); });
     auto writable = std::const_pointer_cast<assets::HdrImage>(std::shared_ptr<const assets::HdrImage>(image));
     writable->at(40, 20) = float3(1.0f);
@@ -243,4 +243,4 @@ TEST(DirectLights, AmongSeveralLightsTheMeanIsTheirSum) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

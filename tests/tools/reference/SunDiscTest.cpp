@@ -3,7 +3,7 @@
 #include "tests/tools/reference/TestScenes.h"
 #include "tools/reference/DirectLights.h"
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 constexpr double kFactor = 0.5;
@@ -72,4 +72,4 @@ TEST(SunDiscs, BringTheirIlluminanceToTheCamera) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <span>
 
-namespace filament::reference {
+namespace filament_core::reference {
 
 inline constexpr double kPiExact = std::numbers::pi;
 
@@ -204,4 +204,4 @@ inline void expectAgrees(Estimate const& estimate, double3 expected, double slac
     expectAgrees(estimate.mean.z, estimate.error.z, expected.z, slack, "blue");
 }
 
-} // namespace filament::reference
+} // namespace filament_core::reference

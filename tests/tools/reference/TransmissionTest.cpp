@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::reference {
+namespace filament_core::reference {
 namespace {
 
 namespace lib = shader::lib64;
@@ -291,4 +291,4 @@ TEST(Unoccluded, SeesThroughABallAsTheEngineDoes) {
 }
 
 } // namespace
-} // namespace filament::reference
+} // namespace filament_core::reference

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <sys/wait.h>
 
-namespace filament::replay {
+namespace filament_core::replay {
 namespace {
 
 using ::testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST_F(ReplayFolder, AsAProgramEndsWithItsVerdict) {
 }
 
 } // namespace
-} // namespace filament::replay
+} // namespace filament_core::replay

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 constexpr float kPiF = std::numbers::pi_v<float>;
@@ -110,4 +110,4 @@ TEST(Shapes, ASmoothProfilePassesThroughItsPoints) {
 }
 
 } // namespace
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <unistd.h>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 class ShowcaseFiles : public ::testing::Test {
@@ -118,4 +118,4 @@ TEST_F(ShowcaseFiles, AFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
 }
 
 } // namespace
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace filament::showcase {
+namespace filament_core::showcase {
 namespace {
 
 float4 texel(Picture const& picture, uint32_t x, uint32_t y) {
@@ -114,4 +114,4 @@ TEST(Textures, LatticeAndGlassHaveTheAlphaThatTheirModesNeed) {
 }
 
 } // namespace
-} // namespace filament::showcase
+} // namespace filament_core::showcase

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 using ::testing::HasSubstr;
@@ -74,4 +74,4 @@ TEST(Tables, EveryTableIsInADocument) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using reference::BsdfModel;
@@ -89,4 +89,4 @@ Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, too
     return results;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

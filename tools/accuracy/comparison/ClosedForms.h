@@ -8,7 +8,7 @@
 #include "tools/accuracy/SceneLibrary.h"
 #include "tools/reference/Reference.h"
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 struct ClosedForm {
     std::string name, formula;
@@ -23,4 +23,4 @@ struct ClosedForm {
 Result<std::vector<ClosedForm>> checkClosedForms(SceneLibrary const& scenes, tools::SceneFolders const& folders,
                                                  uint32_t samplesPerPixel, jobs::JobSystem& jobs);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

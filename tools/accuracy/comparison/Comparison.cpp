@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using reference::ReferenceImage;
@@ -152,7 +152,7 @@ private:
         if (!shot) return shot.error();
         const Result<Picture> shown = (*shot)->shoot();
         if (!shown) return shown.error();
-        mResult.eightBits = displayError(*shown, mResult.pictures.front(), (*shot)->view().colorGrading.toneMapper);
+        mResult.eightBits = displayError(*shown, mResult.pictures.front(), (*shot)->view().display.toneMapper);
         return {};
     }
 
@@ -251,4 +251,4 @@ Result<ComparisonResults> comparePictures(ComparisonOptions const& options, Comp
     return results;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -15,11 +15,11 @@
 #include "tools/accuracy/comparison/Difference.h"
 #include "tools/accuracy/comparison/Ladder.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <functional>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 /// One line of the table.
 struct ComparisonRow {
@@ -80,4 +80,4 @@ using ComparisonProgress = std::function<void(std::string const& what, double do
 
 Result<ComparisonResults> comparePictures(ComparisonOptions const& options, ComparisonProgress const& progress);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

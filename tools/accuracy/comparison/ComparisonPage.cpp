@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <span>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
@@ -260,4 +260,4 @@ std::string textOf(ComparisonResults const& results) {
     return text;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

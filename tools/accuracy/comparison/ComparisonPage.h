@@ -10,7 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 nlohmann::ordered_json jsonOf(ComparisonResults const& results);
 
@@ -19,4 +19,4 @@ Result<void> writeComparison(ComparisonResults const& results, std::filesystem::
 /// Text for a terminal: one line per row, followed by its steps.
 std::string textOf(ComparisonResults const& results);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 constexpr double kDifferenceFloorOfMean = 0.01;
@@ -128,4 +128,4 @@ Image tonemapped(Picture const& picture) {
     return image;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -10,11 +10,11 @@
 
 #include "toolkit/pictures/Picture.h"
 
-#include <filament/View.h>
+#include <filament_core/View.h>
 
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 using namespace tools; // the toolkit
 
@@ -55,4 +55,4 @@ double displayError(Picture const& shown, Picture const& linear, ToneMapper tone
 /// As shown by a display: through the engine's ACES curve.
 Image tonemapped(Picture const& picture);
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -2,13 +2,13 @@
 // Size: allRungs() is a table that lists one rung after the other.
 #include "tools/accuracy/comparison/Ladder.h"
 
-#include <filament/Quality.h>
+#include <filament_core/Quality.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using reference::BsdfModel;
@@ -189,4 +189,4 @@ std::span<const Alternative> alternatives() {
     return kAll;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 enum class RungKind : uint8_t { Engine, Reference };
 
@@ -62,4 +62,4 @@ struct Alternative {
 };
 std::span<const Alternative> alternatives();
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

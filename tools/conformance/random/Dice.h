@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 class Dice {
 public:
@@ -30,4 +30,4 @@ private:
     std::mt19937_64 mBits;
 };
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

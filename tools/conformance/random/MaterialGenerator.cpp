@@ -8,7 +8,7 @@
 #include <array>
 #include <set>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 struct Parameter {
@@ -257,4 +257,4 @@ std::string generateScene(uint64_t seed, std::string const& material) {
                        seed, material, sun, lamp, view);
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 /// Its children: the values shown, the properties, the vertex block, the fragment block. Each is a list.
 MaterialTree generateMaterial(uint64_t seed);
@@ -19,4 +19,4 @@ MaterialTree generateMaterial(uint64_t seed);
 /// `material`: the file's path, relative to the scene.
 std::string generateScene(uint64_t seed, std::string const& material);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

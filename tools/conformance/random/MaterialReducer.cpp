@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 MaterialTree simplest(std::string const& type) {
@@ -107,4 +107,4 @@ Reduction reduceMaterial(MaterialTree material, StillFails const& stillFails, si
     return Reducer(std::move(material), stillFails, tries).run();
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -12,7 +12,7 @@
 
 #include <functional>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 using StillFails = std::function<bool(std::string const& text)>;
 
@@ -23,4 +23,4 @@ struct Reduction {
 
 Reduction reduceMaterial(MaterialTree material, StillFails const& stillFails, size_t tries = 600);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -3,7 +3,7 @@
 
 #include <cctype>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 void printList(MaterialTree const& list, std::string& out);
@@ -43,4 +43,4 @@ size_t sizeOf(MaterialTree const& tree) {
     return size;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct MaterialTree {
     std::string type;  ///< "vec3"; empty: not an expression
@@ -33,4 +33,4 @@ std::string print(MaterialTree const& tree);
 /// The number of trees in it, including itself.
 size_t sizeOf(MaterialTree const& tree);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -4,7 +4,7 @@
 #include <array>
 #include <sstream>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 /// A family letter in `result` and `arguments` is expanded to the types with `least` to 4 components; in the text it
@@ -275,4 +275,4 @@ std::vector<Production> const& languageProductions() {
     return all;
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct Production {
     std::string type;                   ///< of the result
@@ -29,4 +29,4 @@ std::string typeName(char family, int components);
 /// "vec3": 3; "float": 1.
 int componentsOf(std::string_view type);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 constexpr int kMostNesting = 3;
@@ -225,4 +225,4 @@ MaterialTree RandomCode::helper(std::string const& name) {
                  { body, early, result });
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

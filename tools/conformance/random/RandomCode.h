@@ -11,7 +11,7 @@
 
 #include <map>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 class RandomCode {
 public:
@@ -57,4 +57,4 @@ private:
 /// A type that an expression may have.
 std::string randomType(Dice& dice);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

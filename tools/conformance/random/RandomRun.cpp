@@ -14,7 +14,7 @@
 #include <cctype>
 #include <cstring>
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ Result<RandomResults> runRandom(Options const& options) {
     return RandomRun(options, std::move(stages->a), std::move(stages->b)).run();
 }
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -9,7 +9,7 @@
 
 #include "tools/conformance/Options.h"
 
-namespace filament::conformance {
+namespace filament_core::conformance {
 
 struct RandomFinding {
     uint64_t seed = 0;
@@ -25,4 +25,4 @@ struct RandomResults {
 
 Result<RandomResults> runRandom(Options const& options);
 
-} // namespace filament::conformance
+} // namespace filament_core::conformance

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 using namespace backend;
 
@@ -176,4 +176,4 @@ Result<void> GpuEvaluator::evaluateGroup(std::span<const Task> tasks, numerics::
     return {};
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 struct Task {
     Row const* row = nullptr;
@@ -49,4 +49,4 @@ private:
     backend::SamplerHandle mNearest;
 };
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row co
                             .fragmentName = half ? "shaders/lib in 16 bits" : "shaders/lib" });
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

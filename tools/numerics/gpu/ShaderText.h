@@ -11,7 +11,7 @@
 #include "shaders/compiler/CompileProgram.h"
 #include "tools/numerics/table/Points.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 /// `library`: the result of libraryText(), or a mutated form of it.
 Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format);
@@ -19,4 +19,4 @@ Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row co
 /// The text of shaders/lib with math.glsl first, and the rows' own wrappers.
 Result<std::string> libraryText();
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

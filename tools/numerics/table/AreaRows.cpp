@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kOverflow = "squared metres overflow 16 bits at 256 m";
@@ -130,4 +130,4 @@ std::vector<Row> areaRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -3,7 +3,7 @@
 // Size: parameterRows() is a table with one row per function.
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 Argument cosine(std::string_view name) { return unit(name); }
@@ -267,4 +267,4 @@ std::vector<Row> brdfRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

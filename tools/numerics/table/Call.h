@@ -8,7 +8,7 @@
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/numerics/table/Row.h"
 
-namespace filament::shader {
+namespace filament_core::shader {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -50,4 +50,4 @@ inline Packed pack(glm::vec3 x) { return pack(glm::dvec3(x)); }
     }
 
 } // namespace numerics
-} // namespace filament::shader
+} // namespace filament_core::shader

@@ -2,7 +2,7 @@
 // Size: colorRows() is a table with one row per function.
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kTransfer =
@@ -282,4 +282,4 @@ std::vector<Row> colorRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

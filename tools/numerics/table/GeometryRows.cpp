@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 /// One axis of tangentFrame().
@@ -135,4 +135,4 @@ std::vector<Row> geometryRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

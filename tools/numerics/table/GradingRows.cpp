@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kStops = "scene-referred light has more stops than 16 bits have digits";
@@ -110,7 +110,7 @@ std::vector<Row> colourRows() {
           .noError = "luminance cancels where a component is negative",
           .fp32Only = kStops },
         { .file = "grading",
-          .function = "graded(vec3, Grading)",
+          .function = "graded(vec3, ColorGrading)",
           .call = NUMERICS_CALL(graded(u, neutralGrading())),
           .u = colour("light", 100),
           .range = { 0, 101 },
@@ -161,4 +161,4 @@ std::vector<Row> gradingRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

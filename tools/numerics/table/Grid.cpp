@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr float kFloatMax = std::numeric_limits<float>::max();
@@ -179,4 +179,4 @@ std::vector<Beyond> beyondOf(Argument const& argument, Format format) {
     return result;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -5,7 +5,7 @@
 
 #include "tools/numerics/table/Points.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 struct Grid {
     std::vector<glm::vec4> values; ///< numbers in x, vectors in xyz, quaternions in all four
@@ -22,4 +22,4 @@ struct Beyond {
 
 std::vector<Beyond> beyondOf(Argument const& argument, Format format);
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 std::vector<Row> anisotropicRows() {
@@ -266,4 +266,4 @@ std::vector<Row> layerRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

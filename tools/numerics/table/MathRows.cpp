@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 std::vector<Row> mathRows() {
     constexpr std::string_view kSplit = "the split halves a 24-bit significand";
@@ -76,4 +76,4 @@ std::vector<Row> mathRows() {
     };
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 Packed truthAt(Row const& row, Point const& point) {
@@ -135,4 +135,4 @@ Results evaluateCpp(Row const& row, std::vector<Point> const& points) {
     return results;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 /// The evaluators. The reference is not among them: they are compared with it.
 enum class Column : uint8_t { Cpp, VulkanSingle, GlesSingle, VulkanHalf, GlesHalf };
@@ -48,4 +48,4 @@ std::string describe(Row const& row, Point const& point);
 /// The C++ column.
 Results evaluateCpp(Row const& row, std::vector<Point> const& points);
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

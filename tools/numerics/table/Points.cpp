@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 /// Which numbers an argument takes, and where they go.
@@ -122,4 +122,4 @@ Points pointsOf(Row const& row, Format format) {
     return points;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -12,7 +12,7 @@
 
 #include "tools/numerics/table/Row.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 inline constexpr uint32_t kMaxLines = 96;
 
@@ -39,4 +39,4 @@ Points pointsOf(Row const& row, Format format);
 /// The nearest 16-bit value; a value out of range becomes infinite.
 float halfRounded(float value);
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kSteep = "the inverse is steep near 1: 16 bits leave bright light no digits";
@@ -77,4 +77,4 @@ std::vector<Row> resolutionRows() {
     };
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -136,4 +136,4 @@ inline Argument integer(std::string_view name, double low, double high) { return
 inline Argument direction(std::string_view name) { return { name, Kind::Direction, -1, 1 }; }
 inline Argument colour(std::string_view name, double high) { return { name, Kind::Colour, 0, high }; }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Row.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 
 std::span<const Row> rows() {
     static const std::vector<Row> all = [] {
@@ -15,4 +15,4 @@ std::span<const Row> rows() {
     return all;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kNoIor = "ior 0 divides by zero";
@@ -302,4 +302,4 @@ std::vector<Row> scatterRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

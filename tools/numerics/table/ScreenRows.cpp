@@ -2,7 +2,7 @@
 #include "tools/numerics/table/Call.h"
 #include "tools/numerics/table/Row.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kLegs = "absolute: the root of 1 - x^2 has half of the digits next to 1";
@@ -103,4 +103,4 @@ std::vector<Row> screenRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

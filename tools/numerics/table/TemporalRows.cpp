@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kLuminance = "a sum of three products";
@@ -57,4 +57,4 @@ std::vector<Row> temporalRows() {
     };
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kStops = "scene-referred light has more stops than 16 bits have digits";
@@ -212,4 +212,4 @@ std::vector<Row> toneRows() {
     return rows;
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

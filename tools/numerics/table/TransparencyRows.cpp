@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/table/Call.h"
 
-namespace filament::shader::numerics {
+namespace filament_core::shader::numerics {
 namespace {
 
 constexpr std::string_view kSums = "weights are ratios of distances, and sums of them reach the ends of 16 bits";
@@ -64,4 +64,4 @@ std::vector<Row> transparencyRows() {
     };
 }
 
-} // namespace filament::shader::numerics
+} // namespace filament_core::shader::numerics

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 ApiPicture::ApiPicture(std::unique_ptr<Stage> stage) : mStage(std::move(stage)) {
     DeviceDescription const& device = mStage->engine().device();
@@ -52,4 +52,4 @@ void ApiPicture::take() {
     if (!image->pixels.empty()) mPicture = NumberedPicture{ std::move(*image), mPendingNumber };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Vulkan of OpenGL ES, and the reverse.
 inline Backend otherThan(Backend backend) { return backend == Backend::Vulkan ? Backend::Gles : Backend::Vulkan; }
@@ -42,4 +42,4 @@ private:
     std::optional<NumberedPicture> mPicture;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

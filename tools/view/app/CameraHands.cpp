@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kRadiansPerView = glm::radians(270.0); ///< of an orbit from one edge of the window to the other
@@ -132,4 +132,4 @@ void CameraHands::letGo() {
     mRight = mLeft = mUp = mDown = mForward = mBack = 0;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class CameraHands {
 public:
@@ -47,4 +47,4 @@ private:
     double mRight = 0, mLeft = 0, mUp = 0, mDown = 0, mForward = 0, mBack = 0; ///< keys: 1 while they are held
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

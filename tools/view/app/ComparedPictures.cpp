@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kGrabPixels = 8; ///< beside the line of a wipe
@@ -241,4 +241,4 @@ void ComparedPictures::close(UiRenderer* ui) {
     mNumber = 0;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

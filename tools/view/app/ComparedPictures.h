@@ -21,7 +21,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// What lies over the viewer's picture.
 enum class CompareMode : uint8_t { Off, Wipe, Difference, Flip };
@@ -111,4 +111,4 @@ private:
     std::vector<std::string> mMessages;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint32_t kGathered = 16; // frames, where a setting gathers them
@@ -240,4 +240,4 @@ void CostMeasurement::cancel() { mImpl->isCancelled = true; }
 bool CostMeasurement::isBusy() const { return mImpl->plot.isBusy(); }
 bool CostMeasurement::poll(CostPlot& plot) { return mImpl->plot.read(mImpl->seen, plot); }
 
-} // namespace filament::view
+} // namespace filament_core::view

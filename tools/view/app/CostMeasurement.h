@@ -20,15 +20,15 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/panels/CostPlot.h"
 
-#include <filament/Engine.h>
-#include <filament/Image.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Image.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// An image of the document by other means. Of another size than the document: it is not used.
 struct CostReference {
@@ -63,4 +63,4 @@ private:
     std::unique_ptr<Impl> mImpl;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

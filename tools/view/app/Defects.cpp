@@ -3,7 +3,7 @@
 
 #include "toolkit/mutations/Mutations.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 std::vector<OfferedDefect> defectsFor(Backend backend) {
     std::vector<OfferedDefect> offered;
@@ -24,4 +24,4 @@ std::string whatOf(std::string_view defect) {
     return std::string(mutation ? mutation->what : defect);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

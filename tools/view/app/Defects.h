@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Those that fit an engine of the backend, without the suite's controls, which no picture shows.
 std::vector<OfferedDefect> defectsFor(Backend backend);
@@ -20,4 +20,4 @@ std::shared_ptr<backend::FrameCapture> injected(std::string_view defect);
 /// "roughness + 1 %"; the name itself if it is not known.
 std::string whatOf(std::string_view defect);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Result<std::vector<record::FramePicture>> drawOn(Engine& engine, Document const& document) {
@@ -16,7 +16,7 @@ Result<std::vector<record::FramePicture>> drawOn(Engine& engine, Document const&
     Result<Image> image = stage->renderToImage();
     if (!image) return image.error();
     std::vector<record::FramePicture> pictures;
-    pictures.push_back({ .image = std::move(*image), .space = document.view.colorGrading.outputSpace });
+    pictures.push_back({ .image = std::move(*image), .space = document.view.display.outputSpace });
     return pictures;
 }
 
@@ -24,7 +24,7 @@ std::vector<std::string> save(std::filesystem::path const& folder, Document cons
     record::SaveRequest request;
     request.folder = folder;
     request.recipe = [&document](Engine& engine) { return drawOn(engine, document); };
-    request.shown.push_back({ .image = std::move(shown), .space = document.view.colorGrading.outputSpace });
+    request.shown.push_back({ .image = std::move(shown), .space = document.view.display.outputSpace });
     request.engine.workers = workers;
     request.program = "filament-view";
     request.settings = toJson(document);
@@ -44,4 +44,4 @@ bool FrameSaver::start(std::filesystem::path folder, Document document, Image sh
     return true;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,14 +9,14 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Background.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class FrameSaver {
 public:
@@ -30,4 +30,4 @@ private:
     std::optional<Background<std::vector<std::string>>> mSaved;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr int kEscapeKey = 256, kLeftControlKey = 341, kRightControlKey = 345; // of GLFW
@@ -229,4 +229,4 @@ void GizmoHands::draw(GizmoScene const& scene, ImDrawList& list, uint2 offset, b
     list.AddText(imVec(place), IM_COL32(255, 255, 255, 255), dragText().c_str());
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

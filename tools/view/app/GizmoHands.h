@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// What the handles are in.
 struct GizmoScene {
@@ -83,4 +83,4 @@ private:
     bool mIsLight = false; ///< was selected last
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/History.h"
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// What no step changes. Another model has other animations: with it, its playback comes back.
@@ -47,4 +47,4 @@ bool History::redo(Document& document) {
     return go(mAfter, mBefore, mNow, document);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

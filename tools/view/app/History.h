@@ -9,7 +9,7 @@
 
 #include <deque>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Whether they differ in nothing but camera, playback and size.
 bool isSameEdit(Document const& a, Document const& b);
@@ -32,4 +32,4 @@ private:
     std::deque<Document> mBefore, mAfter;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

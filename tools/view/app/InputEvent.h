@@ -5,14 +5,14 @@
 ///   Places   in pixels of the window's images, from the left and the top.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <variant>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 enum class MouseButton : uint8_t { Left, Right, Middle };
 
@@ -56,4 +56,4 @@ struct CloseEvent {};
 using InputEvent = std::variant<KeyEvent, TextEvent, MouseMoveEvent, MouseButtonEvent, ScrollEvent, DropEvent,
                                 ResizeEvent, FocusEvent, CloseEvent>;
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,9 +4,9 @@
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/Defects.h"
 
-#include <filament/JobTimeline.h>
+#include <filament_core/JobTimeline.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr auto kInterval = std::chrono::milliseconds(250);
@@ -88,4 +88,4 @@ void Instruments::closeEngine(Panels& panels) {
     panels.state.jobWindow.reset();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -16,7 +16,7 @@
 #include <chrono>
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Instruments {
 public:
@@ -45,4 +45,4 @@ private:
     std::string mLastDefect;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr std::array<const char*, kNumericsMarks> kLabels{
@@ -83,4 +83,4 @@ void NumericsCounter::draw(uint2 offset, uint2 size) const {
     ImGui::End();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

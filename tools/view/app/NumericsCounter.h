@@ -3,7 +3,7 @@
 /// colours.
 ///   Use      after each frame, before the interface is drawn over it: follow(); in every step: poll(); between ImGui's
 ///            NewFrame() and Render(): draw().
-///   Counts   the marks of the image itself (<filament/DebugViews.h>), so that they agree with what is seen. They
+///   Counts   the marks of the image itself (<filament_core/DebugViews.h>), so that they agree with what is seen. They
 ///            come a frame or two later; until they are those of the newest frame, the legend marks them.
 ///   Places   the image is a part of the window, at `offset`.
 ///   Waits    never.   Memory: an image while it is read back.
@@ -13,11 +13,11 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Stage.h"
 
-#include <filament/DebugViews.h>
+#include <filament_core/DebugViews.h>
 
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class NumericsCounter {
 public:
@@ -42,4 +42,4 @@ private:
     bool mIsNewest = false;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

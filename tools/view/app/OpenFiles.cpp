@@ -10,7 +10,7 @@
 #include <fstream>
 #include <span>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void showModel(Document& document, std::filesystem::path const& file) {
@@ -92,4 +92,4 @@ void showText(Document& document, AnyText text) {
     document.view.size = size;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// By its ending, in any case; a .ktx2 is an environment or an image, as its first bytes say.
 enum class FileKind : uint8_t { Model, Environment, Document, Picture, Unknown };
@@ -21,4 +21,4 @@ Result<void> showFile(Document& document, std::filesystem::path const& file);
 /// A document, a camera (with the exposure of the text), or a path that is added.
 void showText(Document& document, AnyText text);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -13,7 +13,7 @@
 #include <deque>
 #include <future>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kEncoders = 2; // images at a time
@@ -105,7 +105,7 @@ Result<void> drawFrames(PathRequest const& request, std::filesystem::path const&
         Result<Image> image = stage.renderer().waitPixels(stage.renderer().readPixels(chain));
         if (!image) return image.error();
         Result<void> added = encoders.add(folder / frameName(frame, request.series.format), std::move(*image),
-                                          request.document.view.colorGrading.outputSpace);
+                                          request.document.view.display.outputSpace);
         if (!added) return added;
         ++progress.done;
     }
@@ -192,4 +192,4 @@ bool PathRecorder::start(PathRequest request) {
     return true;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -14,7 +14,7 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Background.h"
 
-#include <filament/Engine.h>
+#include <filament_core/Engine.h>
 
 #include <atomic>
 #include <cstdint>
@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr uint32_t kMostFrames = 100'000;
 inline constexpr double kLeastFrameRate = 0.01, kMostFrameRate = 1000;
@@ -76,4 +76,4 @@ private:
     std::optional<Background<std::vector<std::string>>> mLines;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -3,12 +3,12 @@
 ///   Thread  any.   Fails: savePicture(): Unreadable with the path and the reason.
 #pragma once
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <filesystem>
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 
 enum class PictureFormat : uint8_t {
     Png, ///< what is shown: RGBA8, as the document grades it
@@ -26,4 +26,4 @@ inline Result<void> savePicture(std::filesystem::path const& file, Image const& 
     return image.format == Format::RGBA16F ? saveExr(file, image) : savePng(file, image, space);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace filament::view {
+namespace filament_core::view {
 
 void PictureSaver::read(Stage& stage, Format format, PictureFrame frame, std::function<void(Image)> then) {
     Engine& engine = stage.engine();
@@ -26,7 +26,7 @@ void PictureSaver::read(Stage& stage, Format format, PictureFrame frame, std::fu
 
 void PictureSaver::save(Stage& stage, std::filesystem::path file, PictureFormat format) {
     mFiles.push_back(file);
-    const OutputSpace space = stage.view().colorGrading.outputSpace;
+    const OutputSpace space = stage.view().display.outputSpace;
     read(stage, imageFormatOf(format), PictureFrame::Next, [this, file, space](Image image) {
         mFiles.erase(std::ranges::find(mFiles, file));
         if (image.pixels.empty())
@@ -72,4 +72,4 @@ void PictureSaver::close() {
     mPending.clear();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

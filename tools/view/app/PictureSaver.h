@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Which frame an image is.
 enum class PictureFrame : uint8_t {
@@ -57,4 +57,4 @@ private:
     std::vector<std::string> mMessages;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

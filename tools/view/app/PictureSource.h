@@ -9,14 +9,14 @@
 
 #include "tools/view/document/Document.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct NumberedPicture {
     Image image{};
@@ -36,4 +36,4 @@ public:
     virtual std::vector<std::string> takeMessages() = 0;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 // ---- one API
 
@@ -183,4 +183,4 @@ void PixelInspector::makeReport() {
     mReport.unseen = unseenAttachments(frames[0], frames[1]);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// One API.
 class InspectedEngine {
@@ -85,4 +85,4 @@ private:
     std::vector<std::string> mMessages;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <span>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kLongestStore = size_t{ 1 } << 20;
@@ -77,4 +77,4 @@ Result<void> RecentFiles::add(std::filesystem::path const& file) {
     return assets::replaceFile(mStore, std::as_bytes(std::span(text)));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

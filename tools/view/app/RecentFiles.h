@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr size_t kMostRecent = 20, kLongestPath = 4096;
 
@@ -41,4 +41,4 @@ private:
     std::vector<std::filesystem::path> mFiles;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include "tools/view/app/Window.h"
 #include "tools/view/document/TextForms.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@
 #include <future>
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -207,4 +207,4 @@ int runViewer(ViewerOptions const& given) {
     return shown ? 0 : tools::failed(shown.error());
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,8 +7,8 @@
 
 #include "tools/view/app/ViewerOptions.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 int runViewer(ViewerOptions const& options);
 
-} // namespace filament::view
+} // namespace filament_core::view

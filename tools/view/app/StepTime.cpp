@@ -3,7 +3,7 @@
 
 #include <time.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 double threadSeconds() {
     timespec now{};
@@ -11,4 +11,4 @@ double threadSeconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -2,7 +2,7 @@
 /// StepTime: what a step of the viewer cost its thread, in seconds of processor time: other programs do not count.
 #pragma once
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct StepTime {
     double other = 0;   ///< events, loads, uploads, everything but the frame
@@ -12,4 +12,4 @@ struct StepTime {
 /// Of the calling thread, since it began.
 double threadSeconds();
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// What a traced scene is made of: all but the view.
@@ -54,7 +54,7 @@ Result<reference::ReferenceScene> load(Document const& document, jobs::JobSystem
 /// screen) is not among them, nor is fog, which is traced.
 bool hasPictureEffects(Effects const& effects) {
     return effects.bloom.enabled || effects.lensFlare.enabled || effects.depthOfField.enabled ||
-           effects.motionBlur.enabled || effects.autoExposure.enabled || effects.grading.enabled ||
+           effects.motionBlur.enabled || effects.autoExposure.enabled || effects.colorGrading.enabled ||
            effects.vignette.enabled || effects.grain.enabled || effects.chromaticAberration.enabled ||
            effects.sharpening.enabled;
 }
@@ -105,7 +105,7 @@ void TracedPicture::take() {
     std::optional<TracedView> traced = mReference.takePicture();
     if (!traced || traced->view != mView) return;
     const uint32_t version = mPicture ? mPicture->version + 1 : 1;
-    mPicture = NumberedPicture{ displayPicture(traced->image, mDocument->view.colorGrading), mNumber, version,
+    mPicture = NumberedPicture{ displayPicture(traced->image, mDocument->view.display), mNumber, version,
                                 traced->isFinished };
 }
 
@@ -128,4 +128,4 @@ std::string TracedPicture::name() const {
     }
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

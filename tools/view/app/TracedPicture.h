@@ -12,7 +12,7 @@
 
 #include <memory>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// What the path tracer does not see of a document: one line; empty: nothing.
 std::string untracedParts(Document const& document);
@@ -40,4 +40,4 @@ private:
     std::vector<std::string> mMessages;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// The numbers of GLFW for keys without a character.
@@ -144,4 +144,4 @@ void UiInput::copy(std::string const& text) {
 
 std::string UiInput::pasted() const { return mClipboard.get ? mClipboard.get() : mOwnText; }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -14,7 +14,7 @@
 #include <functional>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The clipboard of a window system. Empty functions: one of this program alone.
 struct Clipboard {
@@ -46,4 +46,4 @@ private:
     mutable std::string mForImGui; ///< until it asks again
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

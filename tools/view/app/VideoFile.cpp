@@ -15,7 +15,7 @@
 #include <string_view>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr auto kLookInterval = std::chrono::milliseconds(5);
@@ -154,4 +154,4 @@ Result<void> makeVideo(VideoRequest const& request, std::function<bool()> const&
                 error.message());
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

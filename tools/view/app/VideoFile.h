@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct VideoRequest {
     std::filesystem::path file;    ///< .mp4, .mov, .mkv or .webm
@@ -34,4 +34,4 @@ std::vector<std::string> videoWords(VideoRequest const& request, std::filesystem
 /// Waits for ffmpeg, and polls `isCancelled` meanwhile.
 Result<void> makeVideo(VideoRequest const& request, std::function<bool()> const& isCancelled = {});
 
-} // namespace filament::view
+} // namespace filament_core::view

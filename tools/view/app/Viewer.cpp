@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <chrono>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint32_t kFramesAfterChange = 3; ///< ImGui settles in two frames, picks and statistics arrive with the next
@@ -190,7 +190,7 @@ void Viewer::frame(Box const& box) {
 void Viewer::toggleParallel() {
     Camera& camera = mDocument.view.camera;
     const double distance = distanceTo(camera, mHands.targetWorld);
-    camera = camera.lens.isParallel() ? asPerspective(camera, kFovDegrees, distance) : asParallel(camera, distance);
+    camera = camera.lens.isOrthographic() ? asPerspective(camera, kFovDegrees, distance) : asParallel(camera, distance);
 }
 
 void Viewer::hideSelection() {
@@ -437,7 +437,7 @@ bool Viewer::step(double seconds) {
 
 bool Viewer::drawIfDue(double seconds) {
     const bool hasWork = mFramesToDraw > 0 || mCompared.isWaiting() || mPanels.fileDialog.isReading();
-    if (!hasWork || isHidden() || !mStage->renderer().mayPresent(mChain)) return false;
+    if (!hasWork || isHidden() || !mStage->renderer().canPresent(mChain)) return false;
     if (mFramesToDraw > 0) --mFramesToDraw;
     draw(seconds);
     if (!isLoading()) ++mCompleteFrames;
@@ -526,4 +526,4 @@ Result<Image> Viewer::screenshot() {
     return mStage->renderer().waitPixels(mStage->renderer().readPixels(mChain));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -32,12 +32,12 @@
 #include "tools/view/ui/UiContext.h"
 #include "tools/view/ui/UiRenderer.h"
 
-#include <filament/DebugDraw.h>
+#include <filament_core/DebugDraw.h>
 
 #include <memory>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Where a viewer draws.
 struct ViewerTarget {
@@ -174,4 +174,4 @@ private:
     bool mRecordsJobs = false; ///< the engine does
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

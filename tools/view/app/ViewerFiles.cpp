@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 PictureFormat pictureFormatOf(FrameKind kind) {
@@ -142,4 +142,4 @@ void Viewer::pollSaving() {
     if (std::exchange(mPanels.inputs.recording, now) != now) touch();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <array>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using tools::invalidOption;
@@ -133,4 +133,4 @@ Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* co
     return std::optional(std::move(options));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

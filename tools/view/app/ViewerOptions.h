@@ -8,15 +8,15 @@
 #include "tools/view/app/ComparedPictures.h"
 #include "tools/view/app/PathFrames.h"
 
-#include <filament/Backend.h>
-#include <filament/NativeWindow.h>
+#include <filament_core/Backend.h>
+#include <filament_core/NativeWindow.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct ViewerOptions : tools::SceneOptions {
     Backend backend = Backend::Vulkan;
@@ -40,4 +40,4 @@ struct ViewerOptions : tools::SceneOptions {
 /// No value: the help text was requested and has been printed.
 Result<std::optional<ViewerOptions>> parseViewerOptions(int argc, const char* const* argv);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #define GLFW_EXPOSE_NATIVE_X11
 #include <GLFW/glfw3native.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Window& ownerOf(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
@@ -143,4 +143,4 @@ void Window::setFullScreen(bool isFullScreen) {
     glfwSetWindowMonitor(mWindow, monitor, 0, 0, mode->width, mode->height, GLFW_DONT_CARE);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include "tools/view/app/InputEvent.h"
 #include "tools/view/app/UiInput.h"
 
-#include <filament/NativeWindow.h>
+#include <filament_core/NativeWindow.h>
 
 #include <memory>
 #include <string>
@@ -18,7 +18,7 @@
 
 struct GLFWwindow;
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Window {
 public:
@@ -49,4 +49,4 @@ private:
     int mBefore[4]{}; ///< place and size before it filled the screen
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kPole = std::numbers::pi / 2 - kPoleMargin;
@@ -166,7 +166,7 @@ Camera framedParallel(Camera const& camera, Box const& box, Edges const& edges, 
             std::max((x.most - x.least) / (edges.right - edges.left), (y.most - y.least) / (edges.top - edges.bottom));
     Camera framed = camera;
     if (zoom > 0)
-        framed.lens.parallelMeters = static_cast<float>(static_cast<double>(camera.lens.parallelMeters) * zoom);
+        framed.lens.orthographicHeight = static_cast<float>(static_cast<double>(camera.lens.orthographicHeight) * zoom);
     const double size = std::max(glm::length(box.max - box.min), 1e-6);
     framed.lens.farMeters = std::max(framed.lens.farMeters, static_cast<float>(4 * size) + framed.lens.nearMeters);
     const double3 middle = framed.viewFromPicture({ 0, 0 }, 1, aspect);
@@ -203,10 +203,10 @@ Camera panned(Camera const& camera, double2 from, double2 to, double distanceMet
 
 Camera zoomed(Camera const& camera, double2 picture, double factor, double distanceMeters, double aspect) {
     const double3 held = camera.viewFromPicture(picture, distanceMeters, aspect);
-    if (!camera.lens.isParallel()) return moved(camera, held * (1 - factor));
+    if (!camera.lens.isOrthographic()) return moved(camera, held * (1 - factor));
     Camera zoomed = camera;
-    zoomed.lens.parallelMeters =
-            std::clamp(static_cast<float>(static_cast<double>(camera.lens.parallelMeters) * factor), 1e-6f, 1e12f);
+    zoomed.lens.orthographicHeight =
+            std::clamp(static_cast<float>(static_cast<double>(camera.lens.orthographicHeight) * factor), 1e-6f, 1e12f);
     return moved(zoomed, held - zoomed.viewFromPicture(picture, distanceMeters, aspect));
 }
 
@@ -235,8 +235,8 @@ Camera flown(Camera const& camera, FlyKeys const& keys, FlySpeed const& speed, d
 Camera framed(Camera const& camera, Box const& box, double aspect, double margin) {
     if (box.empty()) return camera;
     const Edges edges = inside(edgesOf(camera, aspect), margin);
-    return camera.lens.isParallel() ? framedParallel(camera, box, edges, aspect)
-                                    : framedPerspective(camera, box, edges);
+    return camera.lens.isOrthographic() ? framedParallel(camera, box, edges, aspect)
+                                        : framedPerspective(camera, box, edges);
 }
 
 Camera framedAlong(Camera const& camera, double3 directionWorld, Box const& box, double aspect, double margin) {
@@ -248,11 +248,11 @@ Camera framedAlong(Camera const& camera, double3 directionWorld, Box const& box,
 }
 
 Camera asParallel(Camera const& camera, double distanceMeters) {
-    if (camera.lens.isParallel()) return camera;
+    if (camera.lens.isOrthographic()) return camera;
     Camera parallel = camera;
     const double height =
             2 * distanceMeters * std::tan(glm::radians(static_cast<double>(camera.lens.verticalFovDegrees)) / 2);
-    parallel.lens.parallelMeters = static_cast<float>(height);
+    parallel.lens.orthographicHeight = static_cast<float>(height);
     parallel.lens.farMeters =
             std::max(camera.lens.farMeters, camera.lens.nearMeters + static_cast<float>(4 * distanceMeters));
     return parallel;
@@ -262,7 +262,7 @@ Camera asPerspective(Camera const& camera, double verticalFovDegrees, double dis
     Camera perspective = camera;
     const double height = camera.viewFromPicture({ 0, -1 }, distanceMeters, 1).y -
                           camera.viewFromPicture({ 0, 1 }, distanceMeters, 1).y;
-    perspective.lens.parallelMeters = 0;
+    perspective.lens.orthographicHeight = 0;
     perspective.lens.verticalFovDegrees = static_cast<float>(verticalFovDegrees);
     perspective.lens.nearMeters = std::max(camera.lens.nearMeters, static_cast<float>(distanceMeters * 1e-4));
     const double distance = height / 2 / std::tan(glm::radians(verticalFovDegrees) / 2);
@@ -275,4 +275,4 @@ Camera withPlaceOf(Camera const& current, Camera const& other) {
     return camera;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

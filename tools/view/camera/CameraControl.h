@@ -10,10 +10,10 @@
 ///   Thread    any.   Fails: never, for finite arguments.
 #pragma once
 
-#include <filament/Box.h>
-#include <filament/Camera.h>
+#include <filament_core/Box.h>
+#include <filament_core/Camera.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The pole is not reached: a view keeps its up. Radians from it.
 inline constexpr double kPoleMargin = 1e-3;
@@ -60,4 +60,4 @@ Camera asPerspective(Camera const& camera, double verticalFovDegrees, double dis
 /// A camera of a file, or a bookmark: where it is and its lens, with the exposure of the current one.
 Camera withPlaceOf(Camera const& current, Camera const& other);
 
-} // namespace filament::view
+} // namespace filament_core::view

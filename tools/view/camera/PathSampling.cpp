@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// What of a camera moves along a curve: position, lens and exposure. Sizes as logarithms; shift as it is.
@@ -35,7 +35,7 @@ Curve curveOf(Camera const& camera) {
              std::log(static_cast<double>(camera.exposure.aperture)),
              std::log(static_cast<double>(camera.exposure.shutterSeconds)),
              std::log(static_cast<double>(camera.exposure.iso)),
-             logOfSize(lens.parallelMeters, 1e-30f) };
+             logOfSize(lens.orthographicHeight, 1e-30f) };
 }
 
 Camera cameraOf(Curve const& curve, glm::dquat const& turn, Camera const& before) {
@@ -45,7 +45,7 @@ Camera cameraOf(Curve const& curve, glm::dquat const& turn, Camera const& before
     camera.worldFromView[3] = double4(curve[0], curve[1], curve[2], 1);
     camera.lens.verticalFovDegrees =
             std::min(static_cast<float>(glm::degrees(2 * std::atan(std::exp(curve[3])))), kWidestDegrees);
-    if (before.lens.isParallel()) camera.lens.parallelMeters = size(curve[kParallel]);
+    if (before.lens.isOrthographic()) camera.lens.orthographicHeight = size(curve[kParallel]);
     if (before.lens.nearMeters > 0) camera.lens.nearMeters = size(curve[4]);
     camera.lens.farMeters = std::max(size(curve[5]), camera.lens.nearMeters * 1.001f + 1e-6f);
     camera.lens.shift = { static_cast<float>(curve[6]), static_cast<float>(curve[7]) };
@@ -126,7 +126,7 @@ Numbers numbersOf(Keys const& keys, int i) { return { curveOf(keys.camera(i)) };
 /// Where the kinds of lens differ, the size of what is seen does not move.
 Numbers differenceTo(Keys const& keys, int from) {
     Numbers difference = numbersOf(keys, from + 1) - numbersOf(keys, from);
-    if (keys.camera(from).lens.isParallel() != keys.camera(from + 1).lens.isParallel())
+    if (keys.camera(from).lens.isOrthographic() != keys.camera(from + 1).lens.isOrthographic())
         difference.values[kParallel] = 0;
     return difference;
 }
@@ -193,4 +193,4 @@ std::vector<double> frameTimes(CameraPath const& path, double framesPerSecond) {
     return times;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 
 #include "tools/view/document/CameraPath.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 double durationOf(CameraPath const& path); ///< from the first key to the last, or back to the first; 0 with one key
 /// `seconds` after the first key. Outside: the first or the last key; a closed path goes round. Without keys: a default
@@ -21,4 +21,4 @@ Camera sampled(CameraPath const& path, double seconds);
 /// The time of each frame: from 0, up to and including the end of an open path.
 std::vector<double> frameTimes(CameraPath const& path, double framesPerSecond);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 uint8_t codeOf(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f); }
@@ -123,4 +123,4 @@ SplitRects splitRects(Wipe const& wipe, uint2 size) {
     return { rectangle(0, line), rectangle(line, side) };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

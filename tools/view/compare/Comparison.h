@@ -9,7 +9,7 @@
 
 #include "toolkit/pictures/ImageCompare.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 using namespace tools; // the toolkit
 
@@ -59,4 +59,4 @@ struct SplitRects {
 };
 SplitRects splitRects(Wipe const& wipe, uint2 size);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kSmallestNormalHalf = 0x1p-14f;
@@ -91,4 +91,4 @@ Image NumericsCheck::marked(Image const& picture) const {
     return result;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

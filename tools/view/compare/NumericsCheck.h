@@ -9,7 +9,7 @@
 
 #include "toolkit/pictures/Pixels.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 using namespace tools; // the toolkit
 
@@ -45,4 +45,4 @@ Result<NumericsCheck> checkNumerics(Image const& picture, float white = 1);
 /// `light`: width * height pixels.
 Result<NumericsCheck> checkNumerics(std::span<const float3> light, uint32_t width, uint32_t height, float white = 1);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,14 +4,14 @@
 #include "backend/api/Format.h"
 #include "toolkit/pictures/Pixels.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <span>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using backend::CapturedAttachment;
@@ -189,4 +189,4 @@ void dropUnseen(InspectedFrame& frame) {
             if (!texelOf(uint2(0), frame.size, sizeOf(attachment))) attachment.bytes = {};
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,8 +10,8 @@
 
 #include "backend/layers/Captured.h"
 
-#include <filament/Image.h>
-#include <filament/Math.h>
+#include <filament_core/Image.h>
+#include <filament_core/Math.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct PixelRow {
     std::string group{};  ///< of a pass, or "picture"
@@ -69,4 +69,4 @@ uint32_t unseenAttachments(InspectedFrame const* own, InspectedFrame const* othe
 /// Forgets the contents of attachments that pixelRows() does not read.
 void dropUnseen(InspectedFrame& frame);
 
-} // namespace filament::view
+} // namespace filament_core::view

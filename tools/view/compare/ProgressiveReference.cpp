@@ -13,7 +13,7 @@
 #include <mutex>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr int kNiceness = 10;
@@ -184,8 +184,8 @@ Image linearPicture(reference::ReferenceImage const& image) {
     return picture;
 }
 
-Image displayPicture(reference::ReferenceImage const& image, ColorGrading const& grading) {
+Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& grading) {
     return { .width = image.width, .height = image.height, .pixels = reference::displayPixels(image, grading) };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

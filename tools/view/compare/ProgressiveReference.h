@@ -14,15 +14,15 @@
 
 #include "tools/reference/Reference.h"
 
-#include <filament/ColorGrading.h>
-#include <filament/Image.h>
+#include <filament_core/DisplayTransform.h>
+#include <filament_core/Image.h>
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Called on the tracing thread. loadScene() of tools/reference/LoadScene.h reads what filament-reference reads.
 using SceneLoader = std::function<Result<reference::ReferenceScene>(jobs::JobSystem&)>;
@@ -69,6 +69,6 @@ private:
 /// Scene-linear RGBA16F, as the engine's target of that format; alpha is 1.
 Image linearPicture(reference::ReferenceImage const& image);
 /// RGBA8, as the engine's tone mapping pass stores it.
-Image displayPicture(reference::ReferenceImage const& image, ColorGrading const& grading);
+Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& grading);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -2,12 +2,12 @@
 /// CameraPath: cameras at times, between which a camera moves. tools/view/camera/PathSampling.h has the motion.
 #pragma once
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct CameraKey {
     double seconds = 0; ///< from the start of the path; finite, more than that of the key before
@@ -24,4 +24,4 @@ struct CameraPath {
 bool operator==(CameraKey const& a, CameraKey const& b);
 bool operator==(CameraPath const& a, CameraPath const& b);
 
-} // namespace filament::view
+} // namespace filament_core::view

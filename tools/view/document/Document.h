@@ -11,11 +11,11 @@
 #include "tools/common/SceneOptions.h"
 #include "tools/view/document/CameraPath.h"
 
-#include <filament/Environment.h>
-#include <filament/Gltf.h>
-#include <filament/Light.h>
-#include <filament/Objects.h>
-#include <filament/View.h>
+#include <filament_core/Environment.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Light.h>
+#include <filament_core/Objects.h>
+#include <filament_core/View.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -26,7 +26,7 @@
 #include <variant>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Of a spot, in radians: its outer cone at most, and the outer one beyond the inner one at least, where a hand sets
 /// them.
@@ -115,7 +115,7 @@ struct Document {
     std::vector<ModelLightEdit> modelLights{}; ///< one of a light
     Playback playback{};
     std::vector<MorphEdit> morphs{}; ///< one of a target
-    /// Without what is not a plain value: `look` and `dirt` below take the place of colorGrading.look and
+    /// Without what is not a plain value: `look` and `dirt` below take the place of display.look and
     /// effects.bloom.dirt, and the caller sets viewport and debugDraw.
     View view{};
     std::filesystem::path look{}; ///< a .cube file; empty: none
@@ -182,4 +182,4 @@ void removeIdleEdits(Document& document);
 /// ends. Two steps give what one of both lengths gives, to rounding.
 Playback advanced(Playback const& playback, double elapsedSeconds, double durationSeconds);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 #include <limits>
 #include <set>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// Keeps the first thing that is wrong, with its place.
@@ -116,7 +116,7 @@ void Checker::unique(std::string const& place, std::vector<T> const& list, std::
 }
 
 void Checker::rules(std::string const& place, Lens const& lens) {
-    if (lens.isParallel())
+    if (lens.isOrthographic())
         expect(lens.farMeters > lens.nearMeters, place + ".farMeters", "expected more than nearMeters");
     else
         expect(lens.nearMeters > 0, place + ".nearMeters", "expected more than 0");
@@ -179,4 +179,4 @@ Result<void> check(CameraPath const& path) {
     return checker.result();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

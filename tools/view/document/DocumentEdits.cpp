@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// The one of them for which `isIt` holds, or a new one.
@@ -82,4 +82,4 @@ Playback advanced(Playback const& playback, double elapsedSeconds, double durati
     return next;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Result<void> saveText(std::filesystem::path const& file, std::string const& text) {
@@ -49,4 +49,4 @@ Result<CameraPath> loadCameraPath(std::filesystem::path const& file) {
     return fail(ErrorCode::NotFound, "'{}' has no camera path; give a file that a viewer saved one in", file.string());
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

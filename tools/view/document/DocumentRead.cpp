@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using tools::Json;
@@ -250,4 +250,4 @@ Result<AnyText> anyFromJson(std::string_view text, std::string_view name) {
     return any(valueOf<Document>(*json, nullptr, name));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

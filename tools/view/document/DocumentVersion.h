@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr size_t kLongestText = size_t{ 64 } << 20; ///< of a document
 
 inline constexpr uint32_t kDocumentVersion = 1;
 
-} // namespace filament::view
+} // namespace filament_core::view

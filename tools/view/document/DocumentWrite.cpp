@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -115,4 +115,4 @@ std::string toJson(CameraPath const& path) {
     return dumped({ { "version", kDocumentVersion }, { "path", membersOf(path) } });
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -2,7 +2,7 @@
 /// Equality of documents and their parts: field by field.
 #include "tools/view/document/Fields.h"
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// All fields of a part are the same.
@@ -12,8 +12,8 @@ struct Same {
         withTextureOfB.bloom.dirt = b.bloom.dirt;
         return withTextureOfB == b;
     }
-    bool operator()(ColorGrading const& a, ColorGrading const& b) const {
-        ColorGrading withLookOfB = a; // Document::look names the file
+    bool operator()(DisplayTransform const& a, DisplayTransform const& b) const {
+        DisplayTransform withLookOfB = a; // Document::look names the file
         withLookOfB.look = b.look;
         return withLookOfB == b;
     }
@@ -66,4 +66,4 @@ bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b) { retur
 bool isEqual(Camera const& a, Camera const& b) { return Same()(a, b); }
 bool isEqual(AnyLight const& a, AnyLight const& b) { return Same()(a, b); }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -3,10 +3,10 @@
 
 #include "base/Result.h"
 
-#include <filament/Material.h>
+#include <filament_core/Material.h>
 
-namespace filament::view {
+namespace filament_core::view {
 // ParameterValue and ParameterType list the same types in the same order.
 const char* parameterTypeName(size_t index) { return toString(static_cast<ParameterType>(index)); }
 
-} // namespace filament::view
+} // namespace filament_core::view

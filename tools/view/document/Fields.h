@@ -2,7 +2,7 @@
 /// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of
 /// them: comparing, writing, reading, checking, and tests that change each one.
 ///   Complete  a member that is added to a struct and not listed here does not compile: isComplete().
-///   Texts     Quality, Effects and ColorGrading have names and texts of their own (optionsOf<Quality>() and so on).
+///   Texts     Quality, Effects and DisplayTransform have names and texts of their own (optionsOf<Quality>() and so on).
 #pragma once
 
 #include "tools/view/document/Document.h"
@@ -11,7 +11,7 @@
 #include <tuple>
 #include <type_traits>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Beyond what a float holds, so no limit at all.
 inline constexpr double kAnyNumber = 1e300, kFinite = 3e38;
@@ -86,7 +86,7 @@ template <> struct Fields<Exposure> {
 template <> struct Fields<Lens> {
     static constexpr auto list = std::tuple{ field("verticalFovDegrees", &Lens::verticalFovDegrees, 1e-4, 179.9),
                                              field("nearMeters", &Lens::nearMeters, 0, kFinite),
-                                             field("parallelMeters", &Lens::parallelMeters, 0, kFinite),
+                                             field("orthographicHeight", &Lens::orthographicHeight, 0, kFinite),
                                              field("farMeters", &Lens::farMeters, 0, kFinite),
                                              field("shift", &Lens::shift, -1e6, 1e6),
                                              field("aspect", &Lens::aspect, 0, 1e6) };
@@ -99,7 +99,7 @@ template <> struct Fields<Camera> {
 };
 template <> struct Fields<View> {
     static constexpr auto list = std::tuple{ field("camera", &View::camera), field("size", &View::size, 1, 16384),
-                                             field("colorGrading", &View::colorGrading),
+                                             field("display", &View::display),
         field("quality", &View::quality),
                                              field("effects", &View::effects),
                                              field("clearColor", &View::clearColor, -kFinite, kFinite),
@@ -322,7 +322,7 @@ concept IsNamed = std::is_enum_v<T>;
 
 /// Has texts for each of its options.
 template <class T>
-concept IsOptions = std::is_same_v<T, Quality> || std::is_same_v<T, Effects> || std::is_same_v<T, ColorGrading>;
+concept IsOptions = std::is_same_v<T, Quality> || std::is_same_v<T, Effects> || std::is_same_v<T, DisplayTransform>;
 
 template <class T>
 struct IsListType : std::false_type {};
@@ -364,4 +364,4 @@ inline constexpr std::array<const char*, std::variant_size_v<AnyLight>> kLightKi
 /// Of an alternative of ParameterValue: "float3".
 const char* parameterTypeName(size_t index);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/document/Document.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 Document makeDocument(tools::SceneOptions const& options, std::filesystem::path const& model,
                       std::filesystem::path const& environment) {
@@ -13,11 +13,11 @@ Document makeDocument(tools::SceneOptions const& options, std::filesystem::path 
                              .settings = { .illuminance = options.iblIntensity, .skybox = options.skybox } };
     document.view = options.view;
     document.view.camera = tools::cameraOf(options);
-    document.view.colorGrading.look = nullptr;
+    document.view.display.look = nullptr;
     document.look = options.lookFile;
     document.dirt = options.dirt;
     if (options.sun) document.lights.push_back({ .name = "sun", .light = *options.sun });
     return document;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

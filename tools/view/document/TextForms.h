@@ -9,7 +9,7 @@
 
 #include <variant>
 
-namespace filament::view {
+namespace filament_core::view {
 
 std::string toJson(Camera const& camera);
 std::string toJson(CameraPath const& path);
@@ -28,4 +28,4 @@ Result<void> saveCameraPath(std::filesystem::path const& file, CameraPath const&
 /// The path of a file, or the first one of a document. NotFound: the document has none.
 Result<CameraPath> loadCameraPath(std::filesystem::path const& file);
 
-} // namespace filament::view
+} // namespace filament_core::view

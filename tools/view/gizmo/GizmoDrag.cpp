@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kLeastStepPixels = 8;
@@ -145,4 +145,4 @@ double3x3 shortestRotation(double3 from, double3 to) {
     return glm::mat3_cast(glm::normalize(glm::dquat(1 + cosine, axis.x, axis.y, axis.z)));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 
 #include "tools/view/gizmo/GizmoHandles.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr double kLeastScale = 0.01, kMostScale = 100;
 
@@ -45,4 +45,4 @@ double4x4 rotationAbout(double3 pointWorld, double3 axis, double radians);
 /// The shortest rotation from one direction of length 1 to another one.
 double3x3 shortestRotation(double3 from, double3 to);
 
-} // namespace filament::view
+} // namespace filament_core::view

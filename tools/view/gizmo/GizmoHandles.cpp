@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 // Shares of the length of an arrow.
@@ -206,7 +206,7 @@ GizmoPart partAt(std::vector<Handle> const& handles, double2 pixel, double scale
 }
 
 void addLine(Handle& handle, PictureView const& view, double3 fromWorld, double3 toWorld) {
-    if (!view.camera.lens.isParallel()) {
+    if (!view.camera.lens.isOrthographic()) {
         const double from = depthOf(view, fromWorld), to = depthOf(view, toWorld);
         const double least = static_cast<double>(view.camera.lens.nearMeters);
         if (!(std::max(from, to) > least)) return;
@@ -232,4 +232,4 @@ void addDot(Handle& handle, PictureView const& view, double3 atWorld, double pix
                     *at + double2(-half, half) };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 enum class GizmoMode : uint8_t { Off, Move, Rotate, Scale };
 enum class GizmoAxes : uint8_t { Local, World };
@@ -74,4 +74,4 @@ void addCircle(Handle& handle, PictureView const& view, double3 centerWorld, dou
 /// A square of so many pixels, if the point is in front of the eye.
 void addDot(Handle& handle, PictureView const& view, double3 atWorld, double pixels);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kDotPixels = 11;
@@ -231,4 +231,4 @@ AnyLight draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps
     return result;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/gizmo/GizmoDrag.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct GizmoLight {
     AnyLight light = PointLight{};
@@ -29,4 +29,4 @@ std::vector<Handle> lightHandles(GizmoLight const& light, GizmoFrame const& fram
 /// The light after a drag of any of its handles. Parts that it does not have leave it alone.
 AnyLight draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps, GizmoLight const& light);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kParallel = 1e-9; // sine of the angle between a ray and a line or a plane that it never meets
@@ -36,9 +36,9 @@ double3 someDirectionAcross(double3 direction) {
 PictureRay rayThrough(PictureView const& view, double2 pixel) {
     const double2 picture = pictureFromPixel(pixel, view.size);
     const double3 at = inWorld(view.camera, view.camera.viewFromPicture(picture, 1, view.aspect()));
-    if (view.camera.lens.isParallel()) {
+    if (view.camera.lens.isOrthographic()) {
         const double3 forward = -double3(view.camera.worldFromView[2]);
-        return { at - forward, forward, static_cast<double>(view.camera.lens.parallelMeters) };
+        return { at - forward, forward, static_cast<double>(view.camera.lens.orthographicHeight) };
     }
     return { view.camera.position(), glm::normalize(at - view.camera.position()) };
 }
@@ -47,7 +47,7 @@ double depthOf(PictureView const& view, double3 pointWorld) { return -inView(vie
 
 std::optional<double2> pixelOf(PictureView const& view, double3 pointWorld) {
     const double3 point = inView(view.camera, pointWorld);
-    if (!view.camera.lens.isParallel() && !(point.z < 0)) return std::nullopt;
+    if (!view.camera.lens.isOrthographic() && !(point.z < 0)) return std::nullopt;
     const double3 upperLeft = view.camera.viewFromPicture({ -1, -1 }, -point.z, view.aspect());
     const double3 lowerRight = view.camera.viewFromPicture({ 1, 1 }, -point.z, view.aspect());
     const double2 share = double2(point - upperLeft) / double2(lowerRight - upperLeft);
@@ -55,7 +55,7 @@ std::optional<double2> pixelOf(PictureView const& view, double3 pointWorld) {
 }
 
 double metersPerPixel(PictureView const& view, double3 pointWorld) {
-    const double depth = view.camera.lens.isParallel() ? 1 : std::max(depthOf(view, pointWorld), 1e-9);
+    const double depth = view.camera.lens.isOrthographic() ? 1 : std::max(depthOf(view, pointWorld), 1e-9);
     const double3 top = view.camera.viewFromPicture({ 0, -1 }, depth, view.aspect());
     const double3 bottom = view.camera.viewFromPicture({ 0, 1 }, depth, view.aspect());
     return (top.y - bottom.y) / view.size.y;
@@ -63,7 +63,7 @@ double metersPerPixel(PictureView const& view, double3 pointWorld) {
 
 double3 towardsEye(PictureView const& view, double3 pointWorld) {
     const double3 back = double3(view.camera.worldFromView[2]);
-    if (view.camera.lens.isParallel()) return back;
+    if (view.camera.lens.isOrthographic()) return back;
     const double3 way = view.camera.position() - pointWorld;
     return glm::length(way) > 0 ? glm::normalize(way) : back;
 }
@@ -108,4 +108,4 @@ double3 onSphere(PictureRay const& ray, double3 centerWorld, double radiusMeters
     return centerWorld + point * (radiusMeters / std::max(glm::length(point), 1e-300));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

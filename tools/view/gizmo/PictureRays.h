@@ -8,11 +8,11 @@
 ///   Thread   any; pure functions.   Fails: never, for finite arguments.
 #pragma once
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr double kFarthest = 100;
 
@@ -47,4 +47,4 @@ double3 onPlane(PictureRay const& ray, double3 pointWorld, double3 normal);
 /// as far behind the outline as they are beside it, so that a drag reaches all of it.
 double3 onSphere(PictureRay const& ray, double3 centerWorld, double radiusMeters, bool isNearSide);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 
 std::vector<AnimationRow> animationRows(Stage const& stage) {
     std::vector<AnimationRow> rows;
@@ -63,4 +63,4 @@ void resetMorph(Document& document, std::string_view target) {
     std::erase_if(document.morphs, [&](MorphEdit const& edit) { return edit.target == target; });
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

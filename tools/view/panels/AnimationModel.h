@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Stage;
 
@@ -38,4 +38,4 @@ struct MorphRow {
 std::vector<MorphRow> morphRows(Stage const& stage, Document const& document);
 void resetMorph(Document& document, std::string_view target);
 
-} // namespace filament::view
+} // namespace filament_core::view

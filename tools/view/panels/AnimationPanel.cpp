@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawPlayback(PanelFrame& frame, std::vector<AnimationRow> const& animations) {
@@ -74,4 +74,4 @@ void drawAnimationPanel(PanelFrame& frame) {
     ImGui::PopItemWidth();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

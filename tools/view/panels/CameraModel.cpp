@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 
 Exposure withEv100(Exposure const& exposure, float ev100) {
     Exposure changed = exposure;
@@ -46,4 +46,4 @@ CameraHeading headingOf(Camera const& camera) {
              .pitchDegrees = glm::degrees(std::asin(std::clamp(forward.y, -1.0, 1.0))) };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,14 +5,14 @@
 
 #include "tools/view/document/Document.h"
 
-#include <filament/Camera.h>
-#include <filament/ModelCopy.h>
+#include <filament_core/Camera.h>
+#include <filament_core/ModelCopy.h>
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The same aperture and ISO; the shutter gives the exposure value: t = N^2 / S * 100 / 2^EV100 (Exposure::ev100()).
 Exposure withEv100(Exposure const& exposure, float ev100);
@@ -30,4 +30,4 @@ struct CameraHeading {
 };
 CameraHeading headingOf(Camera const& camera);
 
-} // namespace filament::view
+} // namespace filament_core::view

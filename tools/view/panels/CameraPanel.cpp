@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawLens(Camera& camera) {
@@ -17,8 +17,8 @@ void drawLens(Camera& camera) {
     const CameraHeading heading = headingOf(camera);
     quietText(
             fmt::format("looks {:.1f} degrees to the right, {:.1f} upwards", heading.yawDegrees, heading.pitchDegrees));
-    if (camera.lens.isParallel()) {
-        numberField("height, m", camera.lens.parallelMeters, 1e-3f, 1e4f, true);
+    if (camera.lens.isOrthographic()) {
+        numberField("height, m", camera.lens.orthographicHeight, 1e-3f, 1e4f, true);
         numberField("far plane, m", camera.lens.farMeters, camera.lens.nearMeters * 1.01f + 1e-3f, 1e6f, true);
     } else {
         numberField("view, degrees", camera.lens.verticalFovDegrees, 1, 170);
@@ -92,4 +92,4 @@ void drawCameraPanel(PanelFrame& frame) {
     ImGui::PopID();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

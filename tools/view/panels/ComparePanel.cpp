@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawState(PanelFrame& frame) {
@@ -54,4 +54,4 @@ void drawComparePanel(PanelFrame& frame) {
     drawOffered(frame);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

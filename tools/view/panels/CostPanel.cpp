@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr ImU32 kPointColor = IM_COL32(120, 170, 230, 255), kFrontColor = IM_COL32(255, 210, 120, 255),
@@ -139,4 +139,4 @@ void drawCostPanel(PanelFrame& frame) {
     drawBestList(frame, front);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kMargin = 0.06;  // of the range of the points
@@ -130,4 +130,4 @@ std::string describe(std::span<const MeasuredSetting> points, size_t index) {
     return text;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

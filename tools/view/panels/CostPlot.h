@@ -7,8 +7,8 @@
 ///   Thread   any; values.   Fails: never.
 #pragma once
 
-#include <filament/Math.h>
-#include <filament/View.h>
+#include <filament_core/Math.h>
+#include <filament_core/View.h>
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct QualitySetting {
     std::string name{}; ///< "shadows=pcf5", "samples=4", "preset high", "as it is": the label of the point
@@ -77,4 +77,4 @@ std::optional<size_t> nearestPoint(std::span<const MeasuredSetting> points, Plot
 /// Two lines: name, time and error; then the differences from the first point.
 std::string describe(std::span<const MeasuredSetting> points, size_t index);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawDecision(EffectDecision const& decision) {
@@ -50,4 +50,4 @@ void drawDemandPanel(PanelFrame& frame) {
     ImGui::EndTable();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

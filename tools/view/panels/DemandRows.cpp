@@ -3,7 +3,7 @@
 
 #include "tools/view/panels/PanelText.h"
 
-namespace filament::view {
+namespace filament_core::view {
 
 std::vector<EffectDecision const*> demandRows(std::vector<EffectDecision> const& decisions,
                                               DemandFilter const& filter) {
@@ -27,4 +27,4 @@ DemandTotals totalsOf(std::vector<EffectDecision> const& decisions) {
     return totals;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

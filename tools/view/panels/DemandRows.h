@@ -3,13 +3,13 @@
 ///   Thread  any; values.
 #pragma once
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cstdint>
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline bool isPass(EffectDecision const& decision) { return decision.state >= EffectDecision::State::Ran; }
 inline bool isActive(EffectDecision const& decision) {
@@ -32,4 +32,4 @@ struct DemandTotals {
 };
 DemandTotals totalsOf(std::vector<EffectDecision> const& decisions);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include <imgui_stdlib.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kDegreesOfRadian = 57.29577951f, kMostLux = 1e6f;
@@ -33,4 +33,4 @@ void drawEnvironmentPanel(PanelFrame& frame) {
     ImGui::PopItemWidth();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

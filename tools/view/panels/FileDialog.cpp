@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using namespace std::string_view_literals;
@@ -151,7 +151,7 @@ void FileDialog::walk() {
     mHasMoved |= mSelected != before;
 }
 
-void FileDialog::drawPlace() {
+void FileDialog::drawOrder() {
     if (ImGui::ArrowButton("above", ImGuiDir_Up)) goTo(mFolder.parent_path());
     ImGui::SameLine();
     std::string place = shownName(mFolder.string());
@@ -249,7 +249,7 @@ void FileDialog::draw() {
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize;
     bool staysOpen = true;
     if (ImGui::Begin(titleOf(mPurpose), &staysOpen, kFlags)) {
-        drawPlace();
+        drawOrder();
         drawRecent();
         updateShown(); // of the folder that these two may have left
         const bool hasKeys = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
@@ -271,4 +271,4 @@ void FileDialog::draw() {
     if (!staysOpen) close();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

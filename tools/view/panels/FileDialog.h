@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 enum class FilePurpose : uint8_t { Open, OpenPath, SavePath, SavePicture };
 bool isSaving(FilePurpose purpose);
@@ -65,7 +65,7 @@ private:
     void poll();
     void follow(Typed const& typed);
     void updateShown();
-    void drawPlace();
+    void drawOrder();
     void drawRecent();
     void drawEntries();
     std::optional<size_t> drawRow(size_t row); ///< `row` if it was clicked twice
@@ -95,4 +95,4 @@ private:
     std::optional<ChosenFile> mChosen{};
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <cctype>
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -114,4 +114,4 @@ std::string shownName(std::string_view name) {
     return shown;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

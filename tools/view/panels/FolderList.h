@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr size_t kMostEntries = 10'000;
 
@@ -49,4 +49,4 @@ std::vector<size_t> matching(std::vector<FolderEntry> const& entries, std::strin
 /// A name as text that can be drawn: bytes that are no UTF-8, and control characters, become '?'.
 std::string shownName(std::string_view name);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr std::array kNumberNames{ "frame",     "prepare", "record", "replay", "device", "latency",      "draws",
@@ -103,4 +103,4 @@ Timeline timelineOf(std::span<const FrameTimings> timings) {
     return timeline;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 ///   Memory  the last kFrames frames, in place.   Thread: one.
 #pragma once
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Rows of the statistics panel.
 enum class FrameNumber : uint8_t {
@@ -87,4 +87,4 @@ struct Timeline {
 /// load of the workers) is shown from the beginning of what caused it.
 Timeline timelineOf(std::span<const FrameTimings> timings);
 
-} // namespace filament::view
+} // namespace filament_core::view

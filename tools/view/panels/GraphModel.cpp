@@ -8,7 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// "p12", "t3" or "b0": a pass, a texture or a buffer.
@@ -137,4 +137,4 @@ FrameGraphModel graphOf(std::string_view graphviz, std::vector<EffectDecision> c
     return graph;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

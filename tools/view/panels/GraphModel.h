@@ -7,14 +7,14 @@
 ///   Thread  any; values.   Cost: proportional to the text.
 #pragma once
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct GraphBox {
     std::string name{};
@@ -38,4 +38,4 @@ struct FrameGraphModel {
 
 FrameGraphModel graphOf(std::string_view graphviz, std::vector<EffectDecision> const& decisions);
 
-} // namespace filament::view
+} // namespace filament_core::view

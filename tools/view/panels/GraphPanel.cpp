@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// The frame goes from top to bottom: columns of the model are rows of the panel.
@@ -111,4 +111,4 @@ void drawGraphPanel(PanelFrame& frame) {
     ImGui::EndChild();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <tuple>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// Of the lanes, from the top: the order of a frame.
@@ -131,4 +131,4 @@ TimeWindow panned(TimeWindow const& window, double seconds, TimeWindow const& wh
     return within({ window.begin + seconds, window.end + seconds }, whole);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

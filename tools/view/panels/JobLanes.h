@@ -7,7 +7,7 @@
 ///   Thread  any; values.   Fails: never.   Cost: layOutJobs(): spans times rows; visibleBars(): spans of the lane.
 #pragma once
 
-#include <filament/JobTimeline.h>
+#include <filament_core/JobTimeline.h>
 
 #include <cstdint>
 #include <optional>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Empty: end <= begin.
 struct TimeWindow {
@@ -66,4 +66,4 @@ TimeWindow zoomed(TimeWindow const& window, double at, double factor, TimeWindow
 TimeWindow panned(TimeWindow const& window, double seconds, TimeWindow const& whole);
 inline constexpr double kShortestWindow = 1e-6;
 
-} // namespace filament::view
+} // namespace filament_core::view

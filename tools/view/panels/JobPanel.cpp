@@ -10,7 +10,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint32_t kFramesShown = 3;
@@ -131,4 +131,4 @@ void drawJobTimeline(PanelFrame& frame) {
     ImGui::EndChild();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void keep(std::deque<double>& history, double value) {
@@ -57,4 +57,4 @@ void LatencyMeter::reset() {
 
 bool LatencyMeter::isWaiting(double now) const { return mSent > mSeen && now - mLastSent < kLostSeconds; }
 
-} // namespace filament::view
+} // namespace filament_core::view

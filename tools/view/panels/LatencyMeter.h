@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Over the history. No frames: all is 0.
 struct Percentiles {
@@ -61,4 +61,4 @@ private:
     std::deque<double> mMilliseconds, mInFlight;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/LightFields.h"
 
-#include <filament/Options.h>
+#include <filament_core/Options.h>
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <array>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr std::array<std::string_view, kLightKinds> kKindNames{ "sun", "point", "spot", "rectangle", "disc", "tube" };
@@ -166,4 +166,4 @@ AnyLight withKind(AnyLight const& light, size_t kind) {
     return after;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include "tools/view/document/Document.h"
 
-#include <filament/Camera.h>
+#include <filament_core/Camera.h>
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 enum class LightFieldKind : uint8_t {
     Number,
@@ -46,4 +46,4 @@ DocumentLight& copyLight(Document& document, size_t light);
 /// Another kind of light in its place, with what both kinds have: place, direction, colour, range, shadows, channels.
 AnyLight withKind(AnyLight const& light, size_t kind);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 bool drawChannels(LightChannels& channels) {
@@ -153,4 +153,4 @@ void drawLightPanel(PanelFrame& frame) {
         frame.state.selectedLight.reset();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <system_error>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 std::string reportOf(std::filesystem::path const& file) {
@@ -46,4 +46,4 @@ void MaterialCost::follow(std::filesystem::path const& file) {
     mPending = std::async(std::launch::async, reportOf, file);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 #include <future>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class MaterialCost {
 public:
@@ -32,4 +32,4 @@ private:
     std::string mText{};
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawMaterialList(PanelFrame& frame, std::vector<MaterialRow> const& rows) {
@@ -143,4 +143,4 @@ void drawMaterialPanel(PanelFrame& frame) {
     }
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

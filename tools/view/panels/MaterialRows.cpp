@@ -12,7 +12,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 template <class T>
@@ -143,4 +143,4 @@ ParameterValue withComponents(ParameterValue const& value, std::vector<double> c
     return changed;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,15 +6,15 @@
 
 #include "tools/view/document/Document.h"
 
-#include <filament/Engine.h>
-#include <filament/Material.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Material.h>
 
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Stage;
 
@@ -60,4 +60,4 @@ std::string describeMaterial(MaterialDescription const& description);
 std::vector<double> componentsOf(ParameterValue const& value);
 ParameterValue withComponents(ParameterValue const& value, std::vector<double> const& components);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr double kSmallestCosine = 1e-9; // of the angle about x: below, y and z are one angle
@@ -89,4 +89,4 @@ double4x4 scaled(double4x4 const& matrix, double3 scale) {
     return changed;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

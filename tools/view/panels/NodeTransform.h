@@ -7,9 +7,9 @@
 ///   Thread  any; pure.   Fails: never. What is not finite stays so.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct NodeTransform {
     double3 translation{ 0 };
@@ -25,4 +25,4 @@ double4x4 turned(double4x4 const& matrix, double3 degrees);
 /// An axis of length 0 becomes that of the rotation that the others have.
 double4x4 scaled(double4x4 const& matrix, double3 scale);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kFewestFrames = 4;
@@ -73,4 +73,4 @@ std::optional<double> ChangeMeter::medianMilliseconds() const {
     return mFrames.size() < kFewestFrames ? std::nullopt : std::optional(median(mFrames));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

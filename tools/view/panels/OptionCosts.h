@@ -4,7 +4,7 @@
 ///   Thread  any; plain values.
 #pragma once
 
-#include <filament/QualityCosts.h>
+#include <filament_core/QualityCosts.h>
 
 #include <cstddef>
 #include <optional>
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct ValueCost {
     double milliseconds = 0; ///< a frame with the value less one with the current value
@@ -59,4 +59,4 @@ private:
     std::vector<MeasuredChange> mChanges{};
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

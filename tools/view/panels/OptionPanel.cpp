@@ -2,14 +2,14 @@
 #include "tools/view/panels/PanelFrame.h"
 #include "tools/view/panels/PanelText.h"
 
-#include <filament/RenderPreset.h>
+#include <filament_core/RenderPreset.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// "-0.31 ms, error 1.2 %" or "".
@@ -160,4 +160,4 @@ void drawOptionPanel(PanelFrame& frame) {
     ImGui::EndChild();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 template <class T>
@@ -21,10 +21,10 @@ bool isOptionOf(Option const& option) {
 std::vector<OptionGroup> makeOptionGroups() {
     std::vector<OptionGroup> groups{ { "image", {} }, { "quality", {} }, { "effects", {} }, { "color grading", {} } };
     for (Option const& option : optionsOf<View>()) {
-        const size_t group = isOptionOf<Quality>(option)        ? 1
-                             : isOptionOf<Effects>(option)      ? 2
-                             : isOptionOf<ColorGrading>(option) ? 3
-                                                                : 0;
+        const size_t group = isOptionOf<Quality>(option)            ? 1
+                             : isOptionOf<Effects>(option)          ? 2
+                             : isOptionOf<DisplayTransform>(option) ? 3
+                                                                    : 0;
         groups[group].options.push_back(&option);
     }
     return groups;
@@ -60,4 +60,4 @@ std::string optionText(Option const& option, std::span<const float> numbers) {
     return text;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

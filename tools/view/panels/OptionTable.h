@@ -3,14 +3,14 @@
 ///   Thread   any.   Memory: pointers to the engine's tables.
 #pragma once
 
-#include <filament/View.h>
+#include <filament_core/View.h>
 
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct OptionGroup {
     const char* title;
@@ -30,4 +30,4 @@ std::string defaultValue(Option const& option);
 std::vector<float> optionNumbers(Option const& option, std::string_view value);
 std::string optionText(Option const& option, std::span<const float> numbers);
 
-} // namespace filament::view
+} // namespace filament_core::view

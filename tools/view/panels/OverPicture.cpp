@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 void drawShortcutRow(std::string const& keys, std::string_view help) {
@@ -61,4 +61,4 @@ void drawLoadProgress(PanelFrame& frame, PanelRect const& picture) {
     ImGui::End();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct PanelFrame {
     Document& document;
@@ -65,4 +65,4 @@ bool numberField(const char* label, float& value, float least, float most, bool 
 bool vectorField(const char* label, double3& value, float step);
 void tooltip(std::string const& text);
 
-} // namespace filament::view
+} // namespace filament_core::view

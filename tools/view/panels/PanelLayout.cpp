@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 
 PanelLayout layOutPanels(uint2 size, float scale, bool showsPanels) {
     const float2 whole(size);
@@ -21,4 +21,4 @@ PanelLayout layOutPanels(uint2 size, float scale, bool showsPanels) {
              .picture = { .position = { left, 0 }, .size = { whole.x - left - right, whole.y } } };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,9 +6,9 @@
 ///   Thread  any; pure.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr float kLeftColumn = 330, kRightColumn = 400, kLeastColumn = 180;
 inline constexpr float kLeftShare = 0.55f; ///< of the left column's height: the tree; the rest: what is selected
@@ -25,4 +25,4 @@ struct PanelLayout {
 
 PanelLayout layOutPanels(uint2 size, float scale, bool showsPanels = true);
 
-} // namespace filament::view
+} // namespace filament_core::view

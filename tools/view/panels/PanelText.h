@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Whether every word of the filter occurs in the text, in any order and any case (of ASCII). An empty filter: yes.
 bool matchesFilter(std::string_view text, std::string_view filter);
@@ -16,4 +16,4 @@ std::string millisecondsText(double milliseconds); ///< "12.3 ms", "0.012 ms"; "
 std::string differenceText(double milliseconds);   ///< with its sign: "+1.25 ms"
 std::string bytesText(uint64_t bytes);             ///< "512 B", "1.50 MB" of 10^6 B, as Renderer::explain() counts
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kWidestSlider = 400; // of what can be aimed at with a slider
@@ -40,4 +40,4 @@ void tooltip(std::string const& text) {
     if (!text.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

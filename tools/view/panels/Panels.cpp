@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kMostMessages = 50;
@@ -90,4 +90,4 @@ void Panels::collect(Stage& stage) {
     mHistory.addStatistics(stage.renderer().statistics(), stage.engine().statistics().deviceBytes);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -28,7 +28,7 @@
 #include "tools/view/panels/SceneTree.h"
 #include "tools/view/panels/Shortcuts.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cstdint>
 #include <optional>
@@ -36,7 +36,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Stage;
 
@@ -139,4 +139,4 @@ private:
     std::optional<uint64_t> mGeneration{};
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

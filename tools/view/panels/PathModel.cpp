@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 CameraPath* pathOf(Document& document, PathState& state) {
@@ -146,4 +146,4 @@ bool playPath(Document& document, PathState& state, double elapsedSeconds) {
     return true;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr double kKeySeconds = 2;         ///< between a key and the one that is added after it
 inline constexpr double kLeastKeySeconds = 1e-3; ///< between two keys
@@ -65,4 +65,4 @@ void togglePathPlaying(Document& document, PathState& state);     ///< from the 
 /// Time advances, if it plays: an open path stops at its end, a closed one loops. False: nothing moves.
 bool playPath(Document& document, PathState& state, double elapsedSeconds);
 
-} // namespace filament::view
+} // namespace filament_core::view

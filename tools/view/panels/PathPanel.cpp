@@ -7,7 +7,7 @@
 
 #include <imgui_stdlib.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kLongestClosing = 600; // seconds
@@ -157,4 +157,4 @@ void drawPathPanel(PanelFrame& frame) {
     if (durationOf(path) > 0) drawRecording(frame);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 const ImVec4 kDifferingColor{ 1, 0.35f, 0.3f, 1 };
@@ -77,4 +77,4 @@ void drawPixelPanel(PanelFrame& frame) {
     drawRows(report);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 std::string contentsOf(SceneNode const& node) {
@@ -92,4 +92,4 @@ void drawScenePanel(PanelFrame& frame) {
     ImGui::PopItemWidth();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

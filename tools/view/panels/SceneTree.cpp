@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 NodeEdit const* editOf(Document const& document, uint32_t node) {
@@ -162,4 +162,4 @@ void resetNodeTransform(Document& document, uint32_t node) {
     removeIdleEdits(document);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

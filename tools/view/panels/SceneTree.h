@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Stage;
 
@@ -56,4 +56,4 @@ void showAll(Document& document);
 void setNodeTransform(Document& document, uint32_t node, double4x4 const& parentFromNode);
 void resetNodeTransform(Document& document, uint32_t node);
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using enum KeyModifiers;
@@ -101,4 +101,4 @@ std::string labelOf(Shortcut const& shortcut) {
     return label + keyLabel(shortcut.key);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The values of printable keys are their ASCII codes in upper case, as those of GLFW's tokens.
 enum class Key : uint16_t {
@@ -126,4 +126,4 @@ struct MouseHelp {
 };
 std::span<const MouseHelp> mouseHelp();
 
-} // namespace filament::view
+} // namespace filament_core::view

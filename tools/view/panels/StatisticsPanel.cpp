@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 std::string valueText(FrameNumber number, float value) {
@@ -65,4 +65,4 @@ void drawMessagePanel(PanelFrame& frame) {
     ImGui::EndChild();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

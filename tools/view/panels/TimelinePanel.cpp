@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr std::array kLanes{ TimelineLane::App, TimelineLane::Driver, TimelineLane::Device, TimelineLane::Workers };
@@ -75,4 +75,4 @@ void drawTimelinePanel(PanelFrame& frame) {
         quietText(fmt::format("{:8} {}", nameOf(number), millisecondsText(frame.history.latest(number))));
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

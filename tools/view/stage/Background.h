@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 template <class T>
 class Background {
@@ -62,4 +62,4 @@ private:
     std::vector<std::function<bool()>> mRest;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

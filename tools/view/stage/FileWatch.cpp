@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ std::vector<fs::path> FileWatch::changed() {
     return changed;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

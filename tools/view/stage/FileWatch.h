@@ -10,7 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The file and those that it names: buffers and images of a .gltf, includes of a .mat. In any order; what cannot be
 /// read names none.
@@ -38,4 +38,4 @@ private:
     std::map<std::filesystem::path, Watched> mFiles;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 
 #include <cstring>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 template <class T>
@@ -177,4 +177,4 @@ Result<Owned<Texture>> DirtLoad::take(Engine& engine) {
     return tools::makePictureTexture(engine, *picture, mFile);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,9 +11,9 @@
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Background.h"
 
-#include <filament/Engine.h>
-#include <filament/LoadTicket.h>
-#include <filament/Look.h>
+#include <filament_core/Engine.h>
+#include <filament_core/LoadTicket.h>
+#include <filament_core/Look.h>
 
 #include <filesystem>
 #include <memory>
@@ -23,7 +23,7 @@
 #include <variant>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// The value of a parameter of an instance, as it is now.
 Result<ParameterValue> parameterOf(Engine& engine, MaterialInstance instance, std::string_view parameter);
@@ -165,4 +165,4 @@ private:
     std::optional<typename Load::Value> mValue;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Result<Owned<Texture>> textureOn(Engine& engine, Image const& image, std::filesystem::path const& file) {
@@ -80,4 +80,4 @@ std::optional<std::filesystem::path> LoadedTextures::firstLoading() const {
     return std::nullopt;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,8 +10,8 @@
 #include "tools/view/stage/Background.h"
 #include "tools/view/stage/Messages.h"
 
-#include <filament/Engine.h>
-#include <filament/Image.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Image.h>
 
 #include <map>
 #include <optional>
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class LoadedTextures {
 public:
@@ -50,4 +50,4 @@ private:
     std::vector<Owned<Texture>> mRetired;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Messages {
 public:
@@ -29,4 +29,4 @@ private:
     std::set<std::string> mKnown;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,14 +4,14 @@
 #include "tools/view/stage/FileWatch.h"
 #include "tools/view/stage/StagedScene.h"
 
-#include <filament/LightProfile.h>
+#include <filament_core/LightProfile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -292,7 +292,7 @@ void Stage::Impl::light() {
 
 void Stage::Impl::updateView() {
     view = document.view;
-    view.colorGrading.look = lookFile.value() ? *lookFile.value() : nullptr;
+    view.display.look = lookFile.value() ? *lookFile.value() : nullptr;
     view.effects.bloom.dirt = dirt.value() ? dirt.value()->get() : Texture{};
     view.viewport.reset();
     view.debugDraw = nullptr;
@@ -427,4 +427,4 @@ std::vector<CopyLight> Stage::modelLights() const { return mImpl->scene->modelLi
 std::vector<Light> Stage::documentLights() const { return mImpl->scene->documentLights(); }
 bool Stage::hasModelEnvironment() const { return mImpl->isModelEnvironment; }
 
-} // namespace filament::view
+} // namespace filament_core::view

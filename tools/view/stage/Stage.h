@@ -17,10 +17,10 @@
 
 #include "tools/view/document/Document.h"
 
-#include <filament/Engine.h>
-#include <filament/ModelCopy.h>
-#include <filament/Renderer.h>
-#include <filament/Scene.h>
+#include <filament_core/Engine.h>
+#include <filament_core/ModelCopy.h>
+#include <filament_core/Renderer.h>
+#include <filament_core/Scene.h>
 
 #include <cstdint>
 #include <functional>
@@ -30,7 +30,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 struct StageOptions {
     EngineOptions engine{};
@@ -126,4 +126,4 @@ private:
     std::unique_ptr<Impl> mImpl;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

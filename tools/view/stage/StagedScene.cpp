@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// Lists of the same length whose elements agree as `isSame` says.
@@ -280,4 +280,4 @@ void StagedScene::setEnvironment(Environment const* environment, EnvironmentSett
     mScene.setSkybox({}, Lux{ 0 });
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

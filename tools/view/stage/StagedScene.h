@@ -12,16 +12,16 @@
 #include "tools/view/stage/LoadedTextures.h"
 #include "tools/view/stage/Messages.h"
 
-#include <filament/Animator.h>
-#include <filament/ModelCopy.h>
-#include <filament/Scene.h>
+#include <filament_core/Animator.h>
+#include <filament_core/ModelCopy.h>
+#include <filament_core/Scene.h>
 
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// Light profiles by their file.
 using Profiles = std::map<std::filesystem::path, Owned<LightProfile>>;
@@ -89,4 +89,4 @@ private:
     std::vector<Light> mLights;            ///< of them; none: off
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

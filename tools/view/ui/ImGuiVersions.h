@@ -15,7 +15,7 @@
 #include <span>
 #include <type_traits>
 
-namespace filament::view {
+namespace filament_core::view {
 
 #if IMGUI_VERSION_NUM >= 18900
 inline constexpr ImGuiKey kImGuiKeypadEnter = ImGuiKey_KeypadEnter;
@@ -110,4 +110,4 @@ inline ImTextureID textureOf(ImFontAtlas const& fonts) {
 #endif
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

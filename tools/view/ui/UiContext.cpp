@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr float kFontPixels = 13;      // of ImGui's own font, whose pixels then are pixels
@@ -55,4 +55,4 @@ void UiContext::newFrame(uint2 pixels, float seconds) {
     ImGui::NewFrame();
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

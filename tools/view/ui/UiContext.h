@@ -9,13 +9,13 @@
 ///   Thread   one; ImGui has one current context.
 #pragma once
 
-#include <filament/Math.h>
+#include <filament_core/Math.h>
 
 #include <imgui.h>
 
 #include <memory>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr float kLeastUiScale = 0.5f, kMostUiScale = 4;
 
@@ -40,4 +40,4 @@ private:
     float mScale = 0;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

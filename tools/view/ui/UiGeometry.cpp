@@ -9,7 +9,7 @@
 #include <cstring>
 #include <span>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kMostRuns = 65536;
@@ -157,4 +157,4 @@ bool operator==(UiGeometry const& a, UiGeometry const& b) {
     return a.mRuns == b.mRuns && sameBytes(a.mIndices, b.mIndices) && sameBytes(a.mVertices, b.mVertices);
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

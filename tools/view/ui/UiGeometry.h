@@ -12,15 +12,15 @@
 ///   Limits   65536 runs; images up to 65535 pixels a side. What goes beyond is not drawn.
 #pragma once
 
-#include <filament/Math.h>
-#include <filament/Objects.h>
+#include <filament_core/Math.h>
+#include <filament_core/Objects.h>
 
 #include <imgui.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// As ui.mat reads it.
 struct UiVertex {
@@ -81,4 +81,4 @@ private:
     float2 mOrigin{ 0 }, mScale{ 1 }, mSize{ 1 }; ///< of the image: pixels = (position - origin) * scale
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

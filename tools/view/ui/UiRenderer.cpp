@@ -9,7 +9,7 @@
 #include <bit>
 #include <utility>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr size_t kLeastVertices = 4096, kLeastIndices = 8192;
@@ -24,7 +24,7 @@ ImTextureID textureId(size_t slot, uint32_t generation) {
 /// What the view makes of numbers: nothing.
 View interfaceView(uint2 size) {
     View view{ .size = size, .clearColor = float4(0) };
-    view.colorGrading = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::LinearRec709 };
+    view.display = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::LinearRec709 };
     view.viewport = Viewport{ .contents = TargetContents::Keep, .blending = ViewBlending::Translucent };
     return view;
 }
@@ -165,7 +165,7 @@ void UiRenderer::showRun(size_t place, UiRun const& run, MaterialInstance materi
                                          .boundsMax = kDeviceMax,
                                          .culled = false,
                                          .castsShadows = false,
-                                         .drawPlace = { .blendOrder = static_cast<uint16_t>(place) } }),
+                                         .drawOrder = { .blendOrder = static_cast<uint16_t>(place) } }),
                            run, material, true });
         return;
     }
@@ -182,4 +182,4 @@ void UiRenderer::showRun(size_t place, UiRun const& run, MaterialInstance materi
     shown = { shown.renderable, run, material, true };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -20,8 +20,8 @@
 
 #include "tools/view/ui/UiGeometry.h"
 
-#include <filament/Renderer.h>
-#include <filament/Scene.h>
+#include <filament_core/Renderer.h>
+#include <filament_core/Scene.h>
 
 #include <imgui.h>
 
@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// For the statistics panel and for tests.
 struct UiStatistics {
@@ -93,4 +93,4 @@ private:
     UiStatistics mStatistics{};
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

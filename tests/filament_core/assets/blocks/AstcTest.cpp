@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::AstcRange;
@@ -165,4 +165,4 @@ TEST(Astc, EveryPartitionPatternUsesOnlyItsPartitions) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::BasisBits;
@@ -164,4 +164,4 @@ TEST(BasisLz, NoSingleBitOfDamageIsMoreThanAnErrorOrOtherTexels) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 /// The lowest bit of each byte first.
 class BasisBitWriter {
@@ -301,4 +301,4 @@ private:
     uint32_t mRover = 0, mRun = 0;
 };
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

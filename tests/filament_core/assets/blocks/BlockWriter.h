@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 using BlockBytes = std::array<std::byte, 16>;
 
@@ -51,12 +51,12 @@ std::array<Texel, 16> decodedBlock(BlockKind kind, std::span<const std::byte> bl
     return texels;
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test
 
-namespace filament::assets::blocks {
+namespace filament_core::assets::blocks {
 
 inline void PrintTo(Texel8 const& texel, std::ostream* stream) {
     *stream << '(' << int{ texel.r } << ' ' << int{ texel.g } << ' ' << int{ texel.b } << ' ' << int{ texel.a } << ')';
 }
 
-} // namespace filament::assets::blocks
+} // namespace filament_core::assets::blocks

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::Texel8;
@@ -177,4 +177,4 @@ TEST(Bc6, NoBlockHasANumberThatIsNotFinite) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

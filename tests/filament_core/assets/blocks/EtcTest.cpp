@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::Texel8;
@@ -92,4 +92,4 @@ TEST(Eac, ElevenBitsAreHalvesOfTheirShare) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::Texel8;
@@ -118,4 +118,4 @@ TEST(BlockDecoder, SizesCountPartialBlocks) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

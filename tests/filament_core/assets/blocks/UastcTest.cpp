@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using blocks::kUastcModes;
@@ -185,4 +185,4 @@ TEST(Uastc, SrgbColoursAreInterpolatedFromTheMiddleOfTheirSteps) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 class CubeLightTest : public ::testing::Test {
@@ -99,4 +99,4 @@ TEST_F(CubeLightTest, ThePictureShowsEveryDirectionOfTheWorld) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

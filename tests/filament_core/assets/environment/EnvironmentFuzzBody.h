@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 /// Makes key and checksum of a baked environment right, as its author would: bytes 8 to 24 of the file.
 inline std::vector<std::byte> signedEnvironment(std::span<const std::byte> bytes) {
@@ -77,4 +77,4 @@ inline bool fuzzEnvironmentPackage(std::span<const std::byte> bytes) {
     return true;
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

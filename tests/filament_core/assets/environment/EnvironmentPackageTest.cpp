@@ -13,7 +13,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using test::Ktx2Writer;
@@ -297,4 +297,4 @@ TEST_F(EnvironmentPackageTest, ACubeOfTheSizeWantedKeepsItsTexels) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

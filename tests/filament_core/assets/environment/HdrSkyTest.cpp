@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 class HdrSkyTest : public ::testing::Test {
@@ -122,4 +122,4 @@ TEST_F(HdrSkyTest, OptionsOutsideOfTheirRangeAreErrorsThatNameThem) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

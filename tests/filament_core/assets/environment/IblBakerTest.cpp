@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace lib = shader::lib;
@@ -296,4 +296,4 @@ TEST_F(IblBakerTest, ProgressCountsTheLevels) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 class IblCubeTest : public ::testing::Test {
@@ -157,4 +157,4 @@ TEST_F(IblCubeTest, LookUpsAreSmoothAcrossFaceEdgesAndCorners) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

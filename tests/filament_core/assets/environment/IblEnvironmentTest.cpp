@@ -13,7 +13,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 class IblEnvironmentTest : public ::testing::Test {
@@ -265,7 +265,7 @@ TEST_F(IblEnvironmentTest, ProgressNamesEachStageOnce) {
 }
 
 TEST_F(IblEnvironmentTest, TheCacheIsInTheUsersCacheDirectory) {
-    const filament::test::ScopedVariable cache("XDG_CACHE_HOME", "/some/cache");
+    const filament_core::test::ScopedVariable cache("XDG_CACHE_HOME", "/some/cache");
     EXPECT_EQ(environmentCacheDirectory({}), "/some/cache/filament_core");
     EXPECT_EQ(environmentCacheDirectory(mOptions), mFolder / "cache");
     cache.set("relative"); // the specification says: ignore it
@@ -273,4 +273,4 @@ TEST_F(IblEnvironmentTest, TheCacheIsInTheUsersCacheDirectory) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST(Leftovers, OfKilledWritersAreRemovedAndThoseOfLiveOnesAreKept) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

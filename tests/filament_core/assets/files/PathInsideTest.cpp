@@ -2,7 +2,7 @@
 #include "filament_core/assets/files/PathInside.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ TEST_F(PathInside, AMissingFileIsNotFound) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -3,8 +3,8 @@
 // known, and for hostile meshes.
 #include "shaders/lib/LibCpp.h"
 
-#include <filament/Mesh.h>
-#include <filament/Primitives.h>
+#include <filament_core/Mesh.h>
+#include <filament_core/Primitives.h>
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@
 #include <set>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
@@ -289,4 +289,4 @@ TEST(MeshBuffers, DescribeTheVertices) {
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

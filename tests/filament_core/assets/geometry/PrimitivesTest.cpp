@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every shape against its closed forms: closed surfaces by the divergence theorem, normals and tangents by the formula
 // of the surface; and hostile shapes.
-#include <filament/Primitives.h>
+#include <filament_core/Primitives.h>
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@
 #include <set>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 namespace {
 
 using testing::HasSubstr;
@@ -408,4 +408,4 @@ TEST(HostilePrimitives, WithMoreVerticesThanTheLimitAreRefusedBeforeTheyTakeMemo
 }
 
 } // namespace
-} // namespace filament::test
+} // namespace filament_core::test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 struct Frame {
@@ -97,4 +97,4 @@ TEST(TangentFrame, AnyTangentIsPerpendicularAndUnit) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

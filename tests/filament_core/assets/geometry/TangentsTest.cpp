@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 struct Mesh {
@@ -167,4 +167,4 @@ TEST(Tangents, ManyCopiesOfOneTriangleStayLinear) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using testing::ElementsAre;
@@ -119,4 +119,4 @@ TEST(NodePose, SlerpOfNearlyEqualAndOfOppositeRotationsIsFinite) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

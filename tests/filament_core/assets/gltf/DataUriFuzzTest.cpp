@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 TEST(DataUri, SurvivesEditsAnywhere) {
@@ -38,4 +38,4 @@ TEST(DataUri, OfOddTextsIsAnErrorOrItsBytes) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

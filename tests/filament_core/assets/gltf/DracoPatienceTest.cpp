@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 /// A sound stream of the corpus: the first byte of each file chooses the decoder.
@@ -46,4 +46,4 @@ TEST(DracoPatience, IsLostByOneSlowStreamForAllOfTheFile) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using namespace test;
@@ -210,4 +210,4 @@ TEST(AnimatedProperties, ValuesAreClampedToTheRangesOfTheFormat) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

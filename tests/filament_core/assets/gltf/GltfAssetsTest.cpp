@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -255,4 +255,4 @@ TEST(GltfAssets, GeneratedTangentsAgreeWithThoseOfTheFiles) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

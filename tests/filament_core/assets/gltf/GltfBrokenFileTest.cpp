@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::AllOf;
@@ -305,4 +305,4 @@ TEST(GltfBrokenFile, WarningsStopGrowing) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::ElementsAre;
@@ -118,4 +118,4 @@ TEST(GltfCancel, ACancelledLoadEndsAtItsNextStep) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

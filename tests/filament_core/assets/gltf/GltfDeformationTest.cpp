@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using backend::VertexFormat;
@@ -324,4 +324,4 @@ TEST(GltfAnimation, WeightsGoToEveryInstance) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

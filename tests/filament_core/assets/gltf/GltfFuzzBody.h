@@ -13,7 +13,7 @@
 #include <cstring>
 #include <string>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 inline const char* brokenPromise(ModelData const& model, Image const& image) {
     if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels))
@@ -267,4 +267,4 @@ inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path cons
     return model.ok();
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using backend::IndexFormat;
@@ -358,4 +358,4 @@ TEST(GltfGeometry, EmptyPrimitivesAreLeftOutWithAWarning) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

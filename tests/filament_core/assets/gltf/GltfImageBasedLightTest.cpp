@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::Contains;
@@ -445,4 +445,4 @@ TEST(GltfImageBasedLight, WhatIsNoRotationOfTheCubeIsNotWritten) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

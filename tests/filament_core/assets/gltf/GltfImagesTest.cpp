@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -157,4 +157,4 @@ TEST_F(GltfImages, APngThatIsCutShortIsNamedAsSuch) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

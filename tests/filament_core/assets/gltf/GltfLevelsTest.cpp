@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using namespace test;
@@ -245,4 +245,4 @@ TEST(GltfLevels, LongChainsTakeLinearTime) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

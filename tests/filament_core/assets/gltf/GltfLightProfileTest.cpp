@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::HasSubstr;
@@ -152,4 +152,4 @@ TEST(GltfLightProfile, MoreThan1024ProfilesAreRefused) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::AllOf;
@@ -374,4 +374,4 @@ TEST(GltfVariants, OneThatTheFileDoesNotHaveIsRefused) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using backend::Filter;
@@ -283,4 +283,4 @@ TEST(GltfMaterial, ProgressCountsEveryImageAndPrimitive) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <random>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
@@ -63,4 +63,4 @@ TEST(GltfMutation, FilesCutAnywhereAreRefused) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

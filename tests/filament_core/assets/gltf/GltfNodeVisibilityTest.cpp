@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using namespace test;
@@ -37,4 +37,4 @@ TEST(GltfNodeVisibility, AHiddenMeshIsNotThereAndCastsNothing) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

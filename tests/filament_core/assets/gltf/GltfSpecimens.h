@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 /// The two parts of a .glb, so that mutating one leaves the container valid.
 struct Specimen {
@@ -301,4 +301,4 @@ private:
     std::mt19937 mRandom;
 };
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <random>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace lib = shader::lib;
@@ -136,4 +136,4 @@ TEST(GltfStorage, TangentFramesTurnByNoMoreThanTheirStepAndKeepTheirHandedness) 
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 using Json = nlohmann::json;
 using Bytes = std::vector<std::byte>;
@@ -200,4 +200,4 @@ inline std::vector<float3> cornersOf(PrimitiveData const& primitive) {
     return corners;
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -10,14 +10,14 @@
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tests/filament_core/assets/image/PictureFiles.h"
 
-#include <filament/Color.h>
+#include <filament_core/Color.h>
 
 #include <gmock/gmock.h>
 
 #include <array>
 #include <cstring>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using backend::Format;
@@ -198,4 +198,4 @@ TEST(GltfTextureFormats, MapsThatShareATextureMayBeOfDifferentFormats) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

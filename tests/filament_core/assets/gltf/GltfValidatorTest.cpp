@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -351,4 +351,4 @@ TEST(ValidatorTable, StartsFromAFileWithoutAnyOfThem) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using testing::HasSubstr;
@@ -219,4 +219,4 @@ TEST(GltfWriter, BrokenScenesAreRefusedByElement) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

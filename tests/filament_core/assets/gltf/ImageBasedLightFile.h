@@ -8,7 +8,7 @@
 #include <cstring>
 #include <functional>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 /// The four bytes of a pixel, R in the lowest.
 using FacePixels = std::function<uint32_t(uint32_t level, uint32_t face, uint32_t x, uint32_t y)>;
@@ -60,4 +60,4 @@ inline TestFile fileWithLight(uint32_t size, uint32_t levels, FacePixels const& 
 
 inline Json& lightOf(TestFile& file) { return file.root["extensions"]["EXT_lights_image_based"]["lights"][0]; }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -142,4 +142,4 @@ TEST(KeyTimes, ListsAreShort) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 inline bool fuzzDraco(std::span<const std::byte> stream) {
     Diagnostics diagnostics;
@@ -57,4 +57,4 @@ inline bool fuzzMeshStream(std::span<const std::byte> input) {
     return fuzzMeshopt(input.subspan<1, 4>(), input.subspan(5));
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 constexpr double kHalfRoot = std::numbers::sqrt2 / 2;
@@ -60,4 +60,4 @@ TEST(ModelBounds, AreTheUnionOfAllNodesThatShowAMesh) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 struct AvifFile {
     uint32_t width = 4, height = 4, depth = 8;
@@ -85,4 +85,4 @@ private:
     }
 };
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

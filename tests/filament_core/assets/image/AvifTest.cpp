@@ -11,7 +11,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using test::AvifFile;
@@ -196,4 +196,4 @@ TEST(Avif, APictureThatIsTooLargeIsRefusedByItsHeader) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

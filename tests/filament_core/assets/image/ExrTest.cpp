@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using testing::HasSubstr;
@@ -221,4 +221,4 @@ TEST(Exr, TilesOfNoSizeAndOtherKindsOfFilesAreRefused) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <random>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using ::testing::HasSubstr;
@@ -177,4 +177,4 @@ TEST(ExrWriter, WhatCannotBeWrittenIsAnErrorThatNamesThePath) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

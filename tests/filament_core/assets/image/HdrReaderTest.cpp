@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using ::testing::HasSubstr;
@@ -175,4 +175,4 @@ TEST(HdrReader, DamagedFilesKeepEveryPromiseOfTheFuzzer) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -14,7 +14,7 @@
 
 #include <unistd.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 class TemporaryFolder {
 public:
@@ -64,4 +64,4 @@ inline std::vector<std::byte> damaged(std::vector<std::byte> bytes, uint32_t see
     return bytes;
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -12,7 +12,7 @@
 #include <random>
 #include <thread>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -52,7 +52,7 @@ TEST_P(Jpegs, HaveTheSameBitsWithAndWithoutSimd) {
     const std::vector<std::byte> fast = decoded(file);
     std::vector<std::byte> plain;
     {
-        const filament::test::ScopedVariable none("JSIMD_FORCENONE", "1");
+        const filament_core::test::ScopedVariable none("JSIMD_FORCENONE", "1");
         std::thread([&] { plain = decoded(file); }).join();
     }
     EXPECT_EQ(fast, plain);
@@ -134,4 +134,4 @@ TEST(ImageFuzz, ReplaysDamagedFilesWithoutACrash) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -17,7 +17,7 @@
 #include <cstring>
 #include <span>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 
@@ -96,4 +96,4 @@ inline void fuzzPicture(std::span<const std::byte> bytes) {
     }
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -4,7 +4,7 @@
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 #include "tests/filament_core/assets/image/PictureFiles.h"
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 std::vector<std::byte> bytesOf(std::initializer_list<int> values) {
@@ -52,4 +52,4 @@ TEST(ImageSize, OfAJpegIsThatOfItsFrameBehindAnyOtherSegments) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

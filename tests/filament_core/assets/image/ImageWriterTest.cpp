@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -248,4 +248,4 @@ TEST(ImageWriter, EveryExrSaysThatItIsRec709) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using backend::Format;
@@ -98,4 +98,4 @@ TEST(Ktx2Encoder, DescriptorsAreThoseOfTheSpecification) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

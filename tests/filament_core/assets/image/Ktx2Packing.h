@@ -8,7 +8,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 inline std::vector<std::byte> zstdOf(std::vector<std::byte> const& bytes) {
     std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
@@ -25,4 +25,4 @@ inline std::vector<std::byte> zlibOf(std::vector<std::byte> const& bytes) {
     return packed;
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -17,7 +17,7 @@
 #include <random>
 #include <tuple>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using backend::Format;
@@ -417,4 +417,4 @@ TEST(Ktx2, EverySingleBitOfDamageIsAnErrorOrAPicture) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 struct Ktx2Writer {
     using Bytes = std::vector<std::byte>;
@@ -79,4 +79,4 @@ private:
     }
 };
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

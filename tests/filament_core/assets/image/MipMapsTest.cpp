@@ -12,7 +12,7 @@
 #include <random>
 #include <span>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using backend::Format;
@@ -215,4 +215,4 @@ TEST(MipMaps, DeepPicturesStartWithTheFirstLevelThatIsSmallEnough) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -14,7 +14,7 @@
 // after <cstdio>
 #include <jpeglib.h>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 void append(png_structp png, png_bytep data, size_t size) {
@@ -200,4 +200,4 @@ size_t findSegment(std::vector<std::byte> const& file, uint8_t code) {
     return file.size();
 }
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

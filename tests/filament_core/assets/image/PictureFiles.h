@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 
 struct PngKind {
     int colorType = 2; ///< of the specification: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA
@@ -39,4 +39,4 @@ std::vector<std::byte> makeJpeg(JpegKind const& kind, uint32_t width, uint32_t h
 /// The index of a JPEG's first marker FF `code`.
 size_t findSegment(std::vector<std::byte> const& file, uint8_t code);
 
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 
 inline std::vector<std::byte> storedExr(std::string const& name) {
     const auto bytes = readFileBytes(tools::sourceDir() / "tests/fuzz/corpus/exr" / (name + ".exr"));
@@ -18,4 +18,4 @@ inline std::vector<std::byte> storedExr(std::string const& name) {
     return bytes ? *bytes : std::vector<std::byte>{};
 }
 
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace filament::assets::test {
+namespace filament_core::assets::test {
 namespace {
 
 using FuzzBytes = std::vector<std::byte>;
@@ -83,4 +83,4 @@ TEST(TextureFuzz, DamagedCodebooksAreErrorsOrTexels) {
 }
 
 } // namespace
-} // namespace filament::assets::test
+} // namespace filament_core::assets::test

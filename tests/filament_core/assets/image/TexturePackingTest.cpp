@@ -5,7 +5,7 @@
 
 #include <initializer_list>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 Image image(uint32_t width, uint32_t height, std::initializer_list<int> codes) {
@@ -67,4 +67,4 @@ TEST(TexturePacking, ColoursAreInterpolatedInLinearLightAndAlphaIsNot) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

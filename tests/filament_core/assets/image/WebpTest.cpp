@@ -12,7 +12,7 @@
 #include <cstring>
 #include <vector>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using testing::HasSubstr;
@@ -114,4 +114,4 @@ TEST(Webp, AnimationsAreNotRead) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 const std::string kCurve = "# of a test\n"
@@ -113,8 +113,8 @@ TEST(CubeFile, EveryCutAndEveryByteChangedIsALookOrAnError) {
 float3 asElsewhere(Look const& look, float3 light) { return lookedUp(look, shader::lib::gradingLog(light)); }
 
 TEST(CubeFile, ABakedLookShowsWhatTheViewShows) {
-    const ColorGrading agx{ .toneMapper = ToneMapper::Agx, .agxLook = AgxLook::Punchy };
-    Grading grading{ .enabled = true, .exposure = 0.5f, .contrast = 1.1f };
+    const DisplayTransform agx{ .toneMapper = ToneMapper::Agx, .agxLook = AgxLook::Punchy };
+    ColorGrading grading{ .enabled = true, .exposure = 0.5f, .contrast = 1.1f };
     const Look look = bakeLook(agx, grading, 65);
     EXPECT_EQ(look.entries.size(), size_t{ 65 } * 65 * 65);
     const DisplayColor displayColor(agx, &grading);
@@ -122,9 +122,9 @@ TEST(CubeFile, ABakedLookShowsWhatTheViewShows) {
         const float3 shown = asElsewhere(look, light), expected = displayColor(light);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 0.006f);
     }
-    grading.enabled = false;
+    colorGrading.enabled = false;
     EXPECT_NEAR(asElsewhere(bakeLook({}, grading, 65), float3(0.18f)).x, DisplayColor({})(float3(0.18f)).x, 0.002f);
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

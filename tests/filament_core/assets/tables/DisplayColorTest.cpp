@@ -3,20 +3,20 @@
 
 #include "shaders/lib/LibCpp.h"
 
-#include <filament/Look.h>
+#include <filament_core/Look.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 TEST(DisplayColor, RodsSeeWhatIsExposed) {
-    const Grading dark{ .enabled = true, .nightAdaptation = 1, .exposure = -6 };
-    const Grading night{ .enabled = true, .nightAdaptation = 1 };
-    const ColorGrading linear{ .toneMapper = ToneMapper::Linear };
+    const ColorGrading dark{ .enabled = true, .nightAdaptation = 1, .exposure = -6 };
+    const ColorGrading night{ .enabled = true, .nightAdaptation = 1 };
+    const DisplayTransform linear{ .toneMapper = ToneMapper::Linear };
     const float3 light(0.4f, 0.5f, 0.3f);
     EXPECT_LT(glm::distance(DisplayColor(linear, &dark)(light), DisplayColor(linear, &night)(light / 64.0f)), 1e-5f);
 }
@@ -60,4 +60,4 @@ TEST(DisplayColor, TheFitOfAcesIsNearTheTransforms) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

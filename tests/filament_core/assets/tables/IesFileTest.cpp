@@ -14,7 +14,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 using std::numbers::pi;
@@ -312,4 +312,4 @@ TEST(LightProfileTable, LumensAreThoseOfClosedForms) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

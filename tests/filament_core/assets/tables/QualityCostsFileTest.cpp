@@ -2,13 +2,13 @@
 // Cost tables as JSON: written tables are read back; errors are refused with their place and the reason.
 #include "tests/fuzz/QualityCostsFuzzBody.h"
 
-#include <filament/QualityCosts.h>
+#include <filament_core/QualityCosts.h>
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr const char* kTable = R"({
@@ -134,4 +134,4 @@ TEST(QualityCostsFile, EveryCutAndEveryByteChangedIsATableOrAnError) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 
 #include <cstring>
 
-namespace filament::assets {
+namespace filament_core::assets {
 namespace {
 
 namespace lib = shader::lib;
@@ -56,4 +56,4 @@ TEST(ToneTable, TheBitsDoNotDependOnTheWorkers) {
 }
 
 } // namespace
-} // namespace filament::assets
+} // namespace filament_core::assets

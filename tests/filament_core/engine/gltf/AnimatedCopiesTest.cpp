@@ -4,7 +4,7 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
-#include <filament/ModelCopy.h>
+#include <filament_core/ModelCopy.h>
 
 #include <gmock/gmock.h>
 
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::IsEmpty;
@@ -308,4 +308,4 @@ TEST(AnimatedCopies, LayersGrowWithTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,15 +5,15 @@
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/Animator.h>
-#include <filament/ModelCopy.h>
+#include <filament_core/Animator.h>
+#include <filament_core/ModelCopy.h>
 
 #include <fmt/format.h>
 
 #include <string>
 #include <string_view>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// 4 x 4 texels of several colours.
@@ -393,4 +393,4 @@ TEST_F(AnimationPointerParts, AModelWithoutSuchChannelsHasNoMaterialsOfItsOwn) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 #include <array>
 #include <fstream>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf",
@@ -121,4 +121,4 @@ INSTANTIATE_TEST_SUITE_P(Models, AssetImagesTest, testing::ValuesIn(kModels), []
 });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

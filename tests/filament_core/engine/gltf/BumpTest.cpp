@@ -3,13 +3,13 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
-#include <filament/Gltf.h>
+#include <filament_core/Gltf.h>
 
 #include <cmath>
 #include <functional>
 #include <memory>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::MaterialData;
@@ -193,4 +193,4 @@ TEST(Bump, OnANormalMapTheSlopesAddUp) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

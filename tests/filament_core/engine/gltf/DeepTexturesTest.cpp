@@ -4,14 +4,14 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
-#include <filament/Gltf.h>
-#include <filament/Image.h>
+#include <filament_core/Gltf.h>
+#include <filament_core/Image.h>
 
 #include <cstring>
 #include <memory>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::MaterialStage;
@@ -76,4 +76,4 @@ TEST(DeepTextures, TheirMipsAreSeen) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Number of bones per vertex.
 enum class Joints : uint8_t { None, Four, Eight };
@@ -118,4 +118,4 @@ inline void expectNearlyEqual(Image const& a, Image const& b, const char* what) 
     EXPECT_LE(difference.pixels, a.pixels.size() / 4 / 50) << what << ", largest " << difference.largest;
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

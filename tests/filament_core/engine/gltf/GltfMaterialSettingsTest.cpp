@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::MaterialData;
@@ -237,4 +237,4 @@ TEST(GltfMaterialSettings, EverySettingIsNamedByItsPackage) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

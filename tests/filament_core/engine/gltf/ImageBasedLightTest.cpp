@@ -6,7 +6,7 @@
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/Environment.h>
+#include <filament_core/Environment.h>
 #include <glm/gtc/quaternion.hpp>
 
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <functional>
 #include <numbers>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::cubeFromDirection;
@@ -330,4 +330,4 @@ TEST(ImageBasedLight, DiffuseLightComesFromTheCoefficientsWhateverTheQuality) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

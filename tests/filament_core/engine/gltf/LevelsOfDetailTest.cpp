@@ -3,8 +3,8 @@
 // bits of one that has nothing else.
 #include "tests/filament_core/engine/RenderFixture.h"
 
-#include <filament/Animator.h>
-#include <filament/ModelCopy.h>
+#include <filament_core/Animator.h>
+#include <filament_core/ModelCopy.h>
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -17,7 +17,7 @@
 #include <random>
 #include <string>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// A green square, and before it two larger ones, red and blue, which `extension` may make its coarser levels.
@@ -164,7 +164,7 @@ TEST_P(ChosenLevels, FollowTheBiasTheLensAndTheScaleOfTheCopyAndNotTheDirection)
     EXPECT_EQ(shown(view), 0u) << "a longer lens";
     view.camera = Camera::lookAt({ 0, 0, 2 }, { 0, 0, 4 }, { .verticalFovDegrees = 90 });
     EXPECT_EQ(shown(view), 2u) << "behind the camera: where shadows fall, the level matters as well";
-    view.camera = Camera::lookAt({ 0, 0, 50 }, { 0, 0, 0 }, { .parallelMeters = 2 });
+    view.camera = Camera::lookAt({ 0, 0, 50 }, { 0, 0, 0 }, { .orthographicHeight = 2 });
     EXPECT_EQ(shown(view), 1u) << "a parallel lens: pi / 2 of 2 x 8/3 square metres";
     scene.setTransform(root, glm::scale(double4x4(1.0), double3(10.0)));
     EXPECT_EQ(shown(from(20)), 2u);
@@ -304,4 +304,4 @@ TEST(LevelsOfDetail, HaveTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

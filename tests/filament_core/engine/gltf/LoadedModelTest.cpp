@@ -2,7 +2,7 @@
 // Models from files: animated ones have the same bits on both devices at all times; instances and animations of a file.
 #include "tests/filament_core/engine/RenderFixture.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 struct Played {
@@ -158,4 +158,4 @@ TEST_F(Animations, CrossFadesBeginAtTheFirstAndEndAtTheSecond) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 #include "tests/filament_core/engine/MisuseLine.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
-#include <filament/ModelCopy.h>
+#include <filament_core/ModelCopy.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::ElementsAre;
@@ -170,9 +170,9 @@ TEST_P(ModelCopyTest, CamerasStandWhereTheirNodesStandWithoutScale) {
     EXPECT_NEAR(driver.lens.verticalFovDegrees, 57.29578f, 1e-5f);
     EXPECT_EQ(driver.lens.nearMeters, 0.25f);
     EXPECT_EQ(driver.lens.aspect, 2);
-    EXPECT_FALSE(driver.lens.isParallel());
+    EXPECT_FALSE(driver.lens.isOrthographic());
     const Camera plan = car.camera("ceiling").value();
-    EXPECT_EQ(plan.lens.parallelMeters, 4);
+    EXPECT_EQ(plan.lens.orthographicHeight, 4);
     EXPECT_EQ(plan.lens.aspect, 1.5f);
     EXPECT_EQ(plan.lens.nearMeters, 1);
     EXPECT_EQ(plan.lens.farMeters, 11);
@@ -459,4 +459,4 @@ TEST_F(ModelCopyAssets, MorphStressTestNamesItsTargets) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

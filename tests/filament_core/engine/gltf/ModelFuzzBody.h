@@ -3,12 +3,12 @@
 /// test. What can be loaded can be shown in every way that the file offers: nothing ends the process.
 #pragma once
 
-#include <filament/filament.h>
+#include <filament_core/filament_core.h>
 
 #include <cstddef>
 #include <span>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// Poses of each animation at, before and after its keys; each variant; levels of detail; each camera.
 inline void showInEveryWay(Engine& engine, Renderer& renderer, Model const& model) {
@@ -45,4 +45,4 @@ inline bool fuzzModel(Engine& engine, Renderer& renderer, std::span<const std::b
     return model.ok();
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::test::Specimen;
@@ -40,4 +40,4 @@ TEST(ModelMutation, WhatIsLoadedOfScratchedFilesCanBeShown) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// Two unlit triangles side by side: the left one is blue, in variant "signal red" red and in "green" green; the right
@@ -119,4 +119,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, ModelVariantsTest, testing::ValuesIn(test::kB
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::DeformationStage;
@@ -61,4 +61,4 @@ TEST(Deformation, MorphTargetsMoveVerticesByTheirWeights) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,11 +4,11 @@
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
-#include <filament/Gltf.h>
+#include <filament_core/Gltf.h>
 
 #include <memory>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using assets::test::Json;
@@ -234,4 +234,4 @@ TEST_P(EveryPrimitive, CanBeDrawnWithEveryMaterialAndAnyVertices) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 #include <array>
 #include <limits>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::DeformationStage;
@@ -126,4 +126,4 @@ TEST(Deformation, ScenesThatDeformNothingBindNothingOfIt) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -189,4 +189,4 @@ TEST(AlphaToCoverage, CoveredSamplesAreOpaque) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

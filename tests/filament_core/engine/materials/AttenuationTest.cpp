@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 // In the columns, boxes differ in length or in density; the rows state thickness and distance in four ways.
@@ -29,7 +29,7 @@ View viewOfAll() {
     View view{ .camera = Camera::lookAt({ kCenter.x, kCenter.y, kAway }, { kCenter.x, kCenter.y, 0 },
                                         { .verticalFovDegrees = static_cast<float>(degrees) }),
                .size = { kSize, kSize } };
-    view.colorGrading.toneMapper = ToneMapper::Linear;
+    view.display.toneMapper = ToneMapper::Linear;
     view.quality.refraction = RefractionSource::Environment; // its sky is white: colours are those of glass alone
     return view;
 }
@@ -100,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, AttenuationTest, testing::ValuesIn(test::kBot
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,8 +4,8 @@
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 #include "tools/materials/PlainMaterials.h"
 
-#include <filament/BuiltInMaterials.h>
-#include <filament/Primitives.h>
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/Primitives.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@
 #include <regex>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -346,4 +346,4 @@ TEST(BuiltInMaterials, CanBeCompiledAheadAndDrawWithoutExactShaders) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::ElementsAre;
@@ -79,7 +79,7 @@ TEST_P(Compile, WhatIsPreparedForAnExpectedFrameIsNotMadeByTheFirstDraw) {
         scene.add(SunLight{ .directionWorld = { 0, 0, -1 } });
         const Owned<Material> material = test::loadMaterial(*mEngine, text);
         const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
-        mRenderer->expect(scene, mView, mTarget);
+        mRenderer->prewarm(scene, mView, mTarget);
         const auto compilation = mEngine->compile(material, { .vertices = { mSquare->vertices() } });
         ASSERT_TRUE(compilation) << compilation.error().message;
         const CompileProgress progress = finish(*compilation);
@@ -113,7 +113,7 @@ TEST_P(Compile, AnExpectedFrameRequestsThePipelinesOfItsPasses) {
     for (size_t i = 0; i < views.size(); ++i) {
         mView = views[i];
         const uint64_t before = pipelines();
-        mRenderer->expect(scene, mView, mTarget);
+        mRenderer->prewarm(scene, mView, mTarget);
         const Owned<Material> material = test::loadMaterial(*mEngine, kPlaster);
         finish(*mEngine->compile(material, { .variants = VariantSet::None, .vertices = { mSquare->vertices() } }));
         const uint64_t expected = pipelines();
@@ -134,11 +134,11 @@ TEST_P(Compile, OrderIndependentMaterialsArePreparedForAllTheirPassesAndOthersFo
     };
     Scene scene(*mEngine);
     for (const double z : { 0.0, -1.0 }) mSquare->add(scene, instance, { 0, 0, z });
-    mRenderer->expect(scene, mView, mTarget);
+    mRenderer->prewarm(scene, mView, mTarget);
     const uint32_t ofSortedGlass = wishesOf(glass), ofPlaster = wishesOf(plaster);
     for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
         mView.quality.transparency = order;
-        mRenderer->expect(scene, mView, mTarget);
+        mRenderer->prewarm(scene, mView, mTarget);
     }
     EXPECT_GT(wishesOf(glass), ofSortedGlass);
     EXPECT_LT(wishesOf(plaster), ofPlaster) << "the tone mapper is no longer merged with it";
@@ -185,7 +185,7 @@ TEST_P(Compile, KnowsThePassesAndTheVerticesOfFramesThatWereDrawn) {
 TEST_P(Compile, GoesInSlicesWithTheFramesAndTellsHowFarItIs) {
     Scene scene(*mEngine);
     const Owned<Material> material = test::loadMaterial(*mEngine, kPlaster);
-    mRenderer->expect(scene, mView, mTarget);
+    mRenderer->prewarm(scene, mView, mTarget);
     draw(scene);
     mEngine->waitIdle();
     std::vector<CompileProgress> told;
@@ -356,4 +356,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, InstanceState, testing::ValuesIn(test::kBothA
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -3,7 +3,7 @@
 // order, as images on both APIs.
 #include "tests/filament_core/engine/SkyStage.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -112,4 +112,4 @@ TEST(DepthState, ChangesAtRunTimeMoveAnObjectInTheOrder) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -166,4 +166,4 @@ TEST(MaterialGlobals, AreOpaqueBlackByDefault) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

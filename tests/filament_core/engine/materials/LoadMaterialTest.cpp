@@ -14,7 +14,7 @@
 #include <iterator>
 #include <random>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 scene::Material load(std::vector<MaterialConstant> constants) {
@@ -113,4 +113,4 @@ TEST(LoadMaterial, RefusesSpirvThatReachesBeyondItsPackage) {
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -3,7 +3,7 @@
 // to 4.2.25; the same bits on both APIs. All colours and their products are exact in half floats.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -137,4 +137,4 @@ TEST(PostLighting, EveryModeIsItsFormulaForLitAndUnlitMaterials) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

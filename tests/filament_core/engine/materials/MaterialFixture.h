@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 inline Owned<Material> loadMaterial(Engine& engine, std::string_view text, std::vector<MaterialConstant> constants = {},
                                     uint16_t filteredVariants = 0) {
@@ -106,4 +106,4 @@ inline float4 shownBy(Engine& engine, MaterialInstance material) {
     return image.pixels.empty() ? float4(-1) : halfPixel(image, 8, 8);
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 TEST(MaterialNumbers, AscendWhateverIsGivenBack) {
@@ -32,4 +32,4 @@ TEST(MaterialNumbersDeathTest, AreGivenBackOnce) {
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::HasSubstr;
@@ -275,4 +275,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, MaterialParameters, testing::ValuesIn(test::k
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 struct StageVertex {
     float3 position{ 0 };
@@ -140,4 +140,4 @@ Image onBothApis(Build&& build) {
 
 inline float4 centerPixel(Image const& image) { return halfPixel(image, image.width / 2, image.height / 2); }
 
-} // namespace filament::test
+} // namespace filament_core::test

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -342,4 +342,4 @@ TEST(ShadowMultiplier, WithoutAShadowThePlaneIsInvisible) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

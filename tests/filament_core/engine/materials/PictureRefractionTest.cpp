@@ -3,12 +3,12 @@
 #include "tests/filament_core/engine/SkyStage.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
 #include <cmath>
 #include <functional>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -424,4 +424,4 @@ TEST(PictureRefraction, CostsNothingWithoutRefractiveMaterials) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using testing::IsEmpty;
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, ProgramCache, testing::ValuesIn(test::kBothAp
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

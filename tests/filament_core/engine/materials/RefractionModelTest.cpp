@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -141,4 +141,4 @@ TEST(RefractionModel, AThinLayerPassesALightBehindItOnAsItsMirrorImageWouldBeRef
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

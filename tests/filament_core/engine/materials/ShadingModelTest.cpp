@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::centerPixel;
@@ -203,4 +203,4 @@ TEST(CustomShading, APunctualLightComesWithItsAttenuationAndItsPosition) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

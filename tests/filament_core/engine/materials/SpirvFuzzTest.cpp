@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-namespace filament::engine {
+namespace filament_core::engine {
 namespace {
 
 TEST(CheckSpirv, SurvivesChangedWordsAnywhere) {
@@ -25,4 +25,4 @@ TEST(CheckSpirv, SurvivesChangedWordsAnywhere) {
 }
 
 } // namespace
-} // namespace filament::engine
+} // namespace filament_core::engine

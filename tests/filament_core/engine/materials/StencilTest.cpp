@@ -3,9 +3,9 @@
 // says, the order of what changes values and what tests them, and that nothing happens without them.
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/Renderer.h>
+#include <filament_core/Renderer.h>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::MaterialStage;
@@ -311,4 +311,4 @@ TEST(Stencil, StatesThatDifferInTheirReferenceShareAPipeline) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

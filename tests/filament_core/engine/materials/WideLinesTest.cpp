@@ -3,12 +3,12 @@
 // both APIs.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
-#include <filament/Lines.h>
+#include <filament_core/Lines.h>
 
 #include <limits>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::halfPixel;
@@ -178,4 +178,4 @@ TEST(WideLines, OfFewerThanTwoPointsHaveNoCorners) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

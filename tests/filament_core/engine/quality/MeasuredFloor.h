@@ -5,12 +5,12 @@
 
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
-#include <filament/QualityBudget.h>
+#include <filament_core/QualityBudget.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// A textured floor up to the horizon, lit by a sun and an environment: every choice affects every pixel.
 class Floor {
@@ -76,4 +76,4 @@ inline Bought buyForPreset(QualityPreset preset, Backend backend, QualityCosts c
     return { .milliseconds = predicted->milliseconds, .decision = *chooseQuality(budget, costs) };
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

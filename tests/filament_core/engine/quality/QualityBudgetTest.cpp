@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The budget's choice compared with all combinations, its rules for ties and limits, and compared with presets. No
 // device.
-#include <filament/QualityBudget.h>
+#include <filament_core/QualityBudget.h>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <tuple>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr double kFrame = 8; // milliseconds of a frame of defaults: eighths of it are exact numbers
@@ -265,4 +265,4 @@ TEST(QualityBudget, InvalidBudgetsAreRejectedInOneLine) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The defaults lie on the measured Pareto front: no other value of a choice has less error and costs no more. No
 // device.
-#include <filament/Quality.h>
-#include <filament/QualityCosts.h>
+#include <filament_core/Quality.h>
+#include <filament_core/QualityCosts.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 constexpr double kNoSlower = 1.02;  // of the time of the default: what a table of busy machines can tell apart
@@ -57,4 +57,4 @@ TEST(QualityDefaults, ADominatedOneIsNoticed) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

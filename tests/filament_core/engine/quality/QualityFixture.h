@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// The plane z = 0 between -1 and 1, normal +z, seen at an angle, with the exposure undone: pixels are radiances. The
 /// sun and the environment are off until added.
@@ -114,4 +114,4 @@ private:
     Owned<MaterialInstance> mInstance;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

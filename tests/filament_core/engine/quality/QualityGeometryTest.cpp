@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 /// A sphere of radius 1 around (3, 0, 0), at a node that mirrors and stretches it.
@@ -100,4 +100,4 @@ TEST(QualityGeometryBits, EveryStorageOfVerticesDrawsTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 class QualityMeasurementTest : public testing::TestWithParam<Backend> {};
@@ -101,4 +101,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, QualityMeasurementTest, testing::ValuesIn(tes
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

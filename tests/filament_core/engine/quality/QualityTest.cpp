@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 namespace lib = shader::lib;
@@ -368,4 +368,4 @@ TEST(QualityBits, EveryValueOfEveryChoiceDrawsTheSameBitsOnBothApisAndAPictureOf
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 namespace lib = shader::lib;
@@ -30,7 +30,7 @@ std::vector<Rgba8> shown(Engine& engine, ToneMapper mapper, ToneMapping mapping,
     Scene scene(engine);
     Renderer renderer(engine);
     View view{ .size = { 4, 4 }, .samples = samples };
-    view.colorGrading.toneMapper = mapper;
+    view.display.toneMapper = mapper;
     view.quality.toneMapping = mapping;
     std::vector<Rgba8> all;
     for (float3 const& color : kColors) {
@@ -130,4 +130,4 @@ TEST(QualityToneBits, EveryMapperGivesTheSameBytesOnBothApisByFormulaAndByTable)
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Patch;
@@ -144,4 +144,4 @@ INSTANTIATE_TEST_SUITE_P(BothApis, QualityViewTest, testing::ValuesIn(test::kBot
                          [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

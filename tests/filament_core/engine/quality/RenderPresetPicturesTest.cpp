@@ -2,12 +2,12 @@
 // Every preset of a view on both APIs: what runs, and that the bits are the same.
 #include "tests/filament_core/engine/SkyStage.h"
 
-#include <filament/RenderPreset.h>
-#include <filament/Renderer.h>
+#include <filament_core/RenderPreset.h>
+#include <filament_core/Renderer.h>
 
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::MaterialStage;
@@ -61,4 +61,4 @@ TEST(RenderPresetPictures, HaveTheSameBitsOnBothApis) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

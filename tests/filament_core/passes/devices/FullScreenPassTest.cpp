@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::passes {
+namespace filament_core::passes {
 namespace {
 
 using namespace backend;
@@ -364,4 +364,4 @@ TEST_F(FullScreenPasses, OfThePyramidKeepTheNearestDistanceBelowEachCell) {
 }
 
 } // namespace
-} // namespace filament::passes
+} // namespace filament_core::passes

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 using nlohmann::json;
@@ -81,4 +81,4 @@ TEST(BrokenEngine, RowsOfGlassAndOfFilteredHighlightsNoticeIt) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 
 namespace fs = std::filesystem;
 
@@ -43,4 +43,4 @@ inline fs::path scenesToChange(std::string const& name) {
     return folder;
 }
 
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <numeric>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 StepResult const& stepOf(RowResult const& row, std::string_view name) {
@@ -297,4 +297,4 @@ TEST(Html, TextIsEscapedAndBytesAreTheTestVectorsOfRfc4648) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

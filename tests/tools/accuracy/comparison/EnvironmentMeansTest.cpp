@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 double sumOf(Picture const& picture) {
@@ -70,4 +70,4 @@ TEST_F(EnvironmentMeans, FlatMetalIsAsBrightAsItsLobe) {
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace filament::accuracy {
+namespace filament_core::accuracy {
 namespace {
 
 tools::SceneSpec sceneOf(fs::path const& file) {
@@ -69,4 +69,4 @@ TEST(TracedMaterials, AMirrorOfThePictureIsNearerToPathsThanOneOfTheEnvironment)
 }
 
 } // namespace
-} // namespace filament::accuracy
+} // namespace filament_core::accuracy

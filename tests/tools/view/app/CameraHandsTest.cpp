@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint2 kSize{ 800, 600 };
@@ -134,4 +134,4 @@ TEST(CameraHands, OppositeKeysAndHeldControlsDoNotMove) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

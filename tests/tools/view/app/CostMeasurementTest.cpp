@@ -11,7 +11,7 @@
 #include <optional>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint2 kMeasuredSize{ 96, 54 };
@@ -153,4 +153,4 @@ TEST(CostMeasurement, ItsEndDoesNotWaitForTheLastRound) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

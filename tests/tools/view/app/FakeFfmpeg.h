@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class FakeFfmpeg {
 public:
@@ -42,4 +42,4 @@ inline std::string textOfFile(std::filesystem::path const& file) {
     return { std::istreambuf_iterator<char>(in), {} };
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

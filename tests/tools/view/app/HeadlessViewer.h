@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr int kEscape = 256; ///< of GLFW
 inline constexpr uint2 kPictureSize{ 640, 360 };
@@ -77,4 +77,4 @@ struct Headless {
     }
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 TEST(History, UndoAndRedoWalkThroughTheEdits) {
@@ -113,4 +113,4 @@ TEST(History, KeepsTheLastSteps) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

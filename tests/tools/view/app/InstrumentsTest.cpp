@@ -6,7 +6,7 @@
 #include "tools/view/app/Defects.h"
 #include "tools/view/compare/Comparison.h"
 
-#include <filament/JobTimeline.h>
+#include <filament_core/JobTimeline.h>
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@
 #include <map>
 #include <set>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 class InstrumentsTest : public testing::TestWithParam<Backend> {};
@@ -240,4 +240,4 @@ TEST_P(InstrumentsTest, CostsAreMeasuredWhileTheViewerGoesOn) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

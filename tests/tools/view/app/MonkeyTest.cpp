@@ -14,7 +14,7 @@
 
 #include <unistd.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ TEST_P(MonkeyTest, FindsNothingThatEndsTheViewer) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

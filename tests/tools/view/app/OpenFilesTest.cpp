@@ -5,7 +5,7 @@
 #include "filament_core/assets/image/Ktx2Encoder.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 TEST(OpenFiles, AKtx2IsAnEnvironmentIfItIsACube) {
@@ -29,4 +29,4 @@ TEST(OpenFiles, AKtx2IsAnEnvironmentIfItIsACube) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -204,4 +204,4 @@ TEST(PathRecorder, DrawsBesideItsCallerAndStops) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

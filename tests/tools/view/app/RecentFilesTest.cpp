@@ -13,7 +13,7 @@
 #include <fstream>
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ TEST(RecentFiles, TheStoreLiesWhereTheDesktopKeepsStates) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -131,4 +131,4 @@ TEST_P(ResponsivenessTest, NoStepIsLongWhileModelsOfUsersLoad) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

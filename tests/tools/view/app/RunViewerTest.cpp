@@ -11,7 +11,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(RunViewer, FailuresAreOneLineAndAStatus) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

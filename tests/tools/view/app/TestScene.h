@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline showcase::Files const& showcaseFiles() {
     static const showcase::Files files = [] {
@@ -44,4 +44,4 @@ inline ViewerOptions testOptions(Backend backend) {
     return options;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

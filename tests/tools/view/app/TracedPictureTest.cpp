@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::HasSubstr;
@@ -21,7 +21,7 @@ TEST(TracedPicture, NamesWhatThePathTracerDoesNotSee) {
     EXPECT_EQ(untracedParts({}), "");
     EXPECT_THAT(untracedAfter([](Document& d) { d.nodes.push_back({}); }), HasSubstr("edits of nodes"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.view.effects.bloom.enabled = true; }), HasSubstr("bloom"));
-    EXPECT_THAT(untracedAfter([](Document& d) { d.view.effects.grading.enabled = true; }), HasSubstr("effects"));
+    EXPECT_THAT(untracedAfter([](Document& d) { d.view.effects.colorGrading.enabled = true; }), HasSubstr("effects"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.look = "warm.cube"; }), HasSubstr("the look"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.model.options.allLevels = true; }), HasSubstr("levels of detail"));
     EXPECT_THAT(untracedAfter([](Document& d) { d.lights.push_back({ .profileFile = "lamp.ies" }); }),
@@ -35,4 +35,4 @@ TEST(TracedPicture, SaysNothingOfWhatIsTracedOrOff) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

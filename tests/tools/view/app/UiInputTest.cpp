@@ -10,7 +10,7 @@
 
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr int kBackspace = 259; // of GLFW
@@ -132,4 +132,4 @@ TEST(UiClipboard, UsesThatOfTheWindowSystem) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

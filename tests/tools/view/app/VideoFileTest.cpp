@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -96,4 +96,4 @@ TEST_F(VideoFile, CancellingEndsFfmpeg) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -11,7 +11,7 @@
 #include <fstream>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
@@ -326,4 +326,4 @@ TEST_P(ViewerFiles, LatenciesAreMeasured) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

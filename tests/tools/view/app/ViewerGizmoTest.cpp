@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr int kLeftControl = 341;
@@ -278,4 +278,4 @@ TEST(ViewerGizmo, LooksTheSameOnBothApis) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Result<std::optional<ViewerOptions>> parse(std::vector<const char*> words) {
@@ -75,4 +75,4 @@ TEST(ViewerOptions, NamesWhatIsWrong) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::HasSubstr;
@@ -149,4 +149,4 @@ TEST(ViewerPixels, AFrameMayBeSavedWhilePixelsAreOnTheirWay) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

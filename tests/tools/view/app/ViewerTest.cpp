@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 class ViewerTest : public testing::TestWithParam<Backend> {};
@@ -242,4 +242,4 @@ TEST_P(ViewerTest, SavedFramesDrawThemselvesAgain) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

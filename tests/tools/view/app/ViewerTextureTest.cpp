@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::ElementsAre;
@@ -51,4 +51,4 @@ TEST(ViewerTextures, ThatAreDroppedAreShownByBothApisAndUndone) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

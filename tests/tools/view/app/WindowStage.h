@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class WindowStage : public testing::TestWithParam<Backend> {
 protected:
@@ -85,4 +85,4 @@ protected:
     std::unique_ptr<Viewer> mViewer;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

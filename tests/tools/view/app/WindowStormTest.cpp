@@ -13,7 +13,7 @@
 #include <random>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint32_t kRounds = 4;
@@ -164,4 +164,4 @@ TEST_P(WindowStormTest, SixtyStepsLeaveNothingBehind) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

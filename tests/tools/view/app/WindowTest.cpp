@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 class WindowTest : public WindowStage {};
@@ -57,4 +57,4 @@ TEST(Window, WithoutADisplaySaysWhatToDo) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

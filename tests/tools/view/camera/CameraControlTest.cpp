@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr int kRounds = 2000;
@@ -93,7 +93,7 @@ TEST(CameraControl, ZoomKeepsThePointUnderTheCursorAndScalesItsSize) {
         const double3 beside = held + 1e-3 * distance * double3(before.worldFromView[0]);
         const double size = glm::length(pictureOf(before, beside, aspect) - picture);
         EXPECT_NEAR(glm::length(pictureOf(after, beside, aspect) - picture) / size, 1 / factor, 1e-3 / factor);
-        if (!before.lens.isParallel()) {
+        if (!before.lens.isOrthographic()) {
             EXPECT_NEAR(distanceTo(after, held, 0), distance * factor, 1e-9);
         }
     }
@@ -111,10 +111,11 @@ TEST(CameraControl, ZoomStepsMakeWhatOneStepMakes) {
         for (int i = 0; i < 8; ++i) {
             const double step = std::pow(factor, 1.0 / 8);
             stepped = zoomed(stepped, picture, step, distance, aspect);
-            if (!before.lens.isParallel()) distance *= step;
+            if (!before.lens.isOrthographic()) distance *= step;
         }
-        EXPECT_LT(apart(stepped, once), 1e-4 * static_cast<double>(std::max(1.0f, before.lens.parallelMeters)));
-        EXPECT_NEAR(stepped.lens.parallelMeters, once.lens.parallelMeters, 1e-5f * once.lens.parallelMeters);
+        EXPECT_LT(apart(stepped, once), 1e-4 * static_cast<double>(std::max(1.0f, before.lens.orthographicHeight)));
+        EXPECT_NEAR(stepped.lens.orthographicHeight, once.lens.orthographicHeight,
+                    1e-5f * once.lens.orthographicHeight);
     }
 }
 
@@ -213,17 +214,18 @@ TEST(CameraControl, FramedBoxFillsThePictureInAnyAspect) {
         const double aspect = draw.aspect(), margin = draw.number(0, 0.4);
         const Camera after = framed(before, box, aspect, margin);
         const Covered covered = coveredBy(after, box, aspect);
-        const double tolerance = 2e-6; // parallelMeters is a float
+        const double tolerance = 2e-6; // orthographicHeight is a float
         const double most = std::max({ covered.high.x, covered.high.y, -covered.low.x, -covered.low.y });
         ASSERT_GT(covered.nearest, 0);
         EXPECT_LE(most, 1 - margin + tolerance);
         const bool fillsX = covered.high.x > 1 - margin - tolerance && covered.low.x < margin - 1 + tolerance;
         const bool fillsY = covered.high.y > 1 - margin - tolerance && covered.low.y < margin - 1 + tolerance;
-        const bool isAtTheBox = !after.lens.isParallel() && covered.nearest < 0.0101 * glm::length(box.max - box.min);
+        const bool isAtTheBox =
+                !after.lens.isOrthographic() && covered.nearest < 0.0101 * glm::length(box.max - box.min);
         EXPECT_TRUE(fillsX || fillsY || isAtTheBox) << "touches two opposite edges";
         atTheBox += isAtTheBox;
         EXPECT_GE(covered.nearest, static_cast<double>(after.lens.nearMeters));
-        if (after.lens.isParallel()) {
+        if (after.lens.isOrthographic()) {
             EXPECT_LE(covered.farthest, static_cast<double>(after.lens.farMeters));
         }
         EXPECT_EQ(after.worldFromView[2], before.worldFromView[2]) << "it looks in the same direction";
@@ -263,9 +265,9 @@ TEST(CameraControl, TheOtherLensShowsWhatIsAtTheDistanceAsLarge) {
     for (int round = 0; round < kRounds; ++round) {
         const Camera before = draw.rolled();
         const double aspect = draw.aspect(), distance = draw.logarithmic(0.1, 100);
-        const Camera after = before.lens.isParallel() ? asPerspective(before, draw.number(5, 120), distance)
-                                                      : asParallel(before, distance);
-        EXPECT_NE(after.lens.isParallel(), before.lens.isParallel());
+        const Camera after = before.lens.isOrthographic() ? asPerspective(before, draw.number(5, 120), distance)
+                                                          : asParallel(before, distance);
+        EXPECT_NE(after.lens.isOrthographic(), before.lens.isOrthographic());
         for (const double2 picture : { double2(0), double2(-0.7, 0.3), double2(1, -1) }) {
             const double3 point = pointAt(before, picture, distance, aspect);
             EXPECT_LT(glm::length(pictureOf(after, point, aspect) - picture), 2e-5); // fields of view are floats
@@ -283,4 +285,4 @@ TEST(CameraControl, AnotherPlaceKeepsTheExposure) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

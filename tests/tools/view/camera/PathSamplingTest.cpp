@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// All keys have one kind of lens.
@@ -17,7 +17,7 @@ CameraPath pathOf(Draw& draw, bool isClosed) {
     double seconds = draw.number(-5, 5);
     for (int i = 0; i < count; ++i) {
         Camera camera = draw.rolled();
-        camera.lens.parallelMeters = isParallel ? static_cast<float>(draw.logarithmic(0.1, 10)) : 0;
+        camera.lens.orthographicHeight = isParallel ? static_cast<float>(draw.logarithmic(0.1, 10)) : 0;
         path.keys.push_back({ .seconds = seconds, .camera = camera });
         seconds += draw.number(0.2, 3);
     }
@@ -33,7 +33,7 @@ void expectNear(Camera const& a, Camera const& b, double tolerance) {
     near(a.lens.verticalFovDegrees, b.lens.verticalFovDegrees);
     near(a.lens.nearMeters, b.lens.nearMeters);
     near(a.lens.farMeters, b.lens.farMeters);
-    near(a.lens.parallelMeters, b.lens.parallelMeters);
+    near(a.lens.orthographicHeight, b.lens.orthographicHeight);
     near(a.lens.shift.x, b.lens.shift.x);
     near(a.lens.shift.y, b.lens.shift.y);
     near(a.exposure.aperture, b.exposure.aperture);
@@ -111,11 +111,11 @@ TEST(CameraPath, TurnsEvenlyBetweenEvenTurns) {
 TEST(CameraPath, ZoomsEvenly) {
     CameraPath path;
     for (int i = 0; i < 4; ++i) {
-        Camera camera{ .lens = { .parallelMeters = static_cast<float>(std::pow(2.0, i)) } };
+        Camera camera{ .lens = { .orthographicHeight = static_cast<float>(std::pow(2.0, i)) } };
         path.keys.push_back({ .seconds = static_cast<double>(i), .camera = camera });
     }
     for (double t = 0; t < 3; t += 0.1)
-        EXPECT_NEAR(static_cast<double>(sampled(path, t).lens.parallelMeters), std::pow(2.0, t), 1e-5);
+        EXPECT_NEAR(static_cast<double>(sampled(path, t).lens.orthographicHeight), std::pow(2.0, t), 1e-5);
 }
 
 TEST(CameraPath, IsARigidCameraEverywhere) {
@@ -123,7 +123,7 @@ TEST(CameraPath, IsARigidCameraEverywhere) {
     for (int round = 0; round < 300; ++round) {
         CameraPath path = pathOf(draw, draw.coin());
         for (CameraKey& key : path.keys) {
-            if (draw.coin()) key.camera.lens.parallelMeters = draw.coin() ? 1.0f : 0.0f;
+            if (draw.coin()) key.camera.lens.orthographicHeight = draw.coin() ? 1.0f : 0.0f;
         }
         for (int i = 0; i < 20; ++i) {
             const Camera camera = sampled(path, draw.number(-1, durationOf(path) + 1));
@@ -163,4 +163,4 @@ TEST(CameraPath, HasFramesUpToItsEnd) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 
 class Draw {
 public:
@@ -23,7 +23,7 @@ public:
         Lens lens{ .verticalFovDegrees = static_cast<float>(number(5, 120)),
                    .nearMeters = static_cast<float>(logarithmic(1e-3, 0.1)) };
         if (coin()) lens.shift = { static_cast<float>(number(-0.4, 0.4)), static_cast<float>(number(-0.4, 0.4)) };
-        if (coin()) lens.parallelMeters = static_cast<float>(logarithmic(0.01, 100));
+        if (coin()) lens.orthographicHeight = static_cast<float>(logarithmic(0.01, 100));
         return lens;
     }
     /// Without a roll.
@@ -71,4 +71,4 @@ inline double turnError(Camera const& camera) {
     return most;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

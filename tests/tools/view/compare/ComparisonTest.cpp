@@ -13,7 +13,7 @@
 #include <limits>
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST(Split, TheTwoRectanglesCoverTheTargetOnce) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

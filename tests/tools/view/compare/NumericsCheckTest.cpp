@@ -11,7 +11,7 @@
 #include <cstring>
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using ::testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(NumericsCheck, RefusesWhatIsNotLight) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 
 #include <cstring>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr uint2 kView{ 8, 6 };
@@ -131,4 +131,4 @@ TEST(PixelReport, TexelsOfSmallerAttachmentsCoverThePixel) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

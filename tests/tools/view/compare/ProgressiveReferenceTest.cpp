@@ -11,7 +11,7 @@
 #include <ctime>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using namespace reference;
@@ -171,4 +171,4 @@ TEST(ProgressiveReference, PicturesCompareWithThoseOfTheEngine) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

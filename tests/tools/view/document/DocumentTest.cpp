@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::HasSubstr;
@@ -93,14 +93,14 @@ TEST(Document, NamesEveryOptionOfTheView) {
     const size_t members = memberCount<AmbientOcclusion>() + memberCount<ScreenSpaceReflections>() +
                            memberCount<Fog>() + memberCount<ContactShadows>() + memberCount<Bloom>() +
                            memberCount<DepthOfField>() + memberCount<MotionBlur>() + memberCount<AutoExposure>() +
-                           memberCount<Grading>() + memberCount<Vignette>() + memberCount<Grain>() +
+                           memberCount<ColorGrading>() + memberCount<Vignette>() + memberCount<Grain>() +
                            memberCount<ChromaticAberration>() + memberCount<Resolution>() + memberCount<Sharpening>() +
                            memberCount<LensFlare>() + memberCount<GuardBand>();
     EXPECT_EQ(memberCount<Effects>(), 16u) << "add the new effect above";
     const size_t dirt = 1; // Document::dirt
     EXPECT_EQ(members - dirt, optionsOf<Effects>().size());
     const size_t ofCurve = memberCount<ToneCurve>() - 1, look = 1; // Document::look
-    EXPECT_EQ(memberCount<ColorGrading>() + ofCurve - look, optionsOf<ColorGrading>().size());
+    EXPECT_EQ(memberCount<DisplayTransform>() + ofCurve - look, optionsOf<DisplayTransform>().size());
 }
 
 /// All values of a tree that are no object.
@@ -233,11 +233,12 @@ TEST(Document, RefusesWhatBreaksARuleOfSeveralFields) {
     expectRefused("view.camera.worldFromView", [](Document& d) { d.view.camera.worldFromView[0] *= -1.0; });
     expectRefused("view.camera.worldFromView", [](Document& d) { d.view.camera.worldFromView[1].w = 1; });
     expectRefused("view.camera.lens.nearMeters", [](Document& d) { d.view.camera.lens.nearMeters = 0; });
-    expectRefused("view.camera.lens.farMeters",
-                  [](Document& d) { d.view.camera.lens = { .nearMeters = 5, .parallelMeters = 1, .farMeters = 5 }; });
+    expectRefused("view.camera.lens.farMeters", [](Document& d) {
+        d.view.camera.lens = { .nearMeters = 5, .orthographicHeight = 1, .farMeters = 5 };
+    });
     expectRefused("view.effects", [](Document& d) { d.view.effects.fog.density = -1; });
     expectRefused("view.effects", [](Document& d) { d.view.effects.bloom.strength = std::nanf(""); });
-    expectRefused("view.colorGrading", [](Document& d) { d.view.colorGrading.whiteNits = 1; });
+    expectRefused("view.display", [](Document& d) { d.view.display.whiteNits = 1; });
     expectRefused("view.quality", [](Document& d) { d.view.quality.shBands = 9; });
     expectRefused("environment.options.faceSize", [](Document& d) { d.environment.options.faceSize = 100; });
     expectRefused("nodes[1]", [](Document& d) { d.nodes[1].node = d.nodes[0].node; });
@@ -396,4 +397,4 @@ TEST(Playback, StopsAtItsEndsUnlessItLoops) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

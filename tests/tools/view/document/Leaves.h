@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-namespace filament::view {
+namespace filament_core::view {
 
 using Random = std::mt19937;
 using Change = std::function<void(Random&)>;
@@ -218,9 +218,9 @@ inline Document fullDocument() {
     document.playback.animation = 2;
     document.morphs = { { .target = "smile", .weight = 0.5f } };
     document.bookmarks = { { .name = "front" } };
-    document.bookmarks.front().camera.lens.parallelMeters = 2;
+    document.bookmarks.front().camera.lens.orthographicHeight = 2;
     document.paths = { { .name = "around", .keys = { { .seconds = 0 }, { .seconds = 1 }, { .seconds = 3.5 } } } };
     return document;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 CameraPath somePath() {
@@ -91,4 +91,4 @@ TEST(TextForms, PathsAreSavedAndLoaded) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Handle const* find(std::vector<Handle> const& handles, GizmoPart part) {
@@ -324,4 +324,4 @@ TEST(GizmoDrag, TheShortestRotationTurnsOneDirectionIntoTheOther) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <numbers>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// Where the light is what the generated handles are of.
@@ -78,7 +78,7 @@ TEST(LightHandles, ADragPastTheOutlineReachesTheFarSide) {
         Draw draw(2);
         return RandomGizmo(draw);
     }();
-    random.view = { Camera::lookAt({ 0, 0, 5 }, double3(0), Lens::box(-1, 1, -1, 1)), { 600, 600 } };
+    random.view = { Camera::lookAt({ 0, 0, 5 }, double3(0), Lens::orthographic(-1, 1, -1, 1)), { 600, 600 } };
     random.frame = { .pixels = 100 };
     const GizmoLight sun = lightAt<SunLight>(random, double4x4(1.0), double3(0, 0, 1)); // at the eye
     const GizmoDrag drag{ GizmoMode::Move, GizmoPart::Direction, random.frame, random.view, { 300, 300 } };
@@ -113,7 +113,7 @@ TEST(LightHandles, AConeIsNeverNarrowerThanTheOneInsideOfIt) {
 }
 
 TEST(LightHandles, ASpotSeenFromBesideOpensToWhereItsEdgeIsPulled) {
-    const PictureView view{ Camera::lookAt({ 0, 0, 5 }, double3(0), Lens::box(-1, 1, -1, 1)), { 600, 600 } };
+    const PictureView view{ Camera::lookAt({ 0, 0, 5 }, double3(0), Lens::orthographic(-1, 1, -1, 1)), { 600, 600 } };
     const GizmoFrame frame{ .pixels = 100 };
     GizmoLight light;
     light.light = SpotLight{ .directionWorld = { 1, 0, 0 }, .innerConeRadians = 0.1f, .outerConeRadians = 0.5f };
@@ -224,4 +224,4 @@ TEST(LightHandles, EachKindHasThoseOfItsFields) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 double2 pixelIn(PictureView const& view, Draw& draw) {
@@ -116,4 +116,4 @@ TEST(PictureRays, BeyondTheHorizonAPlaneIsFarAndNotOnTheOtherSide) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -7,7 +7,7 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace filament::view {
+namespace filament_core::view {
 
 inline constexpr int kRounds = 1500; ///< of each property
 
@@ -58,4 +58,4 @@ inline double largest(double4x4 const& a, double4x4 const& b) {
     return most;
 }
 
-} // namespace filament::view
+} // namespace filament_core::view

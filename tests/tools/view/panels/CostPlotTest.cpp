@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 MeasuredSetting point(double milliseconds, double error, std::string name = "setting") {
@@ -130,4 +130,4 @@ TEST(CostPlot, DescriptionsNameThePointAndTheDifference) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -14,11 +14,11 @@
 #include <fstream>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 namespace fs = std::filesystem;
-using filament::test::folderOfThisTest;
+using filament_core::test::folderOfThisTest;
 
 /// Empty; no other test has it.
 fs::path folderOfTest() {
@@ -311,4 +311,4 @@ TEST_F(FileDialogTest, AFolderThatIsGoneSaysSo) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr const char* kText = R"(digraph frame {
@@ -97,4 +97,4 @@ TEST(GraphModel, OfAnyTextHasArrowsForwardsAndBoxesOfTheirOwnPlace) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <functional>
 #include <set>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::PanelStage;
@@ -171,4 +171,4 @@ TEST(InstrumentPanels, TheWheelLooksCloserAndADragMoves) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 JobSpan span(const char* name, double begin, double end, int64_t frame = -1) {
@@ -135,4 +135,4 @@ TEST(JobLanes, PanningStopsAtTheEnds) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 TEST(Percentiles, AreValuesThatOccurred) {
@@ -100,4 +100,4 @@ TEST(LatencyMeter, KeepsTheLastFrames) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 constexpr const char* kCheap =
@@ -49,4 +49,4 @@ TEST(MaterialCost, IsWhatMatcPrintsAndFollowsTheFile) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

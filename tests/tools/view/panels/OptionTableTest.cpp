@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 TEST(OptionTable, HasEveryOptionOfAViewInOneGroup) {
@@ -112,4 +112,4 @@ TEST(ChangeMeter, ASliderThatIsDraggedIsOneChange) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

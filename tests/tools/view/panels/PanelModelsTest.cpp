@@ -20,7 +20,7 @@
 #include <random>
 #include <set>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 // ---- texts
@@ -494,4 +494,4 @@ TEST(PanelLayout, ColumnsTileTheWindowAndLeaveAThirdFree) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

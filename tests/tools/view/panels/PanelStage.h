@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-namespace filament::test {
+namespace filament_core::test {
 
 /// A triangle with a morph target, on a node that an animation moves; a second node with a lamp; a camera; two
 /// materials, one of them of a variant.
@@ -130,4 +130,4 @@ public:
     Owned<SwapChain> target;
 };
 
-} // namespace filament::test
+} // namespace filament_core::test

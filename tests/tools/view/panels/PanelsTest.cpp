@@ -11,7 +11,7 @@
 #include <set>
 #include <thread>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::PanelStage;
@@ -323,4 +323,4 @@ TEST(Panels, WorkAtAnySizeAndScale) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

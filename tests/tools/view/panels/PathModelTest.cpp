@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 Camera at(double x) { return Camera::lookAt({ x, 0, 5 }, { x, 0, 0 }); }
@@ -156,4 +156,4 @@ TEST(PathModel, PathsAreAddedAndRemoved) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::PanelStage;
@@ -54,4 +54,4 @@ TEST(TextureRows, NamesTellColoursFromData) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

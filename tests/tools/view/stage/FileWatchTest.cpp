@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST(FileWatch, FindsTheFilesThatAFileNames) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace filament::tools {
+namespace filament_core::tools {
 namespace {
 
 class MaterialFileTest : public testing::Test {
@@ -91,4 +91,4 @@ TEST_F(MaterialFileTest, TheOldestOfNineIsForgotten) {
 }
 
 } // namespace
-} // namespace filament::tools
+} // namespace filament_core::tools

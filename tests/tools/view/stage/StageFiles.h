@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace filament::view {
+namespace filament_core::view {
 
 /// A body, which has another paint in variant "race", and a head with morph targets; three lights, a camera, an
 /// animation. `marks` in the text are replaced, so that files differ.
@@ -103,4 +103,4 @@ private:
     std::filesystem::path mPath;
 };
 
-} // namespace filament::view
+} // namespace filament_core::view

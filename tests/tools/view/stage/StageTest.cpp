@@ -15,7 +15,7 @@
 #include <random>
 #include <thread>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::ElementsAre;
@@ -502,4 +502,4 @@ TEST(StageLoads, LeaveTheAppThreadItsTime) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -4,13 +4,13 @@
 #include "tests/tools/view/stage/StageFiles.h"
 #include "tools/view/stage/Stage.h"
 
-#include <filament/Image.h>
+#include <filament_core/Image.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 using testing::ElementsAre;
@@ -72,7 +72,7 @@ struct TexturedStage {
         document.model.file = pictures() / model;
         document.view.size = { 32, 32 };
         document.view.camera = Camera::lookAt({ 0, 0, 2 }, double3(0));
-        document.view.colorGrading.toneMapper = ToneMapper::Linear;
+        document.view.display.toneMapper = ToneMapper::Linear;
         document.view.camera.exposure = { .aperture = 1, .shutterSeconds = 1.0f / 1.2f, .iso = 100 }; // a factor of 1
     }
     Image shoot() {
@@ -186,4 +186,4 @@ TEST(StageTexturesOnBothApis, HaveTheSameBits) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace filament::view {
+namespace filament_core::view {
 namespace {
 
 /// A draw list by hand, and the data that shows it.
@@ -200,4 +200,4 @@ TEST(UiContext, ScalesStyleAndFontsOnlyWhenTheScaleChanges) {
 }
 
 } // namespace
-} // namespace filament::view
+} // namespace filament_core::view

@@ -10,7 +10,7 @@
 #include <limits>
 #include <random>
 
-namespace filament {
+namespace filament_core {
 namespace {
 
 using test::Codes;
@@ -342,4 +342,4 @@ TEST(UiRenderer, UploadsOnlyWhatChangedAndAllocatesNothing) {
 }
 
 } // namespace
-} // namespace filament
+} // namespace filament_core

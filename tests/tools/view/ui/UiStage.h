@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::test {
+namespace filament_core::test {
 
 using view::UiContext;
 using view::UiRenderer;
@@ -49,7 +49,7 @@ public:
 
     void renderGround() {
         View view{ .size = size, .clearColor = float4(kGround[0], kGround[1], kGround[2], 255) / 255.0f };
-        view.colorGrading = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::LinearRec709 };
+        view.display = { .toneMapper = ToneMapper::Linear, .outputSpace = OutputSpace::LinearRec709 };
         groundRenderer.render(ground, view, target);
     }
     void render(ImDrawData const& drawData) {
@@ -94,4 +94,4 @@ inline Image drawnByBoth(uint2 pixels, std::function<void(ImDrawList&)> const& f
     });
 }
 
-} // namespace filament::test
+} // namespace filament_core::test

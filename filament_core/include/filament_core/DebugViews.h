@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DebugViews: what the colours of View::debugView mean, as values: for legends, and for programs that read such
+/// images. docs/debug-views.md explains them.
+///   Colours  codes of sRGB, 0 to 255, as an RGBA8 or RGBA8Srgb target has them.
+///   Thread   any; pure.   Memory: none.   Fails: never.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace filament_core {
+
+using DebugColor = std::array<uint8_t, 3>; ///< red, green, blue
+
+/// What DebugView::Numerics marks in the linear scene colour before it becomes half floats. Of a pixel for which
+/// several are true, the last one.
+enum class NumericsMark : uint8_t {
+    None,       ///< the pixel is grey
+    Denormal,   ///< a channel is below 2^-14 and not 0: half floats have less than 11 bits for it
+    Clipped,    ///< the display shows a channel as full (255)
+    OutOfRange, ///< a channel is above 65504 or below -65504, the largest half floats
+    Infinite,
+    NotANumber,
+};
+inline constexpr size_t kNumericsMarks = 6;
+
+/// "none", "denormal", "clipped", "outOfRange", "infinite" and "notANumber".
+const char* toString(NumericsMark mark);
+/// None: grey stands for all greys.
+DebugColor numericsColor(NumericsMark mark);
+/// Of a pixel of DebugView::Numerics; none: no such view has this colour.
+std::optional<NumericsMark> numericsMarkOf(DebugColor color);
+
+/// How many pixels have a mark, by NumericsMark.
+using NumericsCounts = std::array<uint64_t, kNumericsMarks>;
+/// `rgba`: pixels of DebugView::Numerics, four bytes each; bytes beyond the last whole pixel do not count. Other
+/// colours count as None.
+NumericsCounts countNumerics(std::span<const std::byte> rgba);
+
+/// Of DebugView::Luminance: `stops` above middle grey, a linear luminance of 0.18 before tone mapping. From 7 on:
+/// white; up to -7: black.
+DebugColor luminanceColor(int stops);
+
+/// Of DebugView::Overdraw, TransparentLayers, Froxels and Lights: a colour for each count up to 8, then two for each
+/// doubling up to 255, one from 256 on.
+DebugColor countColor(uint32_t count);
+
+/// Of DebugView::MipLevel: grey below 0, where a texel is larger than a pixel; then from dark purple to yellow at 10,
+/// where all of the texture is in a pixel. NaN is grey.
+DebugColor mipLevelColor(float level);
+
+} // namespace filament_core

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LoadOptions: how glTF files and environments are loaded, and how an environment lights a scene. Plain values; each
+/// field but `progress` is an option (Options.h).
+///   Thread   any.
+#pragma once
+
+#include <filament_core/EnvironmentFormat.h>
+#include <filament_core/Quality.h>
+#include <filament_core/Units.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace filament_core {
+
+/// Called with the name of the stage, the steps done and the total, on the loading thread or a worker, never on two
+/// threads at once.
+using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
+
+struct GltfLoadOptions {
+    PositionStorage positions = PositionStorage::AsAuthored;
+    TangentStorage tangents = TangentStorage::Snorm16;
+    /// False: skins and morph targets are applied once, in the rest pose, and animations are not loaded. This is
+    /// cheaper to draw.
+    bool deformable = true;
+    /// Of things with levels of detail (MSFT_lod): true loads all of them, for ModelCopy::chooseLevels(). False: the
+    /// finest alone, which takes less time and memory.
+    bool allLevels = false;
+    /// True: buffers and images may also lie outside of the model's folder: behind absolute paths, "..", and links that
+    /// lead out. Only for models that you trust.
+    bool filesFromAnywhere = false;
+    LoadProgress progress{};
+};
+
+struct EnvironmentLoadOptions {
+    uint32_t faceSize = 256; ///< texels per side of a cube face, power of two in [16, 2048]
+    EnvironmentFormat format = EnvironmentFormat::Rgba16F; ///< the others take half the memory
+    RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
+    uint32_t samples = 512; ///< approximate number of pieces of the sky that each texel integrates
+    LoadProgress progress{};
+};
+
+struct EnvironmentSettings {
+    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the environment stands for
+    float rotationRadians = 0; ///< around +Y
+    bool skybox = true;        ///< draw the environment as background
+};
+
+} // namespace filament_core

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Scene: everything that can be drawn: renderables, lights, the nodes that carry them, and one environment. Any
+/// Renderer of the same engine can draw it.
+///   Thread  the app thread, also for const functions: bounds() and Renderer::render() first update transforms. Do not
+///           change the scene while Renderer::render runs (it returns once it has read the scene).
+///   Memory  one array per field; adding and removing are O(1).
+///   Life    objects in the scene may be destroyed: the scene keeps it until it is removed or replaced. Handles of a
+///           scene are valid in that scene only.
+#pragma once
+
+#include <filament_core/Box.h>
+#include <filament_core/Engine.h>
+#include <filament_core/Light.h>
+#include <filament_core/LoadOptions.h>
+#include <filament_core/Node.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament_core {
+
+class Model;
+class Environment;
+
+/// A skin of up to 256 bones. Each vertex moves to the weighted mean of the positions that its bones give it; normals
+/// and tangents follow. Bones that collapse geometry keep it finite, and bones that mirror it draw the correct faces.
+struct SkinDesc {
+    /// The node whose space is object space. Renderables with this skin are attached to it, and removing it removes the
+    /// skin. None: world space, for renderables without a node.
+    Node node{};
+    std::span<const Node> joints{};            ///< 1 to 256 nodes that the bones follow; or none
+    std::span<const float4x4> jointFromBind{}; ///< one per joint: from the bind pose of the mesh into the joint's space
+    uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
+};
+
+/// Bounds in object space whose minimum exceeds their maximum are not given.
+inline const float3 kNoBoundsMin{ 3e38f }, kNoBoundsMax{ -3e38f };
+
+/// What a renderable draws.
+struct GeometryDesc {
+    VertexBuffer vertices{};
+    IndexBuffer indices{};
+    PrimitiveType primitive = PrimitiveType::Triangles;
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0;                                   ///< 0: all
+    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax; ///< as of RenderableDesc
+};
+
+struct RenderableDesc {
+    VertexBuffer vertices{};
+    IndexBuffer indices{};
+    MaterialInstance material{};
+    PrimitiveType primitive = PrimitiveType::Triangles;
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0; ///< 0: all
+    /// Of the positions, in object space, without skin and morph targets. Not given: those of all vertices of the
+    /// buffer, which follow Engine::update().
+    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax;
+    double4x4 worldFromObject{ 1.0 };     ///< affine; must stay the identity if there is a node
+    Node node{};                          ///< gives the renderable its transform; none: worldFromObject
+    uint32_t instanceIndex = 0;           ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
+    Skin skin{};                          ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
+    std::vector<BoneBounds> boneBounds{}; ///< one per bone: makes culling exact; empty: the bounds above for all bones
+    MorphTargets morphTargets{};          ///< with as many vertices as the vertex buffer
+    std::vector<float> morphWeights{};    ///< initial weights; missing ones are 0
+    bool culled = true;                   ///< false: drawn even when its box is out of view
+    bool castsShadows = true;             ///< if its material is opaque or masked
+    bool receivesShadows = true;
+    LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
+    Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
+    DrawOrder drawOrder{};                               ///< among what is drawn in an order
+    std::string name{};
+};
+
+class Scene {
+public:
+    explicit Scene(Engine& engine);
+    Scene(Scene&&) noexcept;
+    ~Scene();
+
+    Renderable add(RenderableDesc const& desc);
+    /// With a node, position and direction are in the node's space, and the light follows the node. Scales do not
+    /// change the light's range or intensity.
+    Light add(SunLight const& light, Node node = {});
+    Light add(PointLight const& light, Node node = {});
+    Light add(SpotLight const& light, Node node = {});
+    Light add(RectLight const& light, Node node = {});
+    Light add(DiscLight const& light, Node node = {});
+    Light add(TubeLight const& light, Node node = {});
+    void remove(Renderable renderable);
+    void remove(Light light);
+    /// Replaces the light, of whatever kind it was. Its node stays, and what is given is in the node's space.
+    void set(Light light, SunLight const& desc);
+    void set(Light light, PointLight const& desc);
+    void set(Light light, SpotLight const& desc);
+    void set(Light light, RectLight const& desc);
+    void set(Light light, DiscLight const& desc);
+    void set(Light light, TubeLight const& desc);
+    /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they
+    /// have.
+    void setGeometry(Renderable renderable, GeometryDesc const& geometry);
+    /// In object space, as of RenderableDesc. What is outside of them may be missing at the edges of the view, in
+    /// shadow maps and in effects that look for objects.
+    void setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax);
+    /// Hidden renderables are not drawn and cast no shadows; they keep everything else. Visible by default.
+    void setVisible(Renderable renderable, bool isVisible);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setVisible(Node node, bool isVisible);
+    bool isVisible(Renderable renderable) const;
+    /// Takes effect with the next frame.
+    void setMaterial(Renderable renderable, MaterialInstance material);
+    /// Takes effect with the next frame. Renderables that differ in their channels share no instanced draw.
+    void setLightChannels(Renderable renderable, LightChannels channels);
+    void setLightChannels(Light light, LightChannels channels);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setLightChannels(Node node, LightChannels channels);
+    /// Gives the layers named by `select` the values that they have in `layers`; the others stay. So a part of a
+    /// program can have a layer of its own, and need not know of the rest: setLayers(lamp, kHud, 0) hides the lamp
+    /// there.
+    void setLayers(Renderable renderable, Layers select, Layers layers);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setLayers(Node node, Layers select, Layers layers);
+    Layers layers(Renderable renderable) const;
+    /// Takes effect with the next frame.
+    void setDrawOrder(Renderable renderable, DrawOrder place);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setDrawOrder(Node node, DrawOrder place);
+    DrawOrder drawOrder(Renderable renderable) const;
+    /// For a renderable without a node.
+    void setTransform(Renderable renderable, double4x4 const& worldFromObject);
+
+    /// Bones follow nodes, or are set by setBones(); the latter start at the identity. If a joint is removed, its bone
+    /// keeps its last pose. The next frame updates bones that follow joints, on the workers.
+    Skin add(SkinDesc const& desc);
+    /// Remove the renderables that use the skin first.
+    void remove(Skin skin);
+    /// For a skin without joints: one matrix per bone, into the object space of its renderables. A matrix that is not
+    /// finite is treated as a zero scale.
+    void setBones(Skin skin, std::span<const float4x4> objectFromBind);
+    /// For a renderable with morph targets. Any finite numbers; a target of weight 0 costs nothing.
+    void setMorphWeights(Renderable renderable, std::span<const float> weights);
+
+    /// Adds a copy of the model: its nodes, with renderables and lights, below one new root. The root has the transform
+    /// `worldFromModel` and the model's name. Moving or removing the root moves or removes the whole copy.
+    Node add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
+
+    /// Applies a variant of KHR_materials_variants to one copy of a model, given by the root that add() returned.
+    /// Renderables that the variant does not name get their own materials; "" gives all of them their own. loadGltf()
+    /// created the materials, so this only swaps them. InvalidArgument for a name that is not in Model::variantNames();
+    /// nothing changes then.
+    Result<void> setVariant(Node copy, std::string_view variant);
+
+    Node add(NodeDesc const& desc);
+    /// Removes the node and its descendants, with every renderable, light and skin attached to them. All their handles
+    /// become invalid.
+    void remove(Node node);
+    /// worldFromNode() reflects the change at once; everything attached to the node or below it follows in the next
+    /// frame.
+    void setTransform(Node node, double4x4 const& parentFromNode);
+    /// The node becomes the last child of `parent`; none: a root. A node cannot become its own descendant.
+    void setParent(Node node, Node parent, Reparent keep = Reparent::KeepLocal);
+    double4x4 parentFromNode(Node node) const;
+    double4x4 worldFromNode(Node node) const;
+    std::string const& name(Node node) const;
+    Node parent(Node node) const;           ///< none: a root
+    Node node(Renderable renderable) const; ///< none: it has a transform of its own
+    Node node(Light light) const;
+    /// Iterate with for (Node child = scene.firstChild(node); child; child = scene.nextSibling(child)). Children are in
+    /// the order in which they were added.
+    Node firstChild(Node node = {}) const; ///< {}: the first root
+    Node nextSibling(Node node) const;
+    /// The first node with this name at or below `root` ({}: in the whole scene), parents first; none if there is none.
+    Node findNode(std::string_view name, Node root = {}) const;
+
+    void setEnvironment(Environment const& environment, EnvironmentSettings const& settings = {});
+    void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0); ///< {}: none
+    void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
+
+    Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
+    Box bounds(Renderable renderable) const; ///< in world space; conservative, like bounds()
+    uint32_t renderableCount() const;
+    uint32_t lightCount() const;
+    uint32_t nodeCount() const;
+
+    struct Impl;
+    Impl& impl() { return *mImpl; }
+    Impl const& impl() const { return *mImpl; }
+    std::weak_ptr<Impl> share() { return mImpl; }
+
+private:
+    std::shared_ptr<Impl> mImpl; ///< not shared; animators detect its end
+};
+
+} // namespace filament_core
