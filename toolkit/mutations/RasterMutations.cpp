@@ -9,7 +9,7 @@
 namespace filament_core::tools {
 namespace {
 
-/// What blends in any order weighs the same at any distance.
+/// Transparent objects in any order weigh the same at any distance.
 class OneWeightEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
         writeFloat(copy(command.bytes), offsetof(shader::FrameUniforms, jitter) + 2 * sizeof(float), 0);
@@ -113,7 +113,7 @@ constexpr Mutation kRasterMutations[] = {
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
     { "blendOff", "blending off", make<BlendOffEdit> },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
-    { "oneWeight", "what blends in any order weighs the same at any distance", make<OneWeightEdit> },
+    { "oneWeight", "transparent objects in any order weigh the same at any distance", make<OneWeightEdit> },
     { "layerAgain", "every peeled layer is the nearest one", make<LayerAgainEdit> },
     { "resolveSamples", "two of four samples become the pixel where displays weigh them", make<ResolveSamplesEdit> },
     { "coverageOff", "alpha does not reach the coverage", make<CoverageOffEdit> },

@@ -45,7 +45,7 @@ Data dataOf(fs::path const& file, Json json) {
 
 Result<Data> read(fs::path const& given) {
     const fs::path file = fs::is_directory(given) ? given / "results.json" : given;
-    const Result<Json> json = readJson(file);
+    const Result<Json> json = tools::readJson(file);
     if (!json) return json.error();
     if (!json->is_object()) return fail(ErrorCode::Corrupt, "{}: no JSON object; run this shard again", file.string());
     if (!json->contains("shard"))

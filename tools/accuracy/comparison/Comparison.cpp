@@ -199,7 +199,7 @@ Result<void> keepChosen(std::vector<ComparisonRow>& rows, std::vector<std::strin
 } // namespace
 
 Result<std::vector<ComparisonRow>> readComparisonRows(std::filesystem::path const& file) {
-    const Result<Json> json = readJson(file);
+    const Result<Json> json = tools::readJson(file);
     if (!json) return json.error();
     if (!json->is_array() || json->empty()) {
         return fail(ErrorCode::InvalidArgument, "{}: must be a JSON list of rows", file.string());
