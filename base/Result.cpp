@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/Result.h"
 
+#include "base/ApiCall.h"
+
+#include <string>
+
 namespace filament_core {
+namespace detail {
+
+void valueOfError(Error const& error) {
+    misused("Result::value(): there is none, but an error (" + std::string(toString(error.code)) +
+            "): " + error.message);
+}
+void errorOfValue() { misused("Result::error(): there is none, the call succeeded"); }
+
+} // namespace detail
 
 const char* toString(ErrorCode code) {
     switch (code) {

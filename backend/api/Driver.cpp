@@ -3,14 +3,14 @@
 
 namespace filament_core::backend {
 
-const char* toString(BackendType type) {
-    switch (type) {
-    case BackendType::Null:
-        return "null";
-    case BackendType::Vulkan:
+const char* apiName(Backend backend) {
+    switch (backend) {
+    case Backend::Vulkan:
         return "Vulkan";
-    case BackendType::Gles:
+    case Backend::Gles:
         return "OpenGL ES";
+    case Backend::Null:
+        return "null";
     }
     return "unknown";
 }

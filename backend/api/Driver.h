@@ -8,6 +8,8 @@
 
 #include "backend/api/Commands.h"
 
+#include <filament_core/Backend.h>
+
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +21,8 @@
 
 namespace filament_core::backend {
 
-enum class BackendType : uint8_t { Null, Vulkan, Gles };
-const char* toString(BackendType type);
+/// "OpenGL ES": the name of the API, for messages.
+const char* apiName(Backend backend);
 
 enum class ShaderLanguage : uint8_t { SpirV, Essl310 };
 
@@ -61,7 +63,7 @@ struct DeviceFeatures {
 
 /// Properties of a device; constant for the life of the driver.
 struct DeviceInfo {
-    BackendType backend = BackendType::Null;
+    Backend backend = Backend::Null;
     ShaderLanguage shaderLanguage = ShaderLanguage::SpirV;
     std::string deviceName; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
     std::string driverName; ///< "Mesa 22.3.6" and the API version

@@ -13,13 +13,13 @@
 namespace filament_core::backend {
 namespace {
 
-Result<std::unique_ptr<Driver>> makeDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
+Result<std::unique_ptr<Driver>> makeDriver(Backend type, DriverOptions const& options, ResultSink& sink) {
     switch (type) {
-    case BackendType::Null:
+    case Backend::Null:
         return createNullDriver(sink);
-    case BackendType::Vulkan:
+    case Backend::Vulkan:
         return createVulkanDriver(options, sink);
-    case BackendType::Gles:
+    case Backend::Gles:
         return createGlesDriver(options, sink);
     }
     return fail(ErrorCode::InvalidArgument, "there is no backend number {}", static_cast<int>(type));
@@ -27,7 +27,7 @@ Result<std::unique_ptr<Driver>> makeDriver(BackendType type, DriverOptions const
 
 } // namespace
 
-Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions const& options, ResultSink& sink) {
+Result<std::unique_ptr<Driver>> createDriver(Backend type, DriverOptions const& options, ResultSink& sink) {
     applyMesaEnvironment();
     const auto make = [&](ResultSink& results) { return makeDriver(type, options, results); };
     return options.selfTest ? makeTestedDriver(make, sink, options.selfTestNotes) : make(sink);

@@ -14,7 +14,7 @@
 namespace filament_core::backend {
 
 /// `sink` must outlive the driver.
-Result<std::unique_ptr<Driver>> createDriver(BackendType type, DriverOptions const& options, ResultSink& sink);
+Result<std::unique_ptr<Driver>> createDriver(Backend type, DriverOptions const& options, ResultSink& sink);
 
 /// Every device of every backend of this build. A backend without a driver installed is simply absent.
 std::vector<DeviceInfo> listDevices();

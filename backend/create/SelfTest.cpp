@@ -298,7 +298,7 @@ Error refusal(DeviceInfo const& info, std::string const& mistake) {
 
 /// Devices without storage buffers for fragment shaders are none of the engine's.
 bool canBeTested(DeviceInfo const& info) {
-    return info.backend != BackendType::Null && info.limits.maxFragmentStorageBuffers > 0;
+    return info.backend != Backend::Null && info.limits.maxFragmentStorageBuffers > 0;
 }
 
 Result<void> testDriver(Driver& driver, ForwardingSink& results) {

@@ -92,7 +92,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
 
 DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     DeviceInfo info;
-    info.backend = BackendType::Gles;
+    info.backend = Backend::Gles;
     info.shaderLanguage = ShaderLanguage::Essl310;
     info.deviceName = text(gl, GL_RENDERER);
     info.driverName = text(gl, GL_VERSION);

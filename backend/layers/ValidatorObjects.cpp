@@ -168,7 +168,7 @@ void Validator::checkStages(ProgramDesc const& desc) {
     const bool isCompute = !desc.compute.empty();
     require(isCompute ? desc.vertex.empty() && desc.fragment.empty() : !desc.vertex.empty() && !desc.fragment.empty(),
             Harm::Crash, "a program has a vertex and a fragment stage, or a compute stage alone");
-    if (mInfo.backend != BackendType::Vulkan) return;
+    if (mInfo.backend != Backend::Vulkan) return;
     const bool isSpirv =
             isCompute ? beginsLikeSpirv(desc.compute) : beginsLikeSpirv(desc.vertex) && beginsLikeSpirv(desc.fragment);
     require(isSpirv, Harm::Crash, "not SPIR-V; DeviceInfo::shaderLanguage says which code this device takes");

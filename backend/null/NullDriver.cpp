@@ -16,7 +16,7 @@ uint64_t readbackBytes(Format format, Rect const& rect) {
 
 DeviceInfo describeNullDevice() {
     DeviceInfo info;
-    info.backend = BackendType::Null;
+    info.backend = Backend::Null;
     info.shaderLanguage = ShaderLanguage::SpirV;
     info.deviceName = "no device";
     info.driverName = "null driver";

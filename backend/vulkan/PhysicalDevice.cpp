@@ -50,7 +50,7 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     if (core.apiVersion < VK_API_VERSION_1_1) device.unusable = "Vulkan 1.0 only";
 
     DeviceInfo& info = device.info;
-    info.backend = BackendType::Vulkan;
+    info.backend = Backend::Vulkan;
     info.shaderLanguage = ShaderLanguage::SpirV;
     info.deviceName = core.deviceName;
     const std::string build = driver.driverInfo[0] ? driver.driverInfo : versionText(core.driverVersion);

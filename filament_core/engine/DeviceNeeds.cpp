@@ -8,7 +8,7 @@ Result<void> checkDevice(backend::DeviceInfo const& device) {
     return fail(
             ErrorCode::Unsupported,
             "{} device '{}' reads {} storage buffers in fragment shaders, lights need {}; choose another device or API",
-            backend::toString(device.backend), device.deviceName, device.limits.maxFragmentStorageBuffers,
+            backend::apiName(device.backend), device.deviceName, device.limits.maxFragmentStorageBuffers,
             kFragmentStorageBuffers);
 }
 

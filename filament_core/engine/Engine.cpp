@@ -22,33 +22,8 @@ using namespace backend;
 using engine::PublicCall;
 using engine::thisThread;
 
-BackendType backendType(Backend backend) {
-    switch (backend) {
-    case Backend::Vulkan:
-        return BackendType::Vulkan;
-    case Backend::Gles:
-        return BackendType::Gles;
-    case Backend::Null:
-        return BackendType::Null;
-    }
-    return BackendType::Null;
-}
-
-Backend publicBackend(BackendType type) {
-    switch (type) {
-    case BackendType::Vulkan:
-        return Backend::Vulkan;
-    case BackendType::Gles:
-        return Backend::Gles;
-    case BackendType::Null:
-        return Backend::Null;
-    }
-    return Backend::Null;
-}
-
 DeviceDescription descriptionOf(DeviceInfo const& info) {
-    return { publicBackend(info.backend), info.deviceName, info.driverName, info.limits.maxTextureSize,
-             info.limits.maxSamples };
+    return { info.backend, info.deviceName, info.driverName, info.limits.maxTextureSize, info.limits.maxSamples };
 }
 
 FrameLatency latencyOf(LatencyStatistics const& latency) {
@@ -72,7 +47,7 @@ DriverFactory driverFactory(EngineOptions const& options) {
                                                                                        : std::filesystem::path(),
                                                .selfTest = options.driverSelfTest,
                                                .selfTestNotes = cacheDirectory(options) };
-            auto device = createDriver(backendType(options.backend), driverOptions, results);
+            auto device = createDriver(options.backend, driverOptions, results);
             if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
             return device;
         };
@@ -127,18 +102,6 @@ void reportLeaks(Table const& table, const char* what) {
 }
 
 } // namespace
-
-const char* toString(Backend backend) {
-    switch (backend) {
-    case Backend::Vulkan:
-        return "vulkan";
-    case Backend::Gles:
-        return "gles";
-    case Backend::Null:
-        return "null";
-    }
-    return "unknown";
-}
 
 std::vector<DeviceDescription> listDevices() {
     std::vector<DeviceDescription> devices;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ShadingKey: the choices of <filament_core/Quality.h> that select a program, packed; and what they specialise it with.
+/// ShadingKey: the choices of <filament_core/Quality.h> that select a program, packed; and what they specialise it
+/// with.
 ///   Bits    one field a specialisation constant of ShaderInterface.h. 0: all defaults, the program as it was compiled.
 ///   Thread  pure functions. Memory: none. Fails: never.
 #pragma once

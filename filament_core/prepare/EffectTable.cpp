@@ -265,10 +265,10 @@ EffectDemand demandOfVignette(DemandInput const& input) {
 
 EffectDemand demandOfGrading(DemandInput const& input) {
     ColorGrading const& grading = input.settings.effects.colorGrading;
-    const ColorGrading neutral{ .enabled = colorGrading.enabled,
-                                .tonalRanges = colorGrading.tonalRanges, // of equal factors
-                                .midPoint = colorGrading.midPoint };     // of straight curves
-    return demandOfGrade(input, colorGrading.enabled, grading == neutral, R::Neutral);
+    const ColorGrading neutral{ .enabled = grading.enabled,
+                                .tonalRanges = grading.tonalRanges, // of equal factors
+                                .midPoint = grading.midPoint };     // of straight curves
+    return demandOfGrade(input, grading.enabled, grading == neutral, R::Neutral);
 }
 
 EffectDemand demandOfGrain(DemandInput const& input) {

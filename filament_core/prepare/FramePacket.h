@@ -82,8 +82,8 @@ struct FroxelLists {
     std::span<const uint32_t> words; ///< one for each froxel, then the lists; none: there is one list for all
 };
 
-/// The lights of draws on certain channels (<filament_core/Light.h>), where these are not all lights of the view. Shaders do
-/// not know of channels: such a draw binds other uniforms, whose light list is its own.
+/// The lights of draws on certain channels (<filament_core/Light.h>), where these are not all lights of the view.
+/// Shaders do not know of channels: such a draw binds other uniforms, whose light list is its own.
 struct ChannelLights {
     bool hasSun = false;
     shader::FrameUniforms uniforms{};

@@ -42,9 +42,8 @@ DisplaySettings displayOf(DisplayTransform const& unlimited) {
              .toneCurve = shaderToneCurve(grading.toneCurve),
              .whiteShare = whiteShareOf(grading),
              .halfWhiteLight = halfWhiteLight(grading),
-             .hasNumbers =
-                     colorGrading.toneMapper == ToneMapper::Generic || colorGrading.outputSpace != OutputSpace::Srgb,
-             .dithers = colorGrading.dither };
+             .hasNumbers = grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb,
+             .dithers = grading.dither };
 }
 
 /// One layer that is peeled is what sorting draws.

@@ -49,7 +49,7 @@ Lens Lens::orthographic(float left, float right, float bottom, float top, float 
 }
 
 Lens Lens::offCenter(float left, float right, float bottom, float top, float nearMeters) {
-    Lens lens = box(left, right, bottom, top, nearMeters);
+    Lens lens = orthographic(left, right, bottom, top, nearMeters);
     lens.verticalFovDegrees = glm::degrees(2 * elementary::atan((top - bottom) / 2));
     lens.orthographicHeight = 0;
     return lens;

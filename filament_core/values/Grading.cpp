@@ -48,7 +48,7 @@ double3x3 whiteBalance(double temperature, double tint) {
 } // namespace
 
 double3x3 gradingMatrix(ColorGrading const& grading) {
-    const double3x3 mixer = fromRows(grading.mixRed, colorGrading.mixGreen, colorGrading.mixBlue);
+    const double3x3 mixer = fromRows(grading.mixRed, grading.mixGreen, grading.mixBlue);
     return mixer * whiteBalance(static_cast<double>(grading.temperature), static_cast<double>(grading.tint)) *
            kRec2020FromRec709 * elementary::exp2(static_cast<double>(grading.exposure));
 }

@@ -150,15 +150,6 @@ std::string integerRange(Option const& option) {
 
 } // namespace
 
-std::string listed(std::span<const std::string_view> names) {
-    std::string text;
-    for (size_t i = 0; i < names.size(); ++i) {
-        if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
-        text += names[i];
-    }
-    return text;
-}
-
 Option const* findOption(std::span<const Option> options, std::string_view name) {
     const auto found = std::ranges::find(options, name, &Option::name);
     return found == options.end() ? nullptr : &*found;

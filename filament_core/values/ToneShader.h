@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A DisplayTransform as shaders/lib/tone.glsl reads it, and how exposure comes before vision at night. Values within their
-/// ranges: clamped().
+/// A DisplayTransform as shaders/lib/tone.glsl reads it, and how exposure comes before vision at night. Values within
+/// their ranges: clamped().
 #pragma once
 
 #include "base/math/Elementary.h"
@@ -21,14 +21,14 @@ constexpr int32_t shaderToneMapper(ToneMapper mapper, AgxLook look) {
     return static_cast<int32_t>(mapper);
 }
 inline int32_t shaderToneMapper(DisplayTransform const& grading) {
-    return shaderToneMapper(grading.toneMapper, colorGrading.agxLook);
+    return shaderToneMapper(grading.toneMapper, grading.agxLook);
 }
 
 /// kOutput... of tone.glsl.
 inline int32_t shaderOutputSpace(DisplayTransform const& grading) { return static_cast<int32_t>(grading.outputSpace); }
 
 /// White as a share of what PQ encodes.
-inline float whiteShareOf(DisplayTransform const& grading) { return colorGrading.whiteNits / 10'000; }
+inline float whiteShareOf(DisplayTransform const& grading) { return grading.whiteNits / 10'000; }
 
 /// Of toneMapGeneric(): c, a, b and the light that is white, so that f(midGreyIn) = midGreyOut and f(maximum) = 1.
 inline float4 shaderToneCurve(ToneCurve const& curve) {
@@ -53,9 +53,7 @@ inline float halfWhiteLight(DisplayTransform const& grading) {
     case ToneMapper::Mobile:
         return 0.402f;
     case ToneMapper::Agx:
-        return colorGrading.agxLook == AgxLook::Base     ? 0.686f
-               : colorGrading.agxLook == AgxLook::Golden ? 0.681f
-                                                         : 1.036f;
+        return grading.agxLook == AgxLook::Base ? 0.686f : grading.agxLook == AgxLook::Golden ? 0.681f : 1.036f;
     case ToneMapper::PbrNeutral:
         return 0.54f;
     case ToneMapper::AcesReference:
@@ -72,7 +70,7 @@ inline float halfWhiteLight(DisplayTransform const& grading) {
 
 /// The factor of light before nightVision(): rods see what is exposed. Without them exposure is part of the matrix.
 inline float exposureBeforeNight(ColorGrading const& grading) {
-    return colorGrading.nightAdaptation > 0 ? elementary::exp2(grading.exposure) : 1;
+    return grading.nightAdaptation > 0 ? elementary::exp2(grading.exposure) : 1;
 }
 
 /// A row of a matrix, as dot products in shaders take it.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shader library as C++: exactly the text that the GPU runs, in namespace filament_core::shader::lib, on GLM's types.
+/// The shader library as C++: exactly the text that the GPU runs, in namespace filament_core::shader::lib, on GLM's
+/// types.
 ///   Use     tests check the BRDF before anything is drawn; the environment baker samples with the same functions.
 ///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and transcendental functions are
 ///   those of base/math/Elementary.h, rounded from double precision.

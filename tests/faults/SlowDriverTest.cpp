@@ -95,7 +95,7 @@ TEST(SlowDriver, ThatIsStuckInACommandIsNamedWithItByWhoeverWaits) {
     // The engine warns after ten seconds; its stream can be set to warn earlier.
     const auto stream = backend::CommandStream::start(
             [&](backend::ResultSink& sink) -> Result<std::unique_ptr<backend::Driver>> {
-                auto device = backend::createDriver(backend::BackendType::Null, {}, sink);
+                auto device = backend::createDriver(Backend::Null, {}, sink);
                 return device ? backend::faulty(std::move(*device), slow.injector, sink) : std::move(device);
             },
             { .stallWarning = 50ms });

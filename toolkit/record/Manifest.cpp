@@ -132,7 +132,7 @@ void readFormat(JsonReader& reader, Format& format) {
 
 void readBackend(JsonReader& reader, Backend& backend) {
     reader.choice("backend", backend, "expected vulkan or gles", [](std::string const& name) {
-        const std::optional<Backend> known = backendFromName(name);
+        const std::optional<Backend> known = enumFromName<Backend>(name);
         return known && *known != Backend::Null ? known : std::nullopt;
     });
 }
@@ -229,13 +229,6 @@ void readWhole(JsonReader& reader, Manifest& manifest) {
 TraceRecord const* findTrace(Manifest const& manifest, Backend backend) {
     const auto found = std::ranges::find(manifest.traces, backend, &TraceRecord::backend);
     return found == manifest.traces.end() ? nullptr : &*found;
-}
-
-std::optional<Backend> backendFromName(std::string_view name) {
-    for (const Backend backend : { Backend::Vulkan, Backend::Gles, Backend::Null }) {
-        if (name == toString(backend)) return backend;
-    }
-    return std::nullopt;
 }
 
 bool isPictureName(std::string_view name) {

@@ -89,7 +89,6 @@ struct Manifest {
 
 /// Null: there is none for this API.
 TraceRecord const* findTrace(Manifest const& manifest, Backend backend);
-std::optional<Backend> backendFromName(std::string_view name);
 bool isPictureName(std::string_view name);
 bool isPictureFormat(Format format); ///< of PictureRecord
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace backend;
 
-BackendType typeOf(Backend api) { return api == Backend::Vulkan ? BackendType::Vulkan : BackendType::Gles; }
+Backend typeOf(Backend api) { return api == Backend::Vulkan ? Backend::Vulkan : Backend::Gles; }
 
 /// A null driver for traces of any device. Its limits are those of every accepted device, but offsets in a trace fit
 /// the alignment of the one that recorded it.

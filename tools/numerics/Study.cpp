@@ -11,8 +11,6 @@
 namespace filament_core::shader::numerics {
 namespace {
 
-using backend::BackendType;
-
 /// The rows of a format with their points. A row has the same index in all lists below.
 struct Work {
     Format format{};
@@ -81,9 +79,9 @@ struct DeviceResults {
     std::vector<Results> single, half;
 };
 
-Result<DeviceResults> evaluateOn(Study& study, BackendType type, std::string const& library, Work const& single,
+Result<DeviceResults> evaluateOn(Study& study, Backend type, std::string const& library, Work const& single,
                                  Work const& half) {
-    const bool vulkan = type == BackendType::Vulkan;
+    const bool vulkan = type == Backend::Vulkan;
     auto device = GpuEvaluator::make(type, library);
     if (!device) {
         study.missing.push_back(device.error().message);
@@ -127,9 +125,9 @@ Result<Study> runStudy(std::string_view only, std::optional<Mutation> mutation) 
     }
     const Work single = workOf(study, Format::Single), half = workOf(study, Format::Half);
     evaluateInCpp(study, single);
-    const Result<DeviceResults> vulkan = evaluateOn(study, BackendType::Vulkan, *library, single, half);
+    const Result<DeviceResults> vulkan = evaluateOn(study, Backend::Vulkan, *library, single, half);
     if (!vulkan) return vulkan.error();
-    const Result<DeviceResults> gles = evaluateOn(study, BackendType::Gles, *library, single, half);
+    const Result<DeviceResults> gles = evaluateOn(study, Backend::Gles, *library, single, half);
     if (!gles) return gles.error();
     study.promisesSameBits = isMesaCpu(study.devices[0]) && isMesaCpu(study.devices[1]);
     countDifferences(study, single, vulkan->single, gles->single);

@@ -38,7 +38,7 @@ std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransfo
     const assets::DisplayColor displayColor(grading);
     for (size_t i = 0; i < image.color.size(); ++i) {
         const float2 center(static_cast<float>(i % image.width) + 0.5f, static_cast<float>(i / image.width) + 0.5f);
-        const float3 display = ditheredColor(displayColor(image.color[i]), colorGrading.dither, center);
+        const float3 display = ditheredColor(displayColor(image.color[i]), grading.dither, center);
         for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(display[c] * 255.0f)));
         pixels.push_back(std::byte{ 255 });
     }

@@ -6,7 +6,6 @@
 ///   Errors  `message` is one line that names what failed, where (file, line, element) and how to fix it.
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -36,7 +35,13 @@ struct Error {
     std::string message;
 };
 
-/// Holds a T or an Error. Reading the one that is absent is an assertion.
+namespace detail {
+/// End the process in every build, with the message of the error that was not looked at.
+[[noreturn]] void valueOfError(Error const& error);
+[[noreturn]] void errorOfValue();
+} // namespace detail
+
+/// Holds a T or an Error. Reading the one that is absent ends the process, in every build.
 template <class T>
 class [[nodiscard]] Result {
 public:
@@ -47,15 +52,15 @@ public:
     explicit operator bool() const { return ok(); }
 
     T& value() & {
-        assert(ok());
+        require();
         return std::get<0>(mState);
     }
     T const& value() const& {
-        assert(ok());
+        require();
         return std::get<0>(mState);
     }
     T&& value() && {
-        assert(ok());
+        require();
         return std::get<0>(std::move(mState));
     }
     T& operator*() & { return value(); }
@@ -65,11 +70,15 @@ public:
     T const* operator->() const { return &value(); }
 
     Error const& error() const {
-        assert(!ok());
+        if (ok()) detail::errorOfValue();
         return std::get<1>(mState);
     }
 
 private:
+    void require() const {
+        if (!ok()) detail::valueOfError(std::get<1>(mState));
+    }
+
     std::variant<T, Error> mState;
 };
 
@@ -83,7 +92,7 @@ public:
     bool ok() const { return mOk; }
     explicit operator bool() const { return mOk; }
     Error const& error() const {
-        assert(!mOk);
+        if (mOk) detail::errorOfValue();
         return mError;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes of <filament_core/Primitives.h>. Everything is computed in double precision and rounded once, so that points that
-// meet have the same bits, and the last bit of a library's sine shows in no vertex.
+// Shapes of <filament_core/Primitives.h>. Everything is computed in double precision and rounded once, so that points
+// that meet have the same bits, and the last bit of a library's sine shows in no vertex.
 #include "base/Result.h"
 #include "base/math/Elementary.h"
 #include "filament_core/assets/geometry/TangentFrame.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// decodePicture: any image file in memory as the pixels of a texture; what loadImage() of <filament_core/Image.h> calls.
+/// decodePicture: any image file in memory as the pixels of a texture; what loadImage() of <filament_core/Image.h>
+/// calls.
 ///   In      the bytes of a PNG, JPEG, WebP, AVIF, KTX 2.0, .hdr or .exr; `name` is used in error messages.
 ///   Out     one level. Codes of 8 bits stay: RGBA8Srgb of colours, RGBA8 of data. Of 16 bits: light, or code / 65535
 ///           of data, as floats. Floats are those of the file. With `isFull` floats are RGBA32F, otherwise RGBA16F.

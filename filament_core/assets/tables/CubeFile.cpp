@@ -190,7 +190,7 @@ Result<void> saveLook(std::filesystem::path const& path, Look const& look) {
 
 Look bakeLook(DisplayTransform const& display, ColorGrading const& grading, uint32_t size) {
     namespace lib = shader::lib;
-    const assets::DisplayColor displayColor(display, colorGrading.enabled ? &grading : nullptr);
+    const assets::DisplayColor displayColor(display, grading.enabled ? &grading : nullptr);
     Look look{ .title = "ACEScct of linear Rec. 709 to display",
                .size = std::clamp(size, 2u, kMaxCube),
                .domainMin = float3(lib::gradingLog(0.0f)),

@@ -34,17 +34,15 @@ static_assert(static_cast<int>(OutputSpace::Srgb) == lib::kOutputSrgb &&
 
 lib::Grading asInShaders(ColorGrading const& grading, double3x3 const& mix) {
     lib::Grading values;
-    values.nightAdaptation = colorGrading.nightAdaptation;
+    values.nightAdaptation = grading.nightAdaptation;
     values.mixRed = shaderRow(mix, 0), values.mixGreen = shaderRow(mix, 1), values.mixBlue = shaderRow(mix, 2);
-    values.shadows = colorGrading.shadows, values.midtones = colorGrading.midtones,
-    values.highlights = colorGrading.highlights;
-    values.tonalRanges = colorGrading.tonalRanges;
-    values.slope = colorGrading.slope, values.offset = colorGrading.offset, values.power = colorGrading.power;
-    values.contrast = colorGrading.contrast, values.saturation = colorGrading.saturation,
-    values.vibrance = colorGrading.vibrance;
-    values.shadowGamma = colorGrading.shadowGamma, values.midPoint = colorGrading.midPoint;
-    values.highlightScale = colorGrading.highlightScale;
-    values.mapsGamut = colorGrading.gamutMapping;
+    values.shadows = grading.shadows, values.midtones = grading.midtones, values.highlights = grading.highlights;
+    values.tonalRanges = grading.tonalRanges;
+    values.slope = grading.slope, values.offset = grading.offset, values.power = grading.power;
+    values.contrast = grading.contrast, values.saturation = grading.saturation, values.vibrance = grading.vibrance;
+    values.shadowGamma = grading.shadowGamma, values.midPoint = grading.midPoint;
+    values.highlightScale = grading.highlightScale;
+    values.mapsGamut = grading.gamutMapping;
     return values;
 }
 

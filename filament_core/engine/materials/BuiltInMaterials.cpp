@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// <filament_core/BuiltInMaterials.h>: packages of shaders/material/built_in, and the values that their instances start with.
+// <filament_core/BuiltInMaterials.h>: packages of shaders/material/built_in, and the values that their instances start
+// with.
 #include "base/Assert.h"
 #include "base/OutOfMemory.h"
 #include "base/Result.h"

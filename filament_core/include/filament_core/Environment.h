@@ -4,7 +4,8 @@
 ///   Cost    a second or two on the workers the first time; after that milliseconds, from a disk cache keyed by
 ///           content.
 ///   Errors  one line with file and reason.
-///   Thread  the app thread, which waits for the workers; loadEnvironmentAsync() of <filament_core/LoadTicket.h> does not.
+///   Thread  the app thread, which waits for the workers; loadEnvironmentAsync() of <filament_core/LoadTicket.h> does
+///           not.
 #pragma once
 
 #include <filament_core/Engine.h>

@@ -273,7 +273,7 @@ DRIVER_TEST(Compute, AProgramThatDoesNotCompileIsReportedOnceAndItsDispatchSkipp
     const BufferHandle buffer = gpu.buffer(kReadable, std::vector<uint32_t>{ 7 });
     const std::array<uint32_t, 5> header{ 0x07230203, 0x00010300, 0, 1, 0 }; // valid header, empty SPIR-V module
     const std::string_view spirv(reinterpret_cast<const char*>(header.data()), sizeof(header));
-    const bool isVulkan = gpu.backend() == BackendType::Vulkan;
+    const bool isVulkan = gpu.backend() == Backend::Vulkan;
     const ProgramHandle broken =
             gpu.rawComputeProgram(isVulkan ? spirv : "#version 310 es\nvoid main() { undeclared = 1.0; }\n");
     gpu.record(CmdBindPipeline{ gpu.pipeline({ .program = broken }) });

@@ -51,9 +51,9 @@ TEST(CreateDriverTest, AnUnknownDeviceIsAnErrorThatNamesItAndWhatThereIs) {
 
 TEST(CreateDriverTest, TheNullBackendNeedsNoDevice) {
     SilentSink sink;
-    Result<std::unique_ptr<Driver>> driver = createDriver(BackendType::Null, {}, sink);
+    Result<std::unique_ptr<Driver>> driver = createDriver(Backend::Null, {}, sink);
     ASSERT_TRUE(driver);
-    EXPECT_EQ((*driver)->info().backend, BackendType::Null);
+    EXPECT_EQ((*driver)->info().backend, Backend::Null);
 }
 
 TEST(CreateDriverTest, TheVectorWidthIsFixedBeforeADriverIsLoaded) {
@@ -122,7 +122,7 @@ std::vector<uint64_t> answersToTimedClears(Driver& driver, AnsweredTickets& sink
 
 TEST(CreateDriverTest, AReadbackIsAnsweredAfterTheTimersThatEndedBeforeIt) {
     std::vector<DeviceInfo> devices = listDevices();
-    devices.push_back({ .backend = BackendType::Null });
+    devices.push_back({ .backend = Backend::Null });
     for (DeviceInfo const& device : devices) {
         AnsweredTickets sink;
         Result<std::unique_ptr<Driver>> driver =

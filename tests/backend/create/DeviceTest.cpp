@@ -24,8 +24,7 @@ DRIVER_TEST(Device, TellsItsNameLimitsAndLanguage) {
     DeviceInfo const& info = gpu.info();
     EXPECT_FALSE(info.deviceName.empty());
     EXPECT_FALSE(info.driverName.empty());
-    EXPECT_EQ(info.shaderLanguage,
-              info.backend == BackendType::Vulkan ? ShaderLanguage::SpirV : ShaderLanguage::Essl310);
+    EXPECT_EQ(info.shaderLanguage, info.backend == Backend::Vulkan ? ShaderLanguage::SpirV : ShaderLanguage::Essl310);
     EXPECT_GE(info.limits.maxTextureSize, 4096u);
     EXPECT_GE(info.limits.maxUniformBlockBytes, 16384u);
     EXPECT_TRUE(std::has_single_bit(info.limits.uniformOffsetAlignment));
@@ -73,7 +72,7 @@ DRIVER_TEST(Device, AProgramThatDoesNotCompileIsReportedByNameAndItsDrawsAreSkip
     const std::array<uint32_t, 5> header{ 0x07230203, 0x00010300, 0, 1, 0 };
     const std::string_view spirv(reinterpret_cast<const char*>(header.data()), sizeof(header));
     constexpr std::string_view kEssl = "#version 310 es\nvoid main() { undeclared = 1.0; }\n";
-    const bool isVulkan = gpu.backend() == BackendType::Vulkan;
+    const bool isVulkan = gpu.backend() == Backend::Vulkan;
     const ProgramHandle broken = gpu.rawProgram(isVulkan ? spirv : kEssl, isVulkan ? spirv : kEssl);
     const TextureHandle target = gpu.paint({ broken, {} }, { .width = 2, .height = 2 });
     EXPECT_THAT(gpu.readAs<Rgba>(target, { 0, 0, 2, 2 }), Each(Rgba{})) << "the clear happens, the draw does not";
@@ -180,8 +179,8 @@ DRIVER_TEST(Device, APipelineOutlivesTheProgramItWasMadeFrom) {
 // ---------------------------------------------------------------------------------------------- traces
 
 DRIVER_TEST(Device, AReplayedTraceGivesTheSameBitsOnAFreshDevice) {
-    const BackendType type = gpu.backend();
-    const char* const name = type == BackendType::Vulkan ? "filament_vulkan.trace" : "filament_gles.trace";
+    const Backend type = gpu.backend();
+    const char* const name = type == Backend::Vulkan ? "filament_vulkan.trace" : "filament_gles.trace";
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
     Bytes original;
     {

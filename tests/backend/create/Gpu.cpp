@@ -45,7 +45,7 @@ struct StreamOrReason {
     std::string reason; ///< why there is none
 };
 
-StreamOrReason startStream(BackendType type) {
+StreamOrReason startStream(Backend type) {
     auto stream = CommandStream::start([type](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         Result<std::unique_ptr<Driver>> driver = createDriver(type, { .requireDevice = {}, .validation = true }, sink);
         if (!driver) return driver.error();
@@ -55,12 +55,12 @@ StreamOrReason startStream(BackendType type) {
     return { std::move(*stream), {} };
 }
 
-std::map<BackendType, StreamOrReason>& streams() {
-    static std::map<BackendType, StreamOrReason> made;
+std::map<Backend, StreamOrReason>& streams() {
+    static std::map<Backend, StreamOrReason> made;
     return made;
 }
 
-StreamOrReason& streamOf(BackendType type) {
+StreamOrReason& streamOf(Backend type) {
     const auto it = streams().find(type);
     return it != streams().end() ? it->second : streams().emplace(type, startStream(type)).first->second;
 }
@@ -364,8 +364,8 @@ namespace {
 /// What a test read back on one API; kept to compare both.
 using Answers = std::vector<Bytes>;
 
-Answers const* runOnce(std::string const& test, BackendType backend, void (*body)(Gpu&)) {
-    static std::map<std::pair<std::string, BackendType>, Answers> done;
+Answers const* runOnce(std::string const& test, Backend backend, void (*body)(Gpu&)) {
+    static std::map<std::pair<std::string, Backend>, Answers> done;
     const auto key = std::pair(test, backend);
     if (const auto it = done.find(key); it != done.end()) return &it->second;
     StreamOrReason& stream = streamOf(backend);
@@ -398,20 +398,20 @@ void DriverContract::runOn(void (*body)(Gpu&)) {
     testing::TestInfo const& info = *testing::UnitTest::GetInstance()->current_test_info();
     const std::string full = std::string(info.test_suite_name()) + "." + info.name();
     const std::string test = full.substr(0, full.rfind('/'));
-    const auto run = [&](BackendType backend) -> Answers const* {
+    const auto run = [&](Backend backend) -> Answers const* {
         Answers const* answers = runOnce(test, backend, body);
         if (!answers) skipReason(backend);
         return answers;
     };
-    if (GetParam() == Run::Vulkan) static_cast<void>(run(BackendType::Vulkan));
-    if (GetParam() == Run::Gles) static_cast<void>(run(BackendType::Gles));
+    if (GetParam() == Run::Vulkan) static_cast<void>(run(Backend::Vulkan));
+    if (GetParam() == Run::Gles) static_cast<void>(run(Backend::Gles));
     if (GetParam() != Run::SameBits) return;
-    Answers const* vulkan = run(BackendType::Vulkan);
-    Answers const* gles = vulkan ? run(BackendType::Gles) : nullptr;
+    Answers const* vulkan = run(Backend::Vulkan);
+    Answers const* gles = vulkan ? run(Backend::Gles) : nullptr;
     if (gles) expectSameBits(*vulkan, *gles);
 }
 
-void DriverContract::skipReason(BackendType backend) {
+void DriverContract::skipReason(Backend backend) {
     GTEST_SKIP() << "no " << toString(backend) << " driver: " << streamOf(backend).reason;
 }
 

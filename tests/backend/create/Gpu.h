@@ -61,7 +61,7 @@ public:
 
     DeviceInfo const& info() const { return mStream.info(); }
     DriverStatistics statistics() const { return mStream.statistics(); }
-    BackendType backend() const { return info().backend; }
+    Backend backend() const { return info().backend; }
     /// A second one on the same stream; this one must have nothing open.
     Gpu another() { return Gpu(mStream); }
 
@@ -182,7 +182,7 @@ protected:
     void runOn(void (*body)(Gpu&));
 
 private:
-    static void skipReason(BackendType backend);
+    static void skipReason(Backend backend);
 };
 
 } // namespace filament_core::backend

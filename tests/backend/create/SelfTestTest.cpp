@@ -31,8 +31,7 @@ public:
 /// Counts the frames that reach a driver, and changes a byte of what it answers.
 class Meddler final : public Driver, public ResultSink {
 public:
-    Meddler(BackendType type, ResultSink& sink, uint64_t ticket, size_t byte)
-            : mSink(sink), mTicket(ticket), mByte(byte) {
+    Meddler(Backend type, ResultSink& sink, uint64_t ticket, size_t byte) : mSink(sink), mTicket(ticket), mByte(byte) {
         auto made = createDriver(type, {}, *this);
         if (made) mDriver = std::move(*made);
     }
@@ -59,7 +58,7 @@ private:
 };
 
 /// The outcome of the test, if byte `byte` of its image `ticket` is another one. No ticket: none is changed.
-Result<std::unique_ptr<Driver>> testWith(BackendType type, uint64_t ticket, size_t byte, ResultSink& sink) {
+Result<std::unique_ptr<Driver>> testWith(Backend type, uint64_t ticket, size_t byte, ResultSink& sink) {
     return makeTestedDriver(
             [&](ResultSink& results) -> Result<std::unique_ptr<Driver>> {
                 auto driver = std::make_unique<Meddler>(type, results, ticket, byte);
@@ -69,7 +68,7 @@ Result<std::unique_ptr<Driver>> testWith(BackendType type, uint64_t ticket, size
             sink, {});
 }
 
-class SelfTest : public testing::TestWithParam<BackendType> {};
+class SelfTest : public testing::TestWithParam<Backend> {};
 
 TEST_P(SelfTest, ADriverThatDrawsRightIsAsNewAfterIt) {
     SilentSink sink;
@@ -136,14 +135,14 @@ TEST_P(SelfTest, ADriverThatPassedIsNotTestedAgain) {
     EXPECT_TRUE(makeTestedDriver(make, sink, notes));
 }
 
-INSTANTIATE_TEST_SUITE_P(Apis, SelfTest, testing::Values(BackendType::Vulkan, BackendType::Gles),
-                         [](auto const& each) { return each.param == BackendType::Vulkan ? "Vulkan" : "Gles"; });
+INSTANTIATE_TEST_SUITE_P(Apis, SelfTest, testing::Values(Backend::Vulkan, Backend::Gles),
+                         [](auto const& each) { return each.param == Backend::Vulkan ? "Vulkan" : "Gles"; });
 
 TEST(SelfTestMessage, NamesTheDeviceTheDriverAndTheCure) {
     SilentSink sink;
-    const auto driver = testWith(BackendType::Gles, 1, 0, sink);
+    const auto driver = testWith(Backend::Gles, 1, 0, sink);
     ASSERT_FALSE(driver);
-    const auto used = createDriver(BackendType::Gles, {}, sink);
+    const auto used = createDriver(Backend::Gles, {}, sink);
     ASSERT_TRUE(used);
     EXPECT_THAT(driver.error().message, HasSubstr((*used)->info().deviceName + " with " + (*used)->info().driverName));
     EXPECT_THAT(driver.error().message, HasSubstr("(66, 134, 99, 51) at pixel 0, 0 instead of (67, 134, 99, 51)"));
@@ -152,7 +151,7 @@ TEST(SelfTestMessage, NamesTheDeviceTheDriverAndTheCure) {
 
 TEST(SelfTestOf, TheNullDriverIsMadeWithoutOne) {
     SilentSink sink;
-    const auto driver = createDriver(BackendType::Null, { .selfTest = true }, sink);
+    const auto driver = createDriver(Backend::Null, { .selfTest = true }, sink);
     ASSERT_TRUE(driver);
     CommandBuffer commands;
     const auto buffer = BufferHandle::make(1, 1);
@@ -174,7 +173,7 @@ TEST(SelfTestOf, ADriverThatReportsSomethingWhenItIsMadePassesThatOn) {
     } listener;
     const auto driver = makeTestedDriver(
             [](ResultSink& results) {
-                auto made = createDriver(BackendType::Gles, {}, results);
+                auto made = createDriver(Backend::Gles, {}, results);
                 results.onError(DriverErrorKind::Other, "a cache was damaged");
                 return made;
             },

@@ -100,7 +100,7 @@ TEST_F(NullDriver, AnswersTimersWithZeroOnceAndIdlingAnswersToo) {
 }
 
 TEST_F(NullDriver, OffersEverythingThatLayersAboveMayWantToTest) {
-    EXPECT_EQ(mDriver->info().backend, BackendType::Null);
+    EXPECT_EQ(mDriver->info().backend, Backend::Null);
     EXPECT_TRUE(mDriver->info().features.mergedPasses);
     EXPECT_TRUE(mDriver->info().features.blockCompression);
     EXPECT_GE(mDriver->info().limits.maxTextureSize, 8192u);

@@ -49,7 +49,7 @@ TEST(VulkanDriver, ListsTheDeviceThatItCreates) {
     const auto driver = createVulkanDriver({ .requireDevice = devices[0].deviceName }, sink);
     ASSERT_TRUE(driver) << driver.error().message;
     EXPECT_EQ((*driver)->info().deviceName, devices[0].deviceName);
-    EXPECT_EQ((*driver)->info().backend, BackendType::Vulkan);
+    EXPECT_EQ((*driver)->info().backend, Backend::Vulkan);
     EXPECT_EQ((*driver)->info().shaderLanguage, ShaderLanguage::SpirV);
 }
 

@@ -7,7 +7,7 @@ namespace filament_core::engine {
 namespace {
 
 TEST(DeviceNeeds, ADeviceWithoutStorageBuffersInFragmentShadersIsRefusedByName) {
-    backend::DeviceInfo device{ .backend = backend::BackendType::Gles, .deviceName = "Small GPU" };
+    backend::DeviceInfo device{ .backend = Backend::Gles, .deviceName = "Small GPU" };
     device.limits.maxFragmentStorageBuffers = 2;
     EXPECT_TRUE(checkDevice(device).ok());
     device.limits.maxFragmentStorageBuffers = 0;

@@ -266,7 +266,7 @@ TEST_P(EngineTest, ATracedStreamReplaysToTheSameBits) {
         Renderer renderer(*traced);
         recorded = std::move(renderer.renderToImage(spheres.scene, spheres.view)->pixels);
     }
-    const auto type = GetParam() == Backend::Vulkan ? backend::BackendType::Vulkan : backend::BackendType::Gles;
+    const auto type = GetParam() == Backend::Vulkan ? Backend::Vulkan : Backend::Gles;
     auto stream = backend::CommandStream::start(
             [type](backend::ResultSink& sink) { return backend::createDriver(type, {}, sink); });
     ASSERT_TRUE(stream.ok());

@@ -148,8 +148,8 @@ constexpr ToneMapper kMappers[] = { ToneMapper::Linear, ToneMapper::Aces, ToneMa
 
 void setLook(ColorGrading& grading) {
     grading = { .enabled = true, .exposure = 0.5f, .temperature = 0.2f, .contrast = 1.2f, .saturation = 1.1f };
-    colorGrading.slope = float3(1, 0.98f, 1.02f);
-    colorGrading.shadows = float3(0.9f, 0.95f, 1.1f);
+    grading.slope = float3(1, 0.98f, 1.02f);
+    grading.shadows = float3(0.9f, 0.95f, 1.1f);
 }
 
 TEST(ColorGrading, ATableHasTheColoursOfTheFormula) {

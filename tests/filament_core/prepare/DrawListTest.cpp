@@ -148,7 +148,7 @@ TEST_F(DrawListTest, PriorityThenBlendOrderThenDistanceThenTheOrderOfTheScene) {
     Random random(5);
     struct Added {
         bool blends;
-        DrawOrder place;
+        filament_core::DrawOrder place;
         double distance;
     };
     std::vector<Added> added;

@@ -11,7 +11,7 @@
 namespace filament_core::prepare {
 namespace {
 
-/// What findDemand() reads, with the view as the user asks for it.
+/// What findDemand() reads, with the view as the user set it.
 struct DemandCase {
     ViewCounts counts;
     ShadowCounts shadows{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BothDevices: a test that runs a rig on Vulkan and on OpenGL ES, and is skipped if one is missing.
-///   Rig     static std::unique_ptr<Rig> make(backend::BackendType), null if no such device is installed.
+///   Rig     static std::unique_ptr<Rig> make(Backend), null if no such device is installed.
 ///   Memory  the rigs are created once per process: a context takes longer than a hundred images.
 #pragma once
 
@@ -24,8 +24,8 @@ protected:
 
 private:
     struct Rigs {
-        std::unique_ptr<Rig> vulkan = Rig::make(backend::BackendType::Vulkan);
-        std::unique_ptr<Rig> gles = Rig::make(backend::BackendType::Gles);
+        std::unique_ptr<Rig> vulkan = Rig::make(Backend::Vulkan);
+        std::unique_ptr<Rig> gles = Rig::make(Backend::Gles);
     };
 
     static Rigs& rigs() {

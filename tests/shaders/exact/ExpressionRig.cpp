@@ -42,7 +42,7 @@ std::span<const std::byte> bytesOf(std::vector<float> const& values) { return st
 
 } // namespace
 
-std::unique_ptr<ExpressionRig> ExpressionRig::make(BackendType type) {
+std::unique_ptr<ExpressionRig> ExpressionRig::make(Backend type) {
     auto stream = CommandStream::start([type](ResultSink& sink) { return createDriver(type, {}, sink); });
     if (!stream) return nullptr;
     std::unique_ptr<ExpressionRig> rig(new ExpressionRig(std::move(*stream)));

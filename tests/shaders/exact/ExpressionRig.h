@@ -21,7 +21,7 @@ inline constexpr uint32_t kSide = 64; ///< inputs: kSide * kSide
 class ExpressionRig {
 public:
     /// Null where no such device is installed.
-    static std::unique_ptr<ExpressionRig> make(backend::BackendType type);
+    static std::unique_ptr<ExpressionRig> make(Backend type);
 
     /// 4 words per input: the IEEE bits of the result. `statements` precede the expression.
     Result<std::vector<uint32_t>> values(std::string const& expression, bool exact, std::string const& statements = {});

@@ -108,7 +108,7 @@ PassLayout passLayout() {
 
 } // namespace
 
-std::unique_ptr<MaterialRig> MaterialRig::make(BackendType type) {
+std::unique_ptr<MaterialRig> MaterialRig::make(Backend type) {
     auto stream = CommandStream::start([type](ResultSink& sink) { return createDriver(type, {}, sink); });
     if (!stream) return nullptr;
     std::unique_ptr<MaterialRig> rig(new MaterialRig(std::move(*stream)));

@@ -32,7 +32,7 @@ struct MaterialScene {
 class MaterialRig {
 public:
     /// Null where no such device is installed.
-    static std::unique_ptr<MaterialRig> make(backend::BackendType type);
+    static std::unique_ptr<MaterialRig> make(Backend type);
     Result<std::vector<float>> render(MaterialScene const& scene);
 
     /// The package of the scene's material, compiled once per source.

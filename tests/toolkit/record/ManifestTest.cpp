@@ -60,8 +60,8 @@ TEST(Manifest, EveryNameOfAnApiAndAPictureIsAFileInTheFolder) {
     for (const char* name : { "a", "picture-1", "01234567890123456789012345678901" })
         EXPECT_TRUE(isPictureName(name)) << name;
     for (const Backend backend : { Backend::Vulkan, Backend::Gles, Backend::Null })
-        EXPECT_EQ(backendFromName(toString(backend)), backend);
-    EXPECT_FALSE(backendFromName("metal"));
+        EXPECT_EQ(enumFromName<Backend>(toString(backend)), backend);
+    EXPECT_FALSE(enumFromName<Backend>("metal"));
 }
 
 /// What a change of the whole manifest makes the reader say.

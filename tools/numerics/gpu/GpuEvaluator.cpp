@@ -53,7 +53,7 @@ struct GpuEvaluator::Group {
     BindGroupHandle bindings;
 };
 
-Result<std::unique_ptr<GpuEvaluator>> GpuEvaluator::make(BackendType type, std::string library) {
+Result<std::unique_ptr<GpuEvaluator>> GpuEvaluator::make(Backend type, std::string library) {
     auto stream = CommandStream::start([type](ResultSink& sink) { return createDriver(type, {}, sink); });
     if (!stream) return stream.error();
     std::unique_ptr<GpuEvaluator> evaluator(new GpuEvaluator(std::move(*stream), std::move(library)));

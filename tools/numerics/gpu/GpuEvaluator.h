@@ -24,7 +24,7 @@ struct Task {
 class GpuEvaluator {
 public:
     /// `library`: the text of shaders/lib (ShaderText.h).
-    static Result<std::unique_ptr<GpuEvaluator>> make(backend::BackendType type, std::string library);
+    static Result<std::unique_ptr<GpuEvaluator>> make(Backend type, std::string library);
 
     /// "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
     std::string deviceName() const;

@@ -2,7 +2,8 @@
 /// Fields: the members of what a Document consists of, with their names and ranges, for everything that visits all of
 /// them: comparing, writing, reading, checking, and tests that change each one.
 ///   Complete  a member that is added to a struct and not listed here does not compile: isComplete().
-///   Texts     Quality, Effects and DisplayTransform have names and texts of their own (optionsOf<Quality>() and so on).
+///   Texts     Quality, Effects and DisplayTransform have names and texts of their own (optionsOf<Quality>() and so
+///             on).
 #pragma once
 
 #include "tools/view/document/Document.h"

@@ -122,7 +122,7 @@ TEST(CubeFile, ABakedLookShowsWhatTheViewShows) {
         const float3 shown = asElsewhere(look, light), expected = displayColor(light);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], expected[c], 0.006f);
     }
-    colorGrading.enabled = false;
+    grading.enabled = false;
     EXPECT_NEAR(asElsewhere(bakeLook({}, grading, 65), float3(0.18f)).x, DisplayColor({})(float3(0.18f)).x, 0.002f);
 }
 

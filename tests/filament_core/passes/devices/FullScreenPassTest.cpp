@@ -37,7 +37,7 @@ struct Output {
 /// A device with the parts of an engine that passes need.
 class Stage {
 public:
-    explicit Stage(BackendType type)
+    explicit Stage(Backend type)
             : mStream(start(type)), mPipelines(*mStream, mLayouts), mData(*mStream), mBlocks(*mStream), mGraph(mArena),
               mPool(*mStream) {}
 
@@ -112,7 +112,7 @@ private:
         return made;
     }
 
-    static std::unique_ptr<CommandStream> start(BackendType type) {
+    static std::unique_ptr<CommandStream> start(Backend type) {
         auto stream = CommandStream::start([type](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
             Result<std::unique_ptr<Driver>> driver = createDriver(type, { .validation = true }, sink);
             if (!driver) return driver;
@@ -173,7 +173,7 @@ private:
 class FullScreenPasses : public testing::Test {
 protected:
     void SetUp() override {
-        for (const BackendType type : { BackendType::Vulkan, BackendType::Gles }) {
+        for (const Backend type : { Backend::Vulkan, Backend::Gles }) {
             auto probe = CommandStream::start(
                     [type](ResultSink& sink) { return createDriver(type, { .validation = true }, sink); });
             if (!probe) GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
@@ -183,7 +183,7 @@ protected:
     /// Runs draw(stage) on both devices; the images must be equal to the bit.
     template <class Draw>
     static Floats onBoth(Draw&& draw) {
-        Stage vulkan(BackendType::Vulkan), gles(BackendType::Gles);
+        Stage vulkan(Backend::Vulkan), gles(Backend::Gles);
         const Floats picture = draw(vulkan), other = draw(gles);
         EXPECT_EQ(picture.size(), other.size());
         for (size_t i = 0; i < std::min(picture.size(), other.size()); ++i) {
@@ -305,7 +305,7 @@ TEST_F(FullScreenPasses, GiveTheSameBitsMergedAndSampled) {
 }
 
 TEST_F(FullScreenPasses, OfSteadyFramesMakeNothingNew) {
-    Stage stage(BackendType::Vulkan);
+    Stage stage(Backend::Vulkan);
     scene::Material& tinted =
             stage.material("parameters : [ { name : tint, type : float4 } ]", "inputs.color = materialParams.tint;");
     for (int frame = 0; frame < 6; ++frame) {
