@@ -19,7 +19,7 @@ class Folders(unittest.TestCase):
         self.beside, self.own, self.calls = work / "shared/assets", work / "my models", work / "calls"
         for folder in (self.root / "scripts", self.build, self.own, work / "bin"):
             folder.mkdir(parents=True)
-        for name in ("asset_dir", "setup"):
+        for name in ("asset_dir", "list_packages", "setup"):
             shutil.copy(SCRIPTS / name, self.root / "scripts" / name)
         (self.root / "scripts/packages.txt").write_text("bash\n")
         program = work / "bin/cmake"

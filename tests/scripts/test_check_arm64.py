@@ -32,7 +32,7 @@ class Arm64(unittest.TestCase):
         self.roots, self.calls, self.script = work / "roots", work / "calls", work / "checkout/scripts/check_arm64"
         self.script.parent.mkdir(parents=True)
         (work / "bin").mkdir()
-        for name in ("asset_dir", "check_arm64", "packages.txt"):
+        for name in ("asset_dir", "check_arm64", "list_packages", "packages.txt"):
             shutil.copy(SCRIPTS / name, self.script.parent / name)
         (self.script.parent / "setup").symlink_to("/bin/true")
         for name, text in PROGRAMS.items():
@@ -62,7 +62,8 @@ class Arm64(unittest.TestCase):
     def test_what_runs_here_is_not_unpacked(self):
         self.check()
         packages = self.calls.read_text().split("--include=")[1].split()[0].split(",")
-        self.assertIn("mesa-vulkan-drivers", packages)
+        self.assertLess({"mesa-vulkan-drivers", "libgtest-dev", "libc6-dev"}, set(packages))
+        self.assertNotIn("", packages)
         self.assertNotIn("cmake", packages)
 
     def test_cases_are_drawn_by_drivers_of_arm64(self):
