@@ -17,7 +17,7 @@ constexpr SimulatedMachine kMachines[] = {
     { "width-512", { kWidth, "512" }, "", true, "nothing: the engine falls back to 256, Mesa crashes with 512" },
     { "caps-sse4.1", { kCaps, "sse4.1" }, "", false, "no AVX and no FMA: a product is rounded before it is added to" },
     { "caps-avx", { kCaps, "avx" }, "", true, "no AVX-512; Mesa leaves AVX2 and FMA" },
-    { "caps-avx2", { kCaps, "avx2" }, "", true, "nothing: Mesa 22.3 does not know the word, later versions may" },
+    { "caps-avx2", { kCaps, "avx2" }, "", true, "nothing: Mesa 22.3 to 26.1 do not know the word" },
     { "libm",
       { "GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F" },
       "",
