@@ -21,6 +21,7 @@ PROGRAMS = {
               'case " $* " in\n'
               '*" ./run "*) echo "identical: ${PIXELS:-100.0000} % of pixels, max difference 0/255"; exit "${RUN_STATUS:-0}" ;;\n'
               '*" ./check "*) echo "a.cpp:1: warning: unused"; echo "100% tests passed, 0 tests failed out of 7"; exit "${CHECK_STATUS:-0}" ;;\n'
+              '*" scripts/package"*) echo "1.6M libfilament-core0.1.deb"; exit "${PACKAGE_STATUS:-0}" ;;\n'
               '*--list-devices*) echo "vulkan  llvmpipe (LLVM 19.1.7, 256 bits), Mesa 25.0.7-2 (LLVM 19.1.7), Vulkan 1.4" ;;\n'
               '*-dumpfullversion*) echo 14.2.0 ;;\n'
               'esac',
@@ -37,6 +38,8 @@ class Releases(unittest.TestCase):
         (work / "bin").mkdir()
         for name in ("asset_dir", "check_on", "debian_root"):
             shutil.copy(SCRIPTS / name, self.root / "scripts" / name)
+        (self.root / "scripts/test_packages").write_text('#!/bin/sh\necho "test_packages $FILAMENT_RELEASE $*" >> "$CALLS"\n')
+        (self.root / "scripts/test_packages").chmod(0o755)
         for name, text in PROGRAMS.items():
             (work / "bin" / name).write_text(f"#!/bin/sh\n{text}\n")
             (work / "bin" / name).chmod(0o755)
@@ -71,6 +74,17 @@ class Releases(unittest.TestCase):
     def test_run_alone_is_enough_if_asked(self):
         self.check_on("trixie", "--run")
         self.assertNotIn("./check", self.calls.read_text())
+
+    def test_packages_are_made_in_the_release_and_tested_if_asked(self):
+        done = self.check_on("trixie", "--package", DEBFULLNAME="A B", DEBEMAIL="a@b.c")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        calls = self.calls.read_text()
+        self.assertIn("DEBFULLNAME=A B DEBEMAIL=a@b.c scripts/package\n", calls)
+        self.assertIn(f"test_packages trixie {self.roots}/trixie-g++/build/packages\n", calls)
+        self.assertIn("libfilament-core0.1.deb", done.stdout)
+        self.assertNotIn("./run", calls)
+        self.assertEqual(self.check_on("trixie", "--package", PACKAGE_STATUS="3").returncode, 3)
+        self.assertNotIn("test_packages", self.calls.read_text())
 
     def test_the_table_has_a_row_for_each_release_and_compiler(self):
         self.check_on("trixie", RUN_STATUS="1")
