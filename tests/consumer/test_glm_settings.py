@@ -66,7 +66,7 @@ class Settings(unittest.TestCase):
             if options.compiler in compilers:
                 with self.subTest(macros):
                     flags = ["-mavx2"] if "GLM_FORCE_AVX2" in macros else []
-                    done = compile_with(macros, *flags, "-fsyntax-only", "-x", "c++", "-include", "filament/Math.h", "/dev/null")
+                    done = compile_with(macros, *flags, "-fsyntax-only", "-x", "c++", "-include", "filament_core/Math.h", "/dev/null")
                     self.assertNotEqual(done.returncode, 0)
                     self.assertIn(MESSAGE, done.stderr)
 
