@@ -13,7 +13,7 @@ CODE = "\0"  # in place of code: no phrase reaches across it
 BRACED = {".cpp", ".h", ".inl", ".inc", ".c", ".glsl", ".mat", ".frag", ".vert", ".js", ".css"}
 HASHED = {".cmake", ".sh", ".yml", ".yaml"}
 # Inputs of tests, and folders that are still to be rewritten.
-EXCEPT = ("tests/fuzz/corpus/", "tools/", *(f"filament_core/{room}/" for room in ("passes", "prepare")))
+EXCEPT = ("tests/fuzz/corpus/",)
 
 TOKENS = re.compile(
     r'R"(?P<end>[^\s()\\]{0,16})\(.*?\)(?P=end)"'  # raw strings

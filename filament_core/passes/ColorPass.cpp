@@ -20,9 +20,9 @@ using framegraph::TextureId;
 using prepare::DrawCall;
 
 /// What of the view a pass draws: all, or what is drawn before the first copy of the picture, between two, or after
-/// the last; and of the last of these what comes before, behind and after what blends in any order.
+/// the last; and of the last of these what comes before, behind and after order-independent transparent objects.
 struct ColorPart {
-    bool isFirst = true, isLast = true; ///< the first draws what is opaque, and the sky
+    bool isFirst = true, isLast = true; ///< the first draws opaque objects and the sky
     std::span<const DrawCall> blended;
     shader::TransparencyTerm transparency = shader::kTransparencyInOrder;
 };

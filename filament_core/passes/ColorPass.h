@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Colour pass: opaque and masked geometry, then the sky where nothing covers it, then blended geometry. If something
-/// refracts the picture, two passes: what it sees, which is then copied (SceneColorCopyPass.h), and the rest over that.
+/// is refractive, two passes: what it sees, which is then copied (SceneColorCopyPass.h), and the rest over that.
 ///   Draws   pre-exposed scene-linear light, and a reversed depth buffer that lives only as long as the pass.
 ///   Skips   the sky if the scene has none; draws without a pipeline.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The rectangles of View::debugDraw (prepare/DebugQuads.h), over the finished picture: first those that surfaces hide,
+/// The rectangles of View::debugDraw (prepare/DebugQuads.h), over the output: first those that surfaces hide,
 /// by the depth of the view, then the others.
 ///   Skips   views without any.
 ///   Memory  DebugBuffers: three pairs of buffers, used in turn; they grow to the most rectangles of a frame and stay.

@@ -2,7 +2,7 @@
 /// addDebugViewPass: View::debugView in the place of the tone mapper. One triangle over the picture that reads the
 /// frame's depths, lists of lights and shadow maps; what it shows is shaders/material/debug_view.mat.
 ///   Demand  SceneDemand's Effect::DebugView; without it the pass is not declared.
-///   Depth   FrameTargets::depth, of one sample a pixel. What blends leaves none: what is behind it is shown.
+///   Depth   FrameTargets::depth, of one sample a pixel. Transparent objects leave none: what is behind it is shown.
 ///   Thread  the app thread.
 #pragma once
 

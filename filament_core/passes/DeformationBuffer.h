@@ -27,7 +27,7 @@ public:
     void destroy(backend::CommandStream& stream, backend::CommandBuffer& commands);
 
     std::span<const backend::CmdBindGroup> groups() const { return mBinds; }
-    /// The same with the last frame's, for variants with kVariantMotion; those that nobody asks for are not set.
+    /// The same with the last frame's, for variants with kVariantMotion; unused ones are not set.
     std::span<const backend::CmdBindGroup> lastGroups() const { return mLastBinds; }
 
 private:

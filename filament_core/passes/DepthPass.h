@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Depth prepass: the depths of what is opaque or masked, before anything is shaded.
+/// Depth prepass: the depths of opaque and masked objects, before anything is shaded.
 ///   Draws   targets.depth, one sample a pixel: the opaque list of the main view by variants that compute nothing but
 ///           positions and what cuts holes. Then targets.linearDepth, if materials read them, and their pyramid, if
 ///           rays are marched through it: level n has the nearest distance of 2^n x 2^n pixels (Uludag 2014, "Hi-Z
 ///           Screen-Space Cone-Traced Reflections", GPU Pro 5).
 ///   Why     effects that look at the surroundings of a pixel read them; and with one sample a pixel the colour pass
-///           goes on with this depth: its test, which lets equal depths pass, then shades each pixel once.
+///           continues with this depth: its test, which lets equal depths pass, then shades each pixel once.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 

@@ -110,7 +110,7 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
     addSurfacePasses(graph, context, targets);
-    // Frames are gathered before the lens blurs them: the history is clamped by colours of sharp neighbours. Depth of
+    // Temporal accumulation comes before the blur of the lens: the history is clamped by colours of sharp neighbours. Depth of
     // field and motion blur look pixels up in the depths, so gathering that enlarges the image comes after them.
     const bool isEnlarged = isEnlargedByGathering(context);
     if (!isEnlarged) addTemporalPass(graph, context, targets);

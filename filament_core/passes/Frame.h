@@ -17,9 +17,9 @@ struct FrameOutput {
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
     uint8_t srgbLevels = 1;         ///< of sRGB codes, whose levels 1.. the frame draws, too
-    bool hasContents = false;       ///< somebody drew to it before
-    backend::TextureHandle depth{}; ///< RenderTargetDesc::depth, of the same size; none: nobody asks
-    bool hasDepths = false;         ///< somebody drew to that
+    bool hasContents = false;       ///< it was drawn to before
+    backend::TextureHandle depth{}; ///< RenderTargetDesc::depth, of the same size; none: unused
+    bool hasDepths = false;         ///< `depth` was drawn to before
 
     /// Takes light as it is, without a tone mapper.
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }

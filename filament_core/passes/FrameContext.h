@@ -43,7 +43,7 @@ struct FrameContext {
     FrameResources resources{};
     ShadingKey shading = 0; ///< of what is lit in the main view
     ShadingPrecision precision = ShadingPrecision::Full;
-    bool keepsDepth = false; ///< somebody reads FrameTargets::sceneDepth
+    bool keepsDepth = false; ///< a pass reads FrameTargets::sceneDepth
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 

@@ -27,7 +27,7 @@ struct ViewGroup {
     backend::BindGroupHandle handle;
     uint32_t uniforms = 0, objects = 0;     ///< bytes
     uint32_t firstLight = 0, firstWord = 0; ///< elements of the storage buffers
-    uint32_t firstProfileWord = 0;          ///< the same; 0: the view has no profiles
+    uint32_t firstProfileWord = 0;          ///< of the words of profiles; 0: the view has none
     ViewGroup const* lists = nullptr;       ///< one for each of ViewPacket::channels, with the same objects
 
     /// For draws of the window that holds `object` of the view.

@@ -40,7 +40,7 @@ struct FrameResources {
     scene::Material const* skybox = nullptr;         ///< full-screen material; null: the scene has no sky
     scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
-    scene::Material const* debugView = nullptr; ///< full-screen material; null: the picture is shown
+    scene::Material const* debugView = nullptr; ///< full-screen material; null: no debug view
     scene::Material const* edges = nullptr;     ///< whose fragment stage numbers triangles; null: none is asked for
     scene::MaterialInstance const* debugTested = nullptr;  ///< draw rectangles of DebugDraw that surfaces hide
     scene::MaterialInstance const* debugThrough = nullptr; ///< and those that they do not

@@ -24,7 +24,7 @@ struct FrameTargets {
     framegraph::History sceneColorHistory;  ///< `color` of the last frame, and of this one; null if unused
     framegraph::TextureId bloom;            ///< light that bloom scatters, smaller than the image; null if unused
     framegraph::TextureId flare;            ///< ghosts and halo of the lens, by blocks of pixels; null if unused
-    framegraph::TextureId historyWeight;    ///< what is kept of the gathered image (taa.mat), for its debug view
+    framegraph::TextureId historyWeight;    ///< weight of the history (taa.mat), for its debug view
     framegraph::TextureId histogram;        ///< of luminance (histogram.mat); null if unused
     framegraph::TextureId exposure;         ///< one texel: stops by which the image becomes brighter; null if unused
     framegraph::TextureId triangles;        ///< numbers of visible triangles (debug_edges.mat), for their debug view

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FullScreenInterface: what a full-screen pass gives its material, and the check that both agree.
-///   Thread  any; pure.   Memory: none, but for an error's text.
+///   Thread  any; pure.   Memory: none, except an error's text.
 #pragma once
 
 #include "base/Result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Motion pass: where the last frame showed what moved by itself, for effects that look at the last picture.
+/// Motion pass: motion vectors of dynamic objects, for temporal effects.
 ///   Draws   targets.motionVectors: rg: from here to there, as shares of the image's width and height; b: its distance
 ///           along the view then, over that of now; a: 1. All 0 where nothing moved by itself: the motion of the
 ///           camera tells the rest.

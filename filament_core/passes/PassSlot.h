@@ -18,7 +18,7 @@ namespace filament_core::passes {
 enum class DebugSlot : uint8_t {
     None,
     Values, ///< what their variants with kVariantDebug give
-    Counts, ///< the same, added up
+    Counts, ///< counts of surfaces, added up
     Edges,  ///< the numbers of their triangles: FrameResources::edges has the fragment stage. Everything hides what is
             ///< behind
 };

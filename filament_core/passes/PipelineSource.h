@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PipelineSource: where the passes of a frame get their pipelines. From the cache, which makes what is missing; or,
-/// when a frame is only expected, from the cache as it is: what is missing goes onto a list of wishes. So the passes
+/// when a frame is only expected, from the cache as it is: missing ones go onto a list of requests. So the passes
 /// that draw a frame are the ones that say what it needs.
 ///   In      the cache, and for an expected frame the list.
-///   Limits  pipelines of surfaces are not wished for: Engine::compile() asks for those, material by material.
+///   Limits  pipelines of surfaces are not requested: Engine::compile() asks for those, material by material.
 ///   Thread  as PipelineCache.   Memory: the list.   Fails: std::bad_alloc.
 #pragma once
 
@@ -31,7 +31,7 @@ public:
 
     uint32_t slot(PassSlot const& slot) const { return mCache->slot(slot); }
 
-    /// PipelineCache's functions of these names; none for what is only wished for.
+    /// PipelineCache's functions of these names; none for requests.
     std::optional<backend::PipelineHandle> find(uint32_t slot, PipelineUse const& use) const {
         return mCache->find(slot, use);
     }

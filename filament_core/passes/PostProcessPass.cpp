@@ -101,7 +101,7 @@ float4 shapeOf(Vignette const& vignette, uint2 size) {
     return { vignette.midPoint, vignette.midPoint + 2 * vignette.feather, exponent, width };
 }
 
-/// Strength, the level of its texture that has as many texels as the picture has pixels, and that of its mean.
+/// Strength, the level of its texture that has as many texels as the image pixels, and that of its mean.
 float3 dirtLevelsOf(FrameContext const& context, uint2 size) {
     DirtTexture const& dirt = context.resources.dirt;
     const float2 texels = float2(dirt.size) / float2(size);
@@ -218,7 +218,7 @@ void addLightPass(FrameGraph& graph, FrameContext const& context, TextureId colo
                         .target = target });
 }
 
-/// Where objects have edges: beside them only the sky is, unless the picture shows them elsewhere.
+/// Where objects have edges: beside them only the sky is, unless they are elsewhere on screen.
 Rect pixelsWithEdges(prepare::FramePacket const& packet, PostProcessSteps const& steps, uint2 size) {
     const bool isKnown = size == packet.settings.size && !steps.hasFringes && packet.discs.empty();
     return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };

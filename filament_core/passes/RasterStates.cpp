@@ -46,7 +46,7 @@ PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raste
     return desc;
 }
 
-// The depths of what blends count as well: the nearest surface is seen.
+// The depths of transparent objects count as well: the nearest surface is seen.
 PipelineDesc leavingEdges(PipelineDesc desc, scene::InstanceRaster const& raster, DepthRange range) {
     desc.depthStencil = { .depthCompare =
                                   range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What pixels and their depths say: where they are, and where the last picture shows it.
+/// What pixels and their depths say: where they are, and where the scene colour history shows it.
 ///   Thread  any; pure.   Memory: none.   Fails: never.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace filament_core::passes {
 /// From pixels and depths of this frame, in homogeneous coordinates.
 double4x4 worldFromPixel(FrameContext const& context);
 
-/// The same to coordinates of the texture of the last picture, whose upper left part `end` the picture fills.
+/// The same to coordinates of the texture of the scene colour history, whose upper left part `end` it fills.
 float4x4 lastFromPixel(FrameContext const& context, double2 end);
 
 /// Whether the projection is parallel.

@@ -56,7 +56,7 @@ void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const
                         .clears = true });
 }
 
-/// The picture of the last frame, as this one sees its surfaces.
+/// The scene colour of the previous frame, reprojected to the surfaces of this one.
 void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets, TextureId picture) {
     prepare::LastView const& last = context.packet.last;
     float4x4 const& view = context.packet.mainView().uniforms.viewFromWorld;

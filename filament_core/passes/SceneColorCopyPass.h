@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scene colour copies: of what is drawn so far, for what refracts it, or of the whole image, for what reflects it in
+/// Scene colour copies: of what is drawn so far, for refractive objects, or of the whole image, for what reflects it in
 /// the next frame, which reprojects it; blurred level by level.
 ///   Reads   targets.color, and a depth of one sample a pixel.
-///   Draws   rgb: pre-exposed light, a: 1 / distance along the view in 1/m, 0 where nothing is. What lies outside of
+///   Draws   rgb: pre-exposed light, a: 1 / distance along the view in 1/m, 0 for background. What lies outside of
 ///           the rectangle is 0.
 #pragma once
 

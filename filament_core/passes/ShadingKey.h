@@ -46,11 +46,11 @@ ShadingKey depthOfViewKey(ShadingKey key);
 
 /// For what leaves no depth: ambient occlusion is that of the surfaces behind it.
 ShadingKey withoutOcclusion(ShadingKey key);
-/// For what does not refract the picture, and for what is drawn before there is one.
+/// For objects that are not refractive, and for those drawn before the copy.
 ShadingKey withoutRefraction(ShadingKey key);
 /// For what does not mirror the picture.
 ShadingKey withoutReflections(ShadingKey key);
-/// For what blends in any order.
+/// For order-independent transparency.
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);
 /// For what has no textures.
 ShadingKey withoutMipBias(ShadingKey key);

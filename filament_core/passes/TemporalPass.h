@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Temporal anti-aliasing: the picture gathered over frames, each of which sees it from another place in its pixels.
-///   Draws   targets.color: the gathered picture, which the next frame finds as its history; targets.historyWeight for
+///   Draws   targets.color: the accumulated colour, which the next frame finds as its history; targets.historyWeight for
 ///           DebugView::HistoryWeight.
 ///   How     Karis 2014, "High-Quality Temporal Supersampling": the history is looked up where it shows the same
 ///           surface, limited to the colours around the pixel, and mixed with the new picture by Gathering::weight.

@@ -62,7 +62,7 @@ void addSurfaces(FrameGraph& graph, FrameContext const& context, std::string_vie
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordSurfaces(pass, *of, chosen); });
 }
 
-/// Drawn with the samples of the view, before the depth of what is opaque. Returns their mean.
+/// Drawn with the samples of the view, before the depth of opaque objects. Returns their mean.
 TextureId addSums(FrameGraph& graph, FrameContext const& context, TransparencyTargets const& targets, Format format,
                   std::string_view name, shader::TransparencyTerm term) {
     const uint8_t samples = context.settings().samples;

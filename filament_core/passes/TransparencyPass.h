@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What blends in any order, composed over the picture: Quality::transparency. ColorPass calls these between what it
+/// Order-independent transparency, composed over the scene colour: Quality::transparency. ColorPass calls these between what it
 /// draws before and after.
 ///   Weighted  two passes over the surfaces: sums of their light by weight, and how much they cover together. One draw
 ///             over the picture. With several samples a pixel both are drawn with them, and composed once a pixel.

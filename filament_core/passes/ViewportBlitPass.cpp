@@ -21,7 +21,7 @@ constexpr std::string_view kDepthInputs[] = { "depth" };
 constexpr FullScreenInterface kTargetDepth{ .pass = "target depth", .inputs = kDepthInputs };
 constexpr float kNothingMeters = 1e30f; // kFarDistance of shaders/lib/distance.glsl
 
-/// What becomes of the target first.
+/// Load operation of the target.
 struct Clearing {
     bool clears = false;
     float4 color{ 0 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The last pass of a view that is a part of its target, or is drawn over what is there: puts the finished picture into
+/// The last pass of a view that is a part of its target, or is drawn over what is there: puts the output into
 /// its place.
 ///   Why     all passes before it know only the view's own size, so that every effect is the same inside of a viewport
 ///           as in a target of that size, to the bit.

@@ -57,7 +57,7 @@ inline constexpr uint32_t kNowhere = ~0u;
 /// Of one deformation: byte offsets into the buffer of the frame; kNowhere: it is not visible.
 struct DeformationPlace {
     uint32_t bones = kNowhere, weights = kNowhere;
-    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: nobody asks
+    uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: unused
     backend::TextureHandle deltas;                         ///< none: no morph targets
 };
 
@@ -175,8 +175,8 @@ struct Focus {
 /// How this frame adds to a picture that is gathered over frames (TemporalPass.h).
 struct Gathering {
     float2 jitterPixels{ 0 }; ///< ViewInput::jitterPixels of the main view
-    float weight = 1;         ///< of this frame in the gathered picture, (0, 1]
-    bool isFixed = false;     ///< nothing changed but where the camera looks: the gathered picture is right
+    float weight = 1;         ///< of this frame in the accumulated colour, (0, 1]
+    bool isFixed = false;     ///< only the direction of the camera changed: the accumulated colour is right
     float ramp = 0;           ///< of a picture that gathering enlarges: half the width of its filter's edges, pixels
 };
 

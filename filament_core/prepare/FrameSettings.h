@@ -23,7 +23,7 @@ struct FrameSettings {
     std::optional<Viewport> viewport{};
     bool gathersFrames = false;    ///< the image is gathered over frames, if there is anything in it
     bool gathersLarger = false;    ///< and gathering, not a filter, makes it as large as it is shown
-    bool composesAnyOrder = false; ///< what blends, if it may overlap
+    bool composesAnyOrder = false; ///< transparent objects, if they may overlap
     bool tracksMotion = false;     ///< an effect of the image looks at the last one, so that it matters what moved
     float mipBias = 0;             ///< of materials' textures, in levels, at most 0
 

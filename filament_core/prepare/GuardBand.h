@@ -13,7 +13,7 @@ struct SceneData;
 
 namespace filament_core::prepare {
 
-/// Whether an effect that comes before the cut may read pixels beside the picture.
+/// Whether an effect that comes before the cut may read off-screen pixels.
 bool looksBesidePicture(scene::SceneData const& scene, Quality const& quality, Effects const& effects);
 
 } // namespace filament_core::prepare

@@ -10,7 +10,7 @@ namespace filament_core::prepare {
 namespace {
 
 // How many frames are in the picture while something moves: enough to smooth edges, and few enough that what each
-// filtering of the last picture blurs, and each limit of its colours, is soon replaced.
+// filtering of the history blurs, and each limit of its colours, is soon replaced.
 constexpr float kGatheredInMotion = 4;
 constexpr float kGatheredInTurn = 9; // of the camera alone
 constexpr float kMostGathered = 255; // of a still picture
@@ -56,7 +56,7 @@ bool LastFrame::isFollowedBy(scene::SceneData const& scene, FrameSettings const&
            (mSeen->settings.band > 0) == (settings.band > 0);
 }
 
-/// By one whose gathered picture has the same size, too.
+/// By one whose history has the same size, too.
 bool LastFrame::isGatheredBy(scene::SceneData const& scene, FrameSettings const& settings) const {
     const auto gatheredSize = [](FrameSettings const& of) { return of.gathersLarger ? of.shownSize : of.size; };
     return isFollowedBy(scene, settings) && gatheredSize(mSeen->settings) == gatheredSize(settings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// LastFrame: what a frame leaves to the next one of the same renderer: how it was seen, and where everything was.
-/// Effects that gather over frames find by it where the last picture shows a point of this one.
+/// Temporal effects find by it where the previous frame shows a point of this one.
 ///   In      the scene and the main view of a frame, once it is drawn.
 ///   Limits  of one scene and one view, by the size of what it shows: beside others, frames know none before them
 ///           (isFollowedBy(), which prepareFrame() asks first).
@@ -26,7 +26,7 @@ public:
     void keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet);
     void forget() { *this = {}; }
 
-    /// Whether such a frame goes on with what the last one left: it shows the same scene in the same size.
+    /// Whether such a frame continues with what the last one left: it shows the same scene in the same size.
     bool isFollowedBy(scene::SceneData const& scene, FrameSettings const& settings) const;
 
     /// As this frame sees the last one; itself, if there was none.
@@ -63,7 +63,7 @@ private:
 
     std::optional<Seen> mSeen;
     uint32_t mJitters = 0;                ///< frames in a row that gathered
-    float mGathered = 0;                  ///< frames in the gathered picture
+    float mGathered = 0;                  ///< accumulated frames
     bool mIsExposed = false;              ///< by AutoExposure
     bool mIsReflected = false;            ///< its picture was kept for reflections
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known

@@ -32,7 +32,7 @@ struct PickCandidate {
     uint32_t renderable = 0;
 };
 
-/// What blends is drawn by another material; a background is no surface.
+/// Transparent objects are drawn by another material; a background is no surface.
 bool isPickable(DrawCall const& draw) {
     scene::Material const& material = *draw.material->material;
     return draw.pass != DrawPass::Second &&

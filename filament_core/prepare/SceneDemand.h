@@ -30,14 +30,14 @@ enum class Effect : uint8_t {
     Sky,
     SunDisc, ///< discs of suns, and their halos
     Blending,
-    Transparency, ///< what blends is composed in any order
+    Transparency, ///< order-independent
     Deformation,
     Stencil,      ///< stencil values beside the depths
-    DepthPrepass, ///< of what is opaque, before anything is shaded
+    DepthPrepass, ///< of opaque objects, before anything is shaded
     AmbientOcclusion,
     Refraction,  ///< of the picture
     Reflections, ///< of the picture
-    Motion,      ///< of what does not stay where it is, for effects that look at the last picture
+    Motion,      ///< motion vectors of dynamic objects, for temporal effects
     ContactShadows,
     Fog,
     Taa, ///< temporal anti-aliasing
@@ -50,7 +50,7 @@ enum class Effect : uint8_t {
     ColorGrading,
     Grain,
     Fxaa,
-    Upscaling, ///< by a filter, or by gathering frames
+    Upscaling, ///< by a filter, or by temporal accumulation
     Sharpening,
     LensFlare,
     MsaaResolve, ///< by what is displayed
@@ -85,7 +85,7 @@ struct DemandInput {
     ShadowCounts shadows{};
     bool hasIndirectLight = false, hasSky = false;
     uint32_t deformed = 0;     ///< objects in view that skins or morph targets move
-    uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
+    uint32_t copiedPixels = 0; ///< of the scene colour, for refractive objects
     uint32_t moved = 0;        ///< opaque objects in view that do not stay where they are
     bool cameraMoved = false;
     float blurRadius = 0; ///< in pixels: the largest of what is visible, of the lens

@@ -14,7 +14,7 @@
 
 namespace filament_core::prepare {
 
-/// What a view is drawn for. Depth, Shadow and Motion draw what is opaque or masked, without lights: positions, bones
+/// What a view is drawn for. Depth, Shadow and Motion draw opaque and masked objects, without lights: positions, bones
 /// and morph targets are all that such draws read, and masked materials their fragment stage.
 enum class ViewKind : uint8_t {
     Color,  ///< light: what a camera sees
@@ -35,7 +35,7 @@ struct DisplaySettings {
     bool dithers = false;
 };
 
-/// `quality` to `debugView`: of the main view; FrameSettings says what becomes of them.
+/// `quality` to `debugView`: of the main view; FrameSettings resolves them.
 struct ViewInput {
     ViewKind kind = ViewKind::Color;
     Camera camera{};

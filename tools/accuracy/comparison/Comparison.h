@@ -46,7 +46,7 @@ struct RowResult {
     double flip = 0;          ///< mean, of the tone-mapped pictures
     double eightBits = 0;     ///< RMS of what the engine's 8 bits a component change, in units of a display's white
     double noise = 0;         ///< RMS standard error of the reference that follows the engine, relative
-    double tracedNoise = 0;   ///< the same of the path tracer's last picture
+    double tracedNoise = 0;   ///< noise of the path tracer's latest image
     double unexplained = 0;   ///< the step without a name, noise taken off
     double seconds = 0;       ///< of the references
     std::vector<StepResult> steps, alternatives;

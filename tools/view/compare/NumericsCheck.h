@@ -32,7 +32,7 @@ struct NumericsCheck {
     std::vector<NumericKind> pixels;                         ///< row 0 at the top
     uint32_t width = 0, height = 0;
 
-    /// The picture in grey with what is not good in the colour of its kind; RGBA8.
+    /// The image in grey with bad values in the colour of its kind; RGBA8.
     Image marked(Image const& picture) const;
 };
 
