@@ -131,7 +131,7 @@ class BothApis(unittest.TestCase):
 
     def test_have_the_same_bits(self):
         def effects(view):
-            view["ao"] = "gtao"
+            view["ambientOcclusion"] = True
             view["bloom"] = True
             view["antiAliasing"] = "taa"
             view["fog.density"] = 0.02
@@ -144,7 +144,7 @@ class BothApis(unittest.TestCase):
 
     def test_options_change_the_picture(self):
         plain = self.picture("gles", "light")
-        for name, value in (("ao", "sao"), ("shadows", "off"), ("specularVisibility", "uncorrelated")):
+        for name, value in (("ambientOcclusion", True), ("shadows", "off"), ("specularVisibility", "uncorrelated")):
             changed = self.picture("gles", "light", lambda view, name=name, value=value: view.set(name, value))
             self.assertFalse(fc.compare(plain, changed).identical, name)
         self.assertFalse(fc.compare(plain, self.picture("gles", "light", roughness=0.31)).identical)

@@ -110,7 +110,7 @@ class Documentation(unittest.TestCase):
             self.assertTrue(text, name)
             view[name] = view[name]
         self.assertEqual(view.options(), fc.View().options())
-        for name in ("ao", "shadows", "fog.density", "bloom", "antiAliasing", "agxLook", "toneMapper", "debugView", "samples"):
+        for name in ("ambientOcclusion", "shadows", "fog.density", "bloom", "antiAliasing", "agxLook", "toneMapper", "debugView", "samples"):
             self.assertIn(name, options)
 
     def test_has_the_version_of_the_library(self):

@@ -188,7 +188,7 @@ TEST(Upscaling, OfAllPixelsCostsNothing) {
         fan.view.effects.resolution.upscaling = Upscaling::Off;
         fan.view.effects.resolution.scale = float2(0.5f);
         EXPECT_EQ(test::differingPixels(fan.draw(), before), 0u) << "nothing would enlarge it";
-        EXPECT_NE(fan.renderer.explain().find("switched off: upscale=off"), std::string::npos);
+        EXPECT_NE(fan.renderer.explain().find("switched off: resolution.upscaling=off"), std::string::npos);
         fan.view.effects.resolution.upscaling = Upscaling::EdgeAdaptive;
         fan.draw();
         EXPECT_NE(fan.renderer.explain().find("48 x 40 pixels are drawn"), std::string::npos) << fan.renderer.explain();

@@ -64,7 +64,7 @@ TEST(TracedMaterials, AMirrorOfThePictureIsNearerToPathsThanOneOfTheEnvironment)
         EXPECT_TRUE(picture && truth);
         return rmsOf(*picture, truth->picture);
     };
-    const double on = errorWith("ssr=on"), off = errorWith("ssr=off");
+    const double on = errorWith("screenSpaceReflections=on"), off = errorWith("screenSpaceReflections=off");
     EXPECT_LT(on, off / 3) << "off: " << off;
 }
 
