@@ -110,8 +110,8 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
     addSurfacePasses(graph, context, targets);
-    // Temporal accumulation comes before the blur of the lens: the history is clamped by colours of sharp neighbours. Depth of
-    // field and motion blur look pixels up in the depths, so gathering that enlarges the image comes after them.
+    // Temporal accumulation comes before the blur of the lens: the history is clamped by colours of sharp neighbours.
+    // Depth of field and motion blur look pixels up in the depths, so accumulation that upscales comes after them.
     const bool isEnlarged = isEnlargedByGathering(context);
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color; // surfaces reflect the scene, not what the lens makes of it

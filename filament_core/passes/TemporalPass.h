@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Temporal anti-aliasing: the picture gathered over frames, each of which sees it from another place in its pixels.
-///   Draws   targets.color: the accumulated colour, which the next frame finds as its history; targets.historyWeight for
-///           DebugView::HistoryWeight.
+/// Temporal anti-aliasing: colour accumulated over frames, each of which samples another place in its pixels.
+///   Draws   targets.color: the accumulated colour, which the next frame finds as its history; targets.historyWeight
+///           for DebugView::HistoryWeight.
 ///   How     Karis 2014, "High-Quality Temporal Supersampling": the history is looked up where it shows the same
-///           surface, limited to the colours around the pixel, and mixed with the new picture by Gathering::weight.
+///           surface, limited to the colours around the pixel, and mixed with the new colour by Gathering::weight.
 ///   Size    that of the output, if no filter of Resolution::upscaling enlarges the image. Each pixel then accumulates
 ///           the samples that lie in it, weighted by their distances.
 ///   Skips   all of it, unless the frame's demand needs it.

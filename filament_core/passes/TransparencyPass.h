@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Order-independent transparency, composed over the scene colour: Quality::transparency. ColorPass calls these between what it
-/// draws before and after.
+/// Order-independent transparency, composed over the scene colour: Quality::transparency. ColorPass calls these between
+/// what it draws before and after.
 ///   Weighted  two passes over the surfaces: sums of their light by weight, and how much they cover together. One draw
 ///             over the picture. With several samples a pixel both are drawn with them, and composed once a pixel.
 ///   Peeled    two passes for each layer but the last: the depth of what is nearest behind the layer before it, then

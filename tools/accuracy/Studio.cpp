@@ -43,8 +43,8 @@ Result<Picture> Take::shoot() {
     return pictureOf(*image);
 }
 
-// The first frame is not timed: what the renderer keeps from frame to frame, shadow maps and the scene colour history, is that
-// of another take.
+// The first frame is not timed: what the renderer keeps from frame to frame, shadow maps and the scene colour history,
+// is that of another take.
 Result<double> Take::time() {
     for (int i = 0; i < 2; ++i) mRenderer.render(mParts.shown.scene, mParts.view, mParts.target);
     mEngine.waitIdle();
