@@ -3,7 +3,7 @@
 // of displays. Included after color.glsl.
 // fp32 only: scene-referred light has more stops than 16 bits have digits.
 
-// They follow those of color.glsl, in the order of ToneMapper (ColorGrading.h); the looks of AgX come last.
+// They follow those of color.glsl, in the order of ToneMapper (DisplayTransform.h); the looks of AgX come last.
 const int kToneMapAgx = 4;
 const int kToneMapPbrNeutral = 5;
 const int kToneMapAcesReference = 6; // by a table alone (ToneTable.h); without one, the fit of it

@@ -59,7 +59,7 @@ class Messages(unittest.TestCase):
         self.fails(fc.InvalidArgumentError, "eye", self.view.look_at, (1, 2, float("nan")), (0, 0, 0))
         self.fails(fc.InvalidArgumentError, "fov_degrees", self.view.look_at, (1, 2, 3), (0, 0, 0), fov_degrees=180)
         self.fails(fc.InvalidArgumentError, "up", self.view.look_at, (1, 2, 3), (0, 0, 0), up=(0, 0, 0))
-        self.fails(fc.InvalidArgumentError, "far", self.view.parallel, 1, near=2, far=1)
+        self.fails(fc.InvalidArgumentError, "far", self.view.orthographic, 1, near=2, far=1)
         self.fails(fc.InvalidArgumentError, "a camera is a rotation", setattr, self.view, "world_from_view",
                    placed(scale=2))
         self.fails(fc.InvalidArgumentError, "size", fc.View, (0, 1))

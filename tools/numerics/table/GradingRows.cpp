@@ -110,7 +110,7 @@ std::vector<Row> colourRows() {
           .noError = "luminance cancels where a component is negative",
           .fp32Only = kStops },
         { .file = "grading",
-          .function = "graded(vec3, ColorGrading)",
+          .function = "graded(vec3, Grading)",
           .call = NUMERICS_CALL(graded(u, neutralGrading())),
           .u = colour("light", 100),
           .range = { 0, 101 },
