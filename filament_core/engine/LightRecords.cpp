@@ -86,11 +86,11 @@ void setExtent(LightRecord& record, float2 halfExtent) {
 
 LightRecord recordOf(Engine::Impl const&, SunLight const& given) {
     checkLight(given.color, 0, double3(0.0));
-    const SunLight light = clamped(given);
+    const SunLight light = clamped(given); // its disc and halo: a direction or colour that is no number is misuse
     return { .type = LightRecord::Type::Sun,
-             .directionWorld = unitDirection(light.directionWorld),
-             .color = light.color,
-             .intensity = light.illuminance.value,
+             .directionWorld = unitDirection(given.directionWorld),
+             .color = given.color,
+             .intensity = given.illuminance.value,
              .sourceRadius = elementary::tan(glm::radians(light.angularRadiusDegrees)),
              .castsShadows = light.castsShadows,
              .contactShadows = light.contactShadows,

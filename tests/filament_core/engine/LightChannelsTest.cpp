@@ -200,6 +200,8 @@ TEST(LightsDeathTest, ScenesRefuseLightsThatAreNotNumbersByName) {
     EXPECT_DEATH(scene.add(SpotLight{ .rangeMeters = -1 }), "range is finite and >= 0");
     EXPECT_DEATH(scene.add(PointLight{ .positionWorld = { 0, std::nan(""), 0 } }), "position is finite");
     EXPECT_DEATH(scene.add(SunLight{ .directionWorld = { 0, 0, 0 } }), "direction is finite and not zero");
+    EXPECT_DEATH(scene.add(SunLight{ .directionWorld = { 0, kNaN, 0 } }), "direction is finite and not zero");
+    EXPECT_DEATH(scene.add(SunLight{ .color = LinearColor(kNaN) }), "color is finite");
     EXPECT_DEATH(scene.add(SpotLight{ .directionWorld = { 0, kNaN, 0 } }), "direction is finite and not zero");
     EXPECT_DEATH(scene.add(SpotLight{ .innerConeRadians = 0.5f, .outerConeRadians = 0.4f }), "0 <= inner < outer");
 }
