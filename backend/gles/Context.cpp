@@ -4,14 +4,14 @@
 namespace filament_core::backend::gles {
 namespace {
 
-struct ContextWish {
+struct ContextRequest {
     EGLint minor;     // of ES 3.x
     bool resetNotice; // tells a lost device from a defective one; not every driver has it
 };
 
-EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, bool debug) {
-    std::vector<EGLint> attributes{ EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, wish.minor };
-    if (wish.resetNotice) {
+EGLContext createContext(Egl const& egl, EGLDisplay display, ContextRequest request, bool debug) {
+    std::vector<EGLint> attributes{ EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, request.minor };
+    if (request.resetNotice) {
         attributes.insert(attributes.end(),
                           { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT });
     }
@@ -32,9 +32,9 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
     }
     const bool reset = hasExtension(extensions, "EGL_EXT_create_context_robustness");
     EGLContext context = EGL_NO_CONTEXT;
-    for (ContextWish wish : { ContextWish{ 2, true }, { 2, false }, { 1, true }, { 1, false } }) {
-        if (context == EGL_NO_CONTEXT && (reset || !wish.resetNotice)) {
-            context = createContext(egl, display, wish, debug);
+    for (ContextRequest request : { ContextRequest{ 2, true }, { 2, false }, { 1, true }, { 1, false } }) {
+        if (context == EGL_NO_CONTEXT && (reset || !request.resetNotice)) {
+            context = createContext(egl, display, request, debug);
         }
     }
     if (context == EGL_NO_CONTEXT) {

@@ -8,11 +8,11 @@ namespace {
 
 constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-struct Wish {
+struct PropertyFlags {
     VkMemoryPropertyFlags required, wanted, unwanted;
 };
 
-Wish wishFor(MemoryPurpose purpose) {
+PropertyFlags propertiesFor(MemoryPurpose purpose) {
     switch (purpose) {
     case MemoryPurpose::Device:
         return { 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT };
@@ -30,16 +30,16 @@ Wish wishFor(MemoryPurpose purpose) {
 
 MemoryTypeOrder memoryTypeOrder(VkPhysicalDeviceMemoryProperties const& memory, uint32_t typeBits,
                                 MemoryPurpose purpose) {
-    const Wish wish = wishFor(purpose);
+    const PropertyFlags properties = propertiesFor(purpose);
     const auto penalty = [&](uint32_t type) {
         const VkMemoryPropertyFlags flags = memory.memoryTypes[type].propertyFlags;
-        return 2 * static_cast<int>((flags & wish.wanted) != wish.wanted) +
-               static_cast<int>((flags & wish.unwanted) != 0);
+        return 2 * static_cast<int>((flags & properties.wanted) != properties.wanted) +
+               static_cast<int>((flags & properties.unwanted) != 0);
     };
     MemoryTypeOrder order;
     for (uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
         const VkMemoryPropertyFlags flags = memory.memoryTypes[type].propertyFlags;
-        const bool allowed = (typeBits >> type & 1) != 0 && (flags & wish.required) == wish.required &&
+        const bool allowed = (typeBits >> type & 1) != 0 && (flags & properties.required) == properties.required &&
                              (flags & VK_MEMORY_PROPERTY_PROTECTED_BIT) == 0;
         if (allowed) order.types[order.count++] = type;
     }

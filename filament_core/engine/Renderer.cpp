@@ -195,9 +195,9 @@ struct Renderer::Impl final : engine::Dependent {
     /// An expected frame does not change the maps: any texture replaces them.
     void useShadows(FrameContext& context, PipelineSource const& pipelines) {
         passes::FrameResources& used = context.resources;
-        if (!pipelines.isWishing()) shadows.use(context.packet.shadows);
-        used.shadowAtlas = pipelines.isWishing() ? used.white : shadows.depths();
-        used.shadowMoments = pipelines.isWishing() ? used.white : shadows.moments();
+        if (!pipelines.isRequesting()) shadows.use(context.packet.shadows);
+        used.shadowAtlas = pipelines.isRequesting() ? used.white : shadows.depths();
+        used.shadowMoments = pipelines.isRequesting() ? used.white : shadows.moments();
     }
 
     void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
@@ -323,13 +323,13 @@ struct Renderer::Impl final : engine::Dependent {
     void prewarm(Scene const& scene, View const& view, Target const& target) {
         try {
             const jobs::AdoptedThread seat(engine.jobs);
-            std::vector<passes::FullScreenWish> wishes;
-            rehearse(scene, view, target, wishes);
+            std::vector<passes::FullScreenRequest> requests;
+            rehearse(scene, view, target, requests);
             if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
-            for (passes::FullScreenWish const& wish : wishes) {
-                engine.compilations.add(
-                        { .material = wish.material, .wishes = { { .slot = wish.slot, .isFullScreen = true } } },
-                        CompilePriority::Critical);
+            for (passes::FullScreenRequest const& request : requests) {
+                engine.compilations.add({ .material = request.material,
+                                          .requests = { { .slot = request.slot, .isFullScreen = true } } },
+                                        CompilePriority::Critical);
             }
         } catch (std::bad_alloc const&) {
             engine.reportOutOfMemory("expecting a frame");
@@ -339,13 +339,13 @@ struct Renderer::Impl final : engine::Dependent {
 
     /// With a pool of its own: nothing is created, and the next frame finds what the last one left.
     void rehearse(Scene const& scene, View const& view, Target const& target,
-                  std::vector<passes::FullScreenWish>& wishes) {
+                  std::vector<passes::FullScreenRequest>& requests) {
         struct ExpectedTextures {
             framegraph::TransientPool pool;
             CommandBuffer& commands;
             ~ExpectedTextures() { pool.destroyAll(commands); }
         } expected{ framegraph::TransientPool(*engine.stream), engine.pending };
-        planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &wishes), expected.pool);
+        planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &requests), expected.pool);
         framegraph::rehearse(plan);
     }
 

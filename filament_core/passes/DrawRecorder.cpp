@@ -138,7 +138,7 @@ std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena,
                                                 prepare::ChannelLists const& channels) {
     const DrawVariants variants{ variant, channels };
     const std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
-    if (pipelines.isWishing()) return chosen;
+    if (pipelines.isRequesting()) return chosen;
     std::atomic<bool> someAreMissing{ false };
     pass.forEachRange(draws.size(), kDrawsPerRange, [&](size_t begin, size_t end) {
         const std::span<PipelineHandle> range = chosen.subspan(begin, end - begin);

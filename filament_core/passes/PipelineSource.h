@@ -15,7 +15,7 @@
 namespace filament_core::passes {
 
 /// A pipeline of a full-screen material.
-struct FullScreenWish {
+struct FullScreenRequest {
     uint32_t slot = 0; ///< of PipelineCache
     scene::Material const* material = nullptr;
 };
@@ -23,11 +23,11 @@ struct FullScreenWish {
 class PipelineSource {
 public:
     PipelineSource() = default;
-    explicit PipelineSource(PipelineCache& cache, std::vector<FullScreenWish>* wishes = nullptr)
-            : mCache(&cache), mWishes(wishes) {}
+    explicit PipelineSource(PipelineCache& cache, std::vector<FullScreenRequest>* requests = nullptr)
+            : mCache(&cache), mRequests(requests) {}
 
     /// Nothing is made.
-    bool isWishing() const { return mWishes != nullptr; }
+    bool isRequesting() const { return mRequests != nullptr; }
 
     uint32_t slot(PassSlot const& slot) const { return mCache->slot(slot); }
 
@@ -36,20 +36,20 @@ public:
         return mCache->find(slot, use);
     }
     backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot, PipelineUse const& use) const {
-        return isWishing() ? find(slot, use).value_or(backend::PipelineHandle{})
-                           : mCache->pipelineFor(setup, slot, use);
+        return isRequesting() ? find(slot, use).value_or(backend::PipelineHandle{})
+                              : mCache->pipelineFor(setup, slot, use);
     }
     backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot,
                                                scene::Material const& material) const {
-        if (!isWishing()) return mCache->fullscreenPipeline(setup, slot, material);
+        if (!isRequesting()) return mCache->fullscreenPipeline(setup, slot, material);
         const auto known = mCache->findFullscreen(slot, material);
-        if (!known) mWishes->push_back({ slot, &material });
+        if (!known) mRequests->push_back({ slot, &material });
         return known.value_or(backend::PipelineHandle{});
     }
 
 private:
     PipelineCache* mCache = nullptr;
-    std::vector<FullScreenWish>* mWishes = nullptr; // null: make it
+    std::vector<FullScreenRequest>* mRequests = nullptr; // null: make it
 };
 
 } // namespace filament_core::passes

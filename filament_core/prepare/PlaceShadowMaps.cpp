@@ -99,19 +99,19 @@ bool place(Arena& arena, std::span<const uint32_t> sizes, std::span<const Shadow
 
 } // namespace
 
-PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapWish> wishes, ShadowAtlas const& held,
+PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapRequest> requests, ShadowAtlas const& held,
                                  uint32_t largestAtlas) {
-    if (wishes.empty()) return {};
-    const auto sizes = arena.arrayForOverwrite<uint32_t>(wishes.size());
-    std::ranges::transform(wishes, sizes.begin(), &ShadowMapWish::size);
+    if (requests.empty()) return {};
+    const auto sizes = arena.arrayForOverwrite<uint32_t>(requests.size());
+    std::ranges::transform(requests, sizes.begin(), &ShadowMapRequest::size);
     shrinkToFit(sizes, largestAtlas);
-    const auto tiles = arena.array<ShadowTile>(wishes.size());
-    const auto kept = arena.array<ShadowTile>(wishes.size());
+    const auto tiles = arena.array<ShadowTile>(requests.size());
+    const auto kept = arena.array<ShadowTile>(requests.size());
     // An atlas with room is kept: another one would redraw all maps.
     const bool hasRoom = held.size <= largestAtlas && texelsOf(sizes) <= uint64_t{ held.size } * held.size &&
                          std::ranges::max(sizes) <= held.size;
     if (hasRoom) {
-        for (size_t i = 0; i < wishes.size(); ++i) kept[i] = heldTile(held, wishes[i].owner, sizes[i]);
+        for (size_t i = 0; i < requests.size(); ++i) kept[i] = heldTile(held, requests[i].owner, sizes[i]);
         if (place(arena, sizes, kept, held.size, tiles)) return { held.size, tiles };
         std::ranges::fill(kept, ShadowTile{});
     }

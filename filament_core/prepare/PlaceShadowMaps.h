@@ -12,7 +12,7 @@
 
 namespace filament_core::prepare {
 
-struct ShadowMapWish {
+struct ShadowMapRequest {
     uint64_t owner = 0;
     uint32_t size = 0; ///< a power of two, kSmallestShadowMap to kLargestShadowMap
 };
@@ -23,7 +23,7 @@ struct PlacedShadowMaps {
 };
 
 /// `largestAtlas`: a power of two, at least kSmallestShadowMap.
-PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapWish> wishes, ShadowAtlas const& held,
+PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapRequest> requests, ShadowAtlas const& held,
                                  uint32_t largestAtlas);
 
 /// Of an atlas with `size` texels a side: 4 B each for the depth, and 8 or 16 for moments and a third more for their

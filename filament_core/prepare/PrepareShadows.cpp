@@ -174,15 +174,15 @@ private:
     }
 
     void place(std::span<const Caster> casters, PreparedShadows& out) {
-        const auto wishes = mArena.arrayForOverwrite<ShadowMapWish>(mCount);
+        const auto requests = mArena.arrayForOverwrite<ShadowMapRequest>(mCount);
         for (uint32_t i = 0; i < mCount; ++i) {
             Caster const& caster = casters[mCandidates[i].caster];
             const uint32_t side = mCandidates[i].channels > 1 ? 2 * sizeOf(caster) : sizeOf(caster);
-            wishes[i] = { ownerOf(caster, mCandidates[i].part), std::min(side, kLargestShadowMap) };
+            requests[i] = { ownerOf(caster, mCandidates[i].part), std::min(side, kLargestShadowMap) };
         }
         const uint64_t budget = uint64_t{ mSettings.quality.shadowAtlasMegabytes } << 20;
         const ShadowMoments moments = momentsFor(mSettings.quality.shadows);
-        const PlacedShadowMaps placed = placeShadowMaps(mArena, wishes, mHeld, atlasSizeForBytes(budget, moments));
+        const PlacedShadowMaps placed = placeShadowMaps(mArena, requests, mHeld, atlasSizeForBytes(budget, moments));
         out.packet.atlasSize = placed.atlasSize;
         out.packet.moments = moments;
         out.packet.keepsAtlas = placed.atlasSize == mHeld.size && moments == mHeld.moments;
@@ -202,7 +202,7 @@ private:
             Candidate& candidate = mCandidates[i];
             ViewPacket& view = candidate.prepared.packet;
             writeMap(count, casters[candidate.caster], candidate, placed.tiles[i]);
-            maps[count] = { { wishes[i].owner, hashOf(candidate, placed.tiles[i].size, mUniforms->maps[count]),
+            maps[count] = { { requests[i].owner, hashOf(candidate, placed.tiles[i].size, mUniforms->maps[count]),
                               placed.tiles[i] },
                             candidate.channels };
             if (candidate.channels > 1) ++mCounts.coloredMaps;

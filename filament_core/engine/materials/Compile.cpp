@@ -88,7 +88,7 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
             for (const bool mirrored : { false, true }) {
                 if (mirrored && !shapes.mirrored) continue;
                 for (const DrawPass pass : passesOf(*job.material))
-                    job.wishes.push_back({ slot, layout, state, variant, mirrored, pass });
+                    job.requests.push_back({ slot, layout, state, variant, mirrored, pass });
             }
         }
     }
@@ -107,14 +107,14 @@ bool selects(passes::PassSlot const& slot, shader::MaterialPackage const& packag
 }
 
 /// Programs come first, so that the first pipelines wait for nothing else.
-void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
+void addRequests(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
     if (std::ranges::all_of(engine.pipelines.slots(), &passes::PassSlot::isFullScreen))
         engine.pipelines.slot({}); // no pass is known: use the default quality
     const auto slots = engine.pipelines.slots();
     shader::MaterialPackage const& package = job.material->package;
     for (const uint8_t variant : variants) {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {
-            if (selects(slots[slot], package, variant)) job.wishes.push_back({ .slot = slot, .variant = variant });
+            if (selects(slots[slot], package, variant)) job.requests.push_back({ .slot = slot, .variant = variant });
         }
     }
     for (const uint8_t variant : variants) {
@@ -138,9 +138,9 @@ Result<Compilation> Engine::Impl::compile(Material handle, CompileDesc const& de
     auto variants = variantKeys(material, desc.variants);
     if (!variants) return variants.error();
     CompileJob job{ .material = &material, .states = instanceStates(*this, material), .onProgress = desc.onProgress };
-    addWishes(job, *this, *variants,
-              { geometryLayouts(*this, desc), static_cast<uint16_t>(job.states.size()), desc.mirrored,
-                desc.variants != VariantSet::All && isSubset(VariantSet::Skinning, desc.variants) });
+    addRequests(job, *this, *variants,
+                { geometryLayouts(*this, desc), static_cast<uint16_t>(job.states.size()), desc.mirrored,
+                  desc.variants != VariantSet::All && isSubset(VariantSet::Skinning, desc.variants) });
     const Compilation compilation = compilations.add(std::move(job), desc.priority);
     return compilation;
 }

@@ -9,31 +9,31 @@ namespace {
 /// The number of creations per frame, by priority.
 constexpr std::array<uint32_t, 4> kSliceSizes{ 1, 2, 4, 16 };
 
-passes::PipelineUse useOf(CompileJob const& job, CompileWish const& wish) {
-    return { job.states[wish.state], wish.geometryLayout, wish.variant, wish.mirrored, wish.pass };
+passes::PipelineUse useOf(CompileJob const& job, CompileRequest const& request) {
+    return { job.states[request.state], request.geometryLayout, request.variant, request.mirrored, request.pass };
 }
 
 } // namespace
 
-bool CompileQueue::exists(CompileJob const& job, CompileWish const& wish) const {
-    if (wish.isFullScreen) return mPipelines.findFullscreen(wish.slot, *job.material).has_value();
-    if (wish.geometryLayout == CompileWish::kNoGeometry)
-        return mPipelines.hasProgram(wish.slot, *job.material, wish.variant);
-    return mPipelines.find(wish.slot, useOf(job, wish)).has_value();
+bool CompileQueue::exists(CompileJob const& job, CompileRequest const& request) const {
+    if (request.isFullScreen) return mPipelines.findFullscreen(request.slot, *job.material).has_value();
+    if (request.geometryLayout == CompileRequest::kNoGeometry)
+        return mPipelines.hasProgram(request.slot, *job.material, request.variant);
+    return mPipelines.find(request.slot, useOf(job, request)).has_value();
 }
 
-void CompileQueue::make(backend::CommandBuffer& commands, CompileJob const& job, CompileWish const& wish) {
-    if (wish.isFullScreen)
-        (void)mPipelines.fullscreenPipeline(commands, wish.slot, *job.material);
-    else if (wish.geometryLayout == CompileWish::kNoGeometry)
-        mPipelines.prepareProgram(commands, wish.slot, *job.material, wish.variant);
+void CompileQueue::make(backend::CommandBuffer& commands, CompileJob const& job, CompileRequest const& request) {
+    if (request.isFullScreen)
+        (void)mPipelines.fullscreenPipeline(commands, request.slot, *job.material);
+    else if (request.geometryLayout == CompileRequest::kNoGeometry)
+        mPipelines.prepareProgram(commands, request.slot, *job.material, request.variant);
     else
-        (void)mPipelines.pipelineFor(commands, wish.slot, useOf(job, wish));
+        (void)mPipelines.pipelineFor(commands, request.slot, useOf(job, request));
 }
 
 Compilation CompileQueue::add(CompileJob job, CompilePriority priority) {
-    std::erase_if(job.wishes, [&](CompileWish const& wish) { return exists(job, wish); });
-    const auto total = static_cast<uint32_t>(job.wishes.size());
+    std::erase_if(job.requests, [&](CompileRequest const& request) { return exists(job, request); });
+    const auto total = static_cast<uint32_t>(job.requests.size());
     mProgress.push_back({ 0, total });
     const uint64_t id = mProgress.size();
     if (total == 0) return { id };
@@ -72,12 +72,12 @@ void CompileQueue::takeFrom(Queue& queue, backend::CommandBuffer& commands, uint
     while (count > 0 && !queue.empty()) {
         Waiting& first = queue.front();
         mSlice.push_back({ first.id, 0, first.job.onProgress }); // remember what is recorded
-        for (; count > 0 && first.next < first.job.wishes.size(); --count) {
-            make(commands, first.job, first.job.wishes[first.next]);
+        for (; count > 0 && first.next < first.job.requests.size(); --count) {
+            make(commands, first.job, first.job.requests[first.next]);
             ++first.next;
             ++mSlice.back().count;
         }
-        if (first.next == first.job.wishes.size()) queue.pop_front();
+        if (first.next == first.job.requests.size()) queue.pop_front();
     }
 }
 
@@ -94,7 +94,7 @@ void CompileQueue::forget(scene::Material const& material) {
     for (Queue& queue : mQueues) {
         for (Waiting const& waiting : queue) {
             if (waiting.job.material != &material) continue;
-            mProgress[waiting.id - 1].done += static_cast<uint32_t>(waiting.job.wishes.size() - waiting.next);
+            mProgress[waiting.id - 1].done += static_cast<uint32_t>(waiting.job.requests.size() - waiting.next);
         }
         std::erase_if(queue, [&](Waiting const& waiting) { return waiting.job.material == &material; });
     }

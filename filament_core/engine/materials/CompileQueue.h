@@ -21,7 +21,7 @@
 namespace filament_core::engine {
 
 /// A pipeline, or (without geometry) only a program, or (full screen) a pipeline of a material without geometry.
-struct CompileWish {
+struct CompileRequest {
     static constexpr uint16_t kNoGeometry = 0xFFFF;
     uint32_t slot = 0;                     ///< of PipelineCache
     uint16_t geometryLayout = kNoGeometry; ///< of GeometryLayouts
@@ -35,7 +35,7 @@ struct CompileWish {
 struct CompileJob {
     scene::Material const* material = nullptr;
     std::vector<scene::MaterialInstance> states; ///< the part of the instances that selects pipelines
-    std::vector<CompileWish> wishes;
+    std::vector<CompileRequest> requests;
     std::function<void(CompileProgress const&)> onProgress;
 };
 
@@ -64,8 +64,8 @@ private:
     };
     using Queue = std::deque<Waiting>;
 
-    bool exists(CompileJob const& job, CompileWish const& wish) const;
-    void make(backend::CommandBuffer& commands, CompileJob const& job, CompileWish const& wish);
+    bool exists(CompileJob const& job, CompileRequest const& request) const;
+    void make(backend::CommandBuffer& commands, CompileJob const& job, CompileRequest const& request);
     Queue* highest();
     void takeFrom(Queue& queue, backend::CommandBuffer& commands, uint32_t count);
 

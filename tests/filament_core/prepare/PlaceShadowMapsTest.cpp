@@ -12,14 +12,14 @@ bool overlap(ShadowTile a, ShadowTile b) {
     return a.x < b.x + b.size && b.x < a.x + a.size && a.y < b.y + b.size && b.y < a.y + a.size;
 }
 
-void expectProper(PlacedShadowMaps const& placed, std::span<const ShadowMapWish> wishes, uint32_t largest) {
-    ASSERT_EQ(placed.tiles.size(), wishes.size());
+void expectProper(PlacedShadowMaps const& placed, std::span<const ShadowMapRequest> requests, uint32_t largest) {
+    ASSERT_EQ(placed.tiles.size(), requests.size());
     ASSERT_LE(placed.atlasSize, largest);
     for (size_t i = 0; i < placed.tiles.size(); ++i) {
         const ShadowTile tile = placed.tiles[i];
         if (tile.size == 0) continue;
         EXPECT_TRUE(std::has_single_bit(uint32_t{ tile.size }) && tile.size >= kSmallestShadowMap);
-        EXPECT_LE(tile.size, wishes[i].size);
+        EXPECT_LE(tile.size, requests[i].size);
         EXPECT_EQ(tile.x % tile.size, 0);
         EXPECT_EQ(tile.y % tile.size, 0);
         EXPECT_LE(uint32_t{ tile.x } + tile.size, placed.atlasSize);
@@ -28,10 +28,10 @@ void expectProper(PlacedShadowMaps const& placed, std::span<const ShadowMapWish>
     }
 }
 
-ShadowAtlas heldAfter(PlacedShadowMaps const& placed, std::span<const ShadowMapWish> wishes) {
+ShadowAtlas heldAfter(PlacedShadowMaps const& placed, std::span<const ShadowMapRequest> requests) {
     ShadowAtlas held{ .size = placed.atlasSize, .maps = {} };
-    for (size_t i = 0; i < wishes.size(); ++i) {
-        if (placed.tiles[i].size) held.maps.push_back({ wishes[i].owner, 1, placed.tiles[i] });
+    for (size_t i = 0; i < requests.size(); ++i) {
+        if (placed.tiles[i].size) held.maps.push_back({ requests[i].owner, 1, placed.tiles[i] });
     }
     return held;
 }
@@ -42,47 +42,47 @@ TEST(PlaceShadowMaps, RandomMapsNeverOverlapAndAllFitOfWhichTheTexelsFit) {
     for (int round = 0; round < 2000; ++round) {
         arena.reset();
         const uint32_t largest = kSmallestShadowMap << (random.next() % 6);
-        std::vector<ShadowMapWish> wishes(1 + random.next() % 40);
+        std::vector<ShadowMapRequest> requests(1 + random.next() % 40);
         uint64_t texels = 0;
         bool tooLarge = false;
-        for (size_t i = 0; i < wishes.size(); ++i) {
-            wishes[i] = { i, kSmallestShadowMap << (random.next() % 5) };
-            texels += uint64_t{ wishes[i].size } * wishes[i].size;
-            tooLarge |= wishes[i].size > largest;
+        for (size_t i = 0; i < requests.size(); ++i) {
+            requests[i] = { i, kSmallestShadowMap << (random.next() % 5) };
+            texels += uint64_t{ requests[i].size } * requests[i].size;
+            tooLarge |= requests[i].size > largest;
         }
-        const PlacedShadowMaps placed = placeShadowMaps(arena, wishes, {}, largest);
-        expectProper(placed, wishes, largest);
+        const PlacedShadowMaps placed = placeShadowMaps(arena, requests, {}, largest);
+        expectProper(placed, requests, largest);
         if (tooLarge || texels > uint64_t{ largest } * largest) continue;
-        for (size_t i = 0; i < wishes.size(); ++i) EXPECT_EQ(placed.tiles[i].size, wishes[i].size);
+        for (size_t i = 0; i < requests.size(); ++i) EXPECT_EQ(placed.tiles[i].size, requests[i].size);
     }
 }
 
 TEST(PlaceShadowMaps, MapsThatStayKeepTheirTilesWhileOthersComeAndGo) {
     Arena arena;
     Random random(5);
-    std::vector<ShadowMapWish> wishes{ { 1, 512 }, { 2, 256 }, { 3, 256 }, { 4, 128 } };
-    ShadowAtlas held = heldAfter(placeShadowMaps(arena, wishes, {}, 1024), wishes);
+    std::vector<ShadowMapRequest> requests{ { 1, 512 }, { 2, 256 }, { 3, 256 }, { 4, 128 } };
+    ShadowAtlas held = heldAfter(placeShadowMaps(arena, requests, {}, 1024), requests);
     uint32_t kept = 0, rounds = 0;
     for (uint64_t owner = 5; owner < 400; ++owner) {
         arena.reset();
-        wishes[random.next() % wishes.size()] = { owner, 64u << (random.next() % 3) };
-        const PlacedShadowMaps placed = placeShadowMaps(arena, wishes, held, 1024);
-        expectProper(placed, wishes, 1024);
-        for (size_t i = 0; i < wishes.size(); ++i) {
-            const auto before = std::ranges::find(held.maps, wishes[i].owner, &HeldShadowMap::owner);
+        requests[random.next() % requests.size()] = { owner, 64u << (random.next() % 3) };
+        const PlacedShadowMaps placed = placeShadowMaps(arena, requests, held, 1024);
+        expectProper(placed, requests, 1024);
+        for (size_t i = 0; i < requests.size(); ++i) {
+            const auto before = std::ranges::find(held.maps, requests[i].owner, &HeldShadowMap::owner);
             if (before == held.maps.end()) continue;
             ++rounds;
             kept += before->tile == placed.tiles[i];
         }
-        held = heldAfter(placed, wishes);
+        held = heldAfter(placed, requests);
     }
     EXPECT_EQ(kept, rounds) << "there is room around them";
 }
 
 TEST(PlaceShadowMaps, ShrinksTheLargestFirstAndOfThoseTheLeastImportant) {
     Arena arena;
-    const ShadowMapWish wishes[] = { { 1, 1024 }, { 2, 1024 }, { 3, 512 }, { 4, 64 } };
-    const PlacedShadowMaps placed = placeShadowMaps(arena, wishes, {}, 1024);
+    const ShadowMapRequest requests[] = { { 1, 1024 }, { 2, 1024 }, { 3, 512 }, { 4, 64 } };
+    const PlacedShadowMaps placed = placeShadowMaps(arena, requests, {}, 1024);
     EXPECT_EQ(placed.tiles[0].size, 512);
     EXPECT_EQ(placed.tiles[1].size, 512);
     EXPECT_EQ(placed.tiles[2].size, 512);
@@ -91,10 +91,10 @@ TEST(PlaceShadowMaps, ShrinksTheLargestFirstAndOfThoseTheLeastImportant) {
 
 TEST(PlaceShadowMaps, WithoutRoomTheLeastImportantGoFirst) {
     Arena arena;
-    std::vector<ShadowMapWish> wishes(6);
-    for (size_t i = 0; i < wishes.size(); ++i) wishes[i] = { i, 64 };
-    const PlacedShadowMaps placed = placeShadowMaps(arena, wishes, {}, 64);
-    for (size_t i = 0; i < wishes.size(); ++i) EXPECT_EQ(placed.tiles[i].size, i < 4 ? 32 : 0) << i;
+    std::vector<ShadowMapRequest> requests(6);
+    for (size_t i = 0; i < requests.size(); ++i) requests[i] = { i, 64 };
+    const PlacedShadowMaps placed = placeShadowMaps(arena, requests, {}, 64);
+    for (size_t i = 0; i < requests.size(); ++i) EXPECT_EQ(placed.tiles[i].size, i < 4 ? 32 : 0) << i;
 }
 
 TEST(PlaceShadowMaps, BudgetsOfAnyNumberOfBytesGiveAnAtlas) {

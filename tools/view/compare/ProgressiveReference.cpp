@@ -22,7 +22,7 @@ constexpr int kNiceness = 10;
 void lowerPriority() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness); }
 
 /// What is asked for. Each change ends the work on the one before.
-struct Wish {
+struct Request {
     SceneLoader loader; ///< empty: no scene
     std::optional<reference::ReferenceView> view;
     reference::ReferenceSettings settings{};
@@ -38,8 +38,8 @@ using State = TracingStatus::State;
 struct ProgressiveReference::Impl {
     mutable std::mutex mutex;
     std::condition_variable changed;
-    Wish wish; // and all below: guarded by mutex
-    bool isWishNew = false;
+    Request request; // and all below: guarded by mutex
+    bool isRequestNew = false;
     TracingStatus status;
     std::optional<TracedView> picture;
 
@@ -51,41 +51,41 @@ struct ProgressiveReference::Impl {
 
     Impl() : thread([this] { run(); }) {}
     ~Impl() {
-        change([](Wish& w) { w.isEnding = true; });
+        change([](Request& w) { w.isEnding = true; });
         thread.join();
     }
 
     template <class Change>
     void change(Change const& apply) {
         const std::lock_guard lock(mutex);
-        wish.cancelled->request();
-        wish.cancelled = std::make_shared<jobs::Cancellation>();
-        wish.isStopped = false;
-        apply(wish);
-        isWishNew = true;
+        request.cancelled->request();
+        request.cancelled = std::make_shared<jobs::Cancellation>();
+        request.isStopped = false;
+        apply(request);
+        isRequestNew = true;
         picture.reset();
         status = { .isBusy = status.isBusy, .warnings = std::move(status.warnings) };
         changed.notify_one();
     }
 
     /// Nothing: the end.
-    std::optional<Wish> nextWish() {
+    std::optional<Request> nextRequest() {
         std::unique_lock lock(mutex);
         status.isBusy = false;
-        changed.wait(lock, [this] { return isWishNew; });
-        isWishNew = false;
+        changed.wait(lock, [this] { return isRequestNew; });
+        isRequestNew = false;
         status.isBusy = true;
-        return wish.isEnding ? std::nullopt : std::optional(wish);
+        return request.isEnding ? std::nullopt : std::optional(request);
     }
 
     /// Only results of the current request are reported.
     template <class Change>
-    void tell(Wish const& of, Change const& apply) {
+    void tell(Request const& of, Change const& apply) {
         const std::lock_guard lock(mutex);
         if (!of.cancelled->isRequested()) apply();
     }
 
-    void failWith(Wish const& of, Error const& error) {
+    void failWith(Request const& of, Error const& error) {
         tell(of, [&] {
             status.state = State::Failed;
             status.error = error.message;
@@ -95,14 +95,14 @@ struct ProgressiveReference::Impl {
     void run() {
         lowerPriority();
         jobs::JobSystem jobs({ .workers = 0 });
-        while (const std::optional<Wish> now = nextWish()) {
+        while (const std::optional<Request> now = nextRequest()) {
             if (now->isStopped || !now->loader || !now->view) continue;
             if (prepareScene(*now, jobs)) trace(*now, jobs);
         }
         scene.reset();
     }
 
-    bool prepareScene(Wish const& now, jobs::JobSystem& jobs) {
+    bool prepareScene(Request const& now, jobs::JobSystem& jobs) {
         if (scene && sceneNumber == now.sceneNumber) return true;
         tell(now, [&] { status.state = State::Loading; });
         scene.reset();
@@ -116,7 +116,7 @@ struct ProgressiveReference::Impl {
         return true;
     }
 
-    void trace(Wish const& now, jobs::JobSystem& jobs) {
+    void trace(Request const& now, jobs::JobSystem& jobs) {
         auto rendering = reference::ProgressiveRender::start(*scene, *now.view, now.settings);
         if (!rendering) return failWith(now, rendering.error());
         showProgress(now, *rendering, State::Tracing);
@@ -127,7 +127,7 @@ struct ProgressiveReference::Impl {
         }
     }
 
-    void showProgress(Wish const& now, reference::ProgressiveRender const& rendering, State state) {
+    void showProgress(Request const& now, reference::ProgressiveRender const& rendering, State state) {
         const reference::RenderProgress progress = rendering.progress();
         tell(now, [&] {
             status.state = state;
@@ -141,25 +141,25 @@ ProgressiveReference::ProgressiveReference() : mImpl(std::make_unique<Impl>()) {
 ProgressiveReference::~ProgressiveReference() = default;
 
 void ProgressiveReference::setScene(SceneLoader loader) {
-    mImpl->change([&](Wish& wish) {
-        wish.loader = std::move(loader);
-        ++wish.sceneNumber;
+    mImpl->change([&](Request& request) {
+        request.loader = std::move(loader);
+        ++request.sceneNumber;
     });
 }
 
 uint64_t ProgressiveReference::setView(reference::ReferenceView const& view,
                                        reference::ReferenceSettings const& settings) {
     uint64_t number = 0;
-    mImpl->change([&](Wish& wish) {
-        wish.view = view;
-        wish.settings = settings;
-        number = ++wish.viewNumber;
+    mImpl->change([&](Request& request) {
+        request.view = view;
+        request.settings = settings;
+        number = ++request.viewNumber;
     });
     return number;
 }
 
 void ProgressiveReference::stop() {
-    mImpl->change([](Wish& wish) { wish.isStopped = true; });
+    mImpl->change([](Request& request) { request.isStopped = true; });
 }
 
 TracingStatus ProgressiveReference::status() const {

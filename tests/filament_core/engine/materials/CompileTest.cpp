@@ -129,19 +129,19 @@ TEST_P(Compile, OrderIndependentMaterialsArePreparedForAllTheirPassesAndOthersFo
     const Owned<Material> glass = test::loadMaterial(*mEngine, kGlassPane);
     const Owned<Material> plaster = test::loadMaterial(*mEngine, kPlaster);
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(glass));
-    const auto wishesOf = [&](Material material) {
+    const auto requestsOf = [&](Material material) {
         return finish(*mEngine->compile(material, { .vertices = { mSquare->vertices() } })).total;
     };
     Scene scene(*mEngine);
     for (const double z : { 0.0, -1.0 }) mSquare->add(scene, instance, { 0, 0, z });
     mRenderer->prewarm(scene, mView, mTarget);
-    const uint32_t ofSortedGlass = wishesOf(glass), ofPlaster = wishesOf(plaster);
+    const uint32_t ofSortedGlass = requestsOf(glass), ofPlaster = requestsOf(plaster);
     for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
         mView.quality.transparency = order;
         mRenderer->prewarm(scene, mView, mTarget);
     }
-    EXPECT_GT(wishesOf(glass), ofSortedGlass);
-    EXPECT_LT(wishesOf(plaster), ofPlaster) << "the tone mapper is no longer merged with it";
+    EXPECT_GT(requestsOf(glass), ofSortedGlass);
+    EXPECT_LT(requestsOf(plaster), ofPlaster) << "the tone mapper is no longer merged with it";
     const uint64_t pipelinesBefore = pipelines(), programsBefore = programs();
     for (const TransparencyOrder order : { TransparencyOrder::Weighted, TransparencyOrder::Peeled }) {
         mView.quality.transparency = order;
