@@ -87,8 +87,7 @@ private:
             mScene.add({ .vertices = mVertices[i % size.meshes],
                          .indices = mIndices,
                          .material = mInstances[i / size.meshes % size.materials],
-                         .boundsMin = float3(-0.4f),
-                         .boundsMax = float3(0.4f),
+                         .bounds = Box{ double3(-0.4f), double3(0.4f) },
                          .worldFromObject = place });
         }
         // High above the middle and further back: the whole square is in view.

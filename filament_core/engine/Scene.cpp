@@ -24,7 +24,9 @@ scene::Deformation deformationOf(Scene::Impl const& scene, RenderableDesc const&
         FILAMENT_ASSERT(scene.data.deformations.skin(desc.skin).node == desc.node,
                         "a renderable hangs at the node of its skin");
         deformation.jointSets = engine::jointSetsOf(vertices.layout);
-        for (BoneBounds const& bounds : desc.boneBounds) deformation.boneBounds.push_back({ bounds.min, bounds.max });
+        for (Box const& bounds : desc.boneBounds)
+            deformation.boneBounds.push_back(bounds.empty() ? scene::MinMax{}
+                                                            : scene::MinMax{ float3(bounds.min), float3(bounds.max) });
     }
     if (desc.morphTargets) {
         deformation.morph = &scene.engine.morphTargets.get(desc.morphTargets).targets;
@@ -49,8 +51,9 @@ Renderable Scene::add(RenderableDesc const& desc) {
     const PublicCall call(mImpl, "Scene::add(RenderableDesc)", desc.name);
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
-    const GeometryDesc shape{ desc.vertices,   desc.indices,   desc.primitive, desc.firstIndex,
-                              desc.indexCount, desc.boundsMin, desc.boundsMax };
+    const GeometryDesc shape{
+        desc.vertices, desc.indices, desc.primitive, desc.firstIndex, desc.indexCount, desc.bounds
+    };
     scene::MaterialInstance const& material = mImpl->engine.instances.get(desc.material);
     const scene::Geometry geometry = mImpl->geometryOf(shape, *material.material);
     const scene::MinMax bounds = mImpl->boundsOf(shape);

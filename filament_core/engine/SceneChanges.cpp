@@ -13,11 +13,9 @@ namespace {
 
 constexpr const char* kWrongBounds = "the minimum of the bounds is above their maximum, or no number";
 
-/// Empty ones have their minimum above their maximum on every axis.
-bool hasBounds(GeometryDesc const& desc) {
-    if (glm::all(glm::greaterThan(desc.boundsMin, desc.boundsMax))) return false;
-    if (!glm::all(glm::lessThanEqual(desc.boundsMin, desc.boundsMax))) misused(kWrongBounds);
-    return true;
+scene::MinMax checked(Box const& bounds) {
+    if (!glm::all(glm::lessThanEqual(bounds.min, bounds.max))) misused(kWrongBounds);
+    return { float3(bounds.min), float3(bounds.max) };
 }
 
 /// The deformation of a renderable fits other vertices, too.
@@ -47,17 +45,17 @@ scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Materia
 }
 
 scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {
-    if (hasBounds(desc)) return { desc.boundsMin, desc.boundsMax };
+    if (desc.bounds) return checked(*desc.bounds);
     scene::MinMax const& bounds = engine.vertexBuffers.get(desc.vertices).bounds;
     return bounds.empty() ? scene::MinMax{ float3(0), float3(0) } : bounds;
 }
 
 void Scene::Impl::follow(Renderable renderable, GeometryDesc const& desc) {
     if (renderable.index() >= followed.size()) {
-        if (hasBounds(desc)) return;
+        if (desc.bounds) return;
         followed.resize(renderable.index() + 1);
     }
-    followed[renderable.index()] = hasBounds(desc) ? FollowedBounds{} : FollowedBounds{ renderable, desc.vertices };
+    followed[renderable.index()] = desc.bounds ? FollowedBounds{} : FollowedBounds{ renderable, desc.vertices };
 }
 
 void Scene::Impl::followVertices() const {
@@ -111,12 +109,10 @@ void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {
     mImpl->follow(renderable, desc);
 }
 
-void Scene::setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax) {
-    const PublicCall call(mImpl, "Scene::setBounds(Renderable, float3, float3)");
-    const GeometryDesc named{ .boundsMin = boundsMin, .boundsMax = boundsMax };
-    if (!hasBounds(named)) misused(kWrongBounds);
-    scene::setBounds(mImpl->changed(), renderable, { boundsMin, boundsMax });
-    mImpl->follow(renderable, named);
+void Scene::setBounds(Renderable renderable, Box const& bounds) {
+    const PublicCall call(mImpl, "Scene::setBounds(Renderable, Box)");
+    scene::setBounds(mImpl->changed(), renderable, checked(bounds));
+    mImpl->follow(renderable, { .bounds = bounds });
 }
 
 void Scene::setVisible(Renderable renderable, bool isVisible) {

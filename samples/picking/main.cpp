@@ -29,7 +29,7 @@ struct Thing {
 };
 
 void frame(DebugDraw& lines, Scene const& scene, Thing const& thing, Node node) {
-    lines.box(Box{ double3(thing.mesh->boundsMin()), double3(thing.mesh->boundsMax()) }, scene.worldFromNode(node),
+    lines.box(thing.mesh->bounds(), scene.worldFromNode(node),
               { .color = { 1, 0.8f, 0.1f, 1 }, .widthPixels = 2, .depth = DebugDepth::Through });
 }
 

@@ -89,8 +89,7 @@ public:
         return { .vertices = mVertices,
                  .indices = mIndices,
                  .material = material,
-                 .boundsMin = float3(-1),
-                 .boundsMax = float3(1),
+                 .bounds = Box{ double3(-1), double3(1) },
                  .worldFromObject = worldFromObject };
     }
 

@@ -85,18 +85,10 @@ IndexBufferDesc Mesh::indexBuffer() const {
              .name = "mesh" };
 }
 
-float3 Mesh::boundsMin() const {
-    if (vertices.empty()) return float3(0);
-    float3 least = vertices.front().position;
-    for (MeshVertex const& vertex : vertices) least = glm::min(least, vertex.position);
-    return least;
-}
-
-float3 Mesh::boundsMax() const {
-    if (vertices.empty()) return float3(0);
-    float3 most = vertices.front().position;
-    for (MeshVertex const& vertex : vertices) most = glm::max(most, vertex.position);
-    return most;
+Box Mesh::bounds() const {
+    Box bounds;
+    for (MeshVertex const& vertex : vertices) bounds.add({ double3(vertex.position), double3(vertex.position) });
+    return bounds;
 }
 
 Result<void> computeNormals(Mesh& mesh) {

@@ -129,16 +129,16 @@ private:
         return { .vertices = mModel->vertexBuffers.back(),
                  .indices = mModel->indexBuffers.back(),
                  .primitive = primitive.topology,
-                 .boundsMin = primitive.boundsMin,
-                 .boundsMax = primitive.boundsMax,
+                 .bounds = Box{ double3(primitive.boundsMin), double3(primitive.boundsMax) },
                  .boneBounds = boneBounds(primitive),
                  .morphTargets = uploadTargets(primitive, name),
                  .name = name };
     }
 
-    static std::vector<BoneBounds> boneBounds(PrimitiveData const& primitive) {
-        std::vector<BoneBounds> bounds;
-        for (assets::BoundsData const& bone : primitive.boneBounds) bounds.push_back({ bone.min, bone.max });
+    static std::vector<Box> boneBounds(PrimitiveData const& primitive) {
+        std::vector<Box> bounds;
+        for (assets::BoundsData const& bone : primitive.boneBounds)
+            bounds.push_back({ double3(bone.min), double3(bone.max) });
         return bounds;
     }
 

@@ -10,6 +10,7 @@
 ///   Fails    InvalidArgument names the function, the vertex or triangle, and the rule. std::bad_alloc.
 #pragma once
 
+#include <filament_core/Box.h>
 #include <filament_core/Lines.h>
 #include <filament_core/Math.h>
 #include <filament_core/Objects.h>
@@ -38,8 +39,7 @@ struct Mesh {
     VertexBufferDesc vertexBuffer() const;
     IndexBufferDesc indexBuffer() const;
 
-    float3 boundsMin() const; ///< for RenderableDesc; 0 without vertices
-    float3 boundsMax() const;
+    Box bounds() const; ///< of the positions, for RenderableDesc; empty without vertices
 };
 
 /// Normals of a smooth surface: those of the triangles around a vertex, weighted by their angle there (Thürmer and

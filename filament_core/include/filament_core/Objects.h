@@ -133,11 +133,6 @@ struct MorphTargetsDesc {
     std::string name{};
 };
 
-/// Bounds of the vertices that a bone moves, in the bind pose. Empty (min > max): the bone moves none.
-struct BoneBounds {
-    float3 min{ 3e38f }, max{ -3e38f };
-};
-
 struct IndexBufferDesc {
     uint32_t indexCount = 0; ///< > 0
     IndexFormat format = IndexFormat::UInt16;

@@ -15,6 +15,7 @@
 #include <filament_core/Node.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,17 +37,14 @@ struct SkinDesc {
     uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
 };
 
-/// Bounds in object space whose minimum exceeds their maximum are not given.
-inline const float3 kNoBoundsMin{ 3e38f }, kNoBoundsMax{ -3e38f };
-
 /// What a renderable draws.
 struct GeometryDesc {
     VertexBuffer vertices{};
     IndexBuffer indices{};
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;                                   ///< 0: all
-    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax; ///< as of RenderableDesc
+    uint32_t indexCount = 0;     ///< 0: all
+    std::optional<Box> bounds{}; ///< as of RenderableDesc
 };
 
 struct RenderableDesc {
@@ -56,18 +54,20 @@ struct RenderableDesc {
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0; ///< 0: all
-    /// Of the positions, in object space, without skin and morph targets. Not given: those of all vertices of the
-    /// buffer, which follow Engine::update().
-    float3 boundsMin = kNoBoundsMin, boundsMax = kNoBoundsMax;
-    double4x4 worldFromObject{ 1.0 };     ///< affine; must stay the identity if there is a node
-    Node node{};                          ///< gives the renderable its transform; none: worldFromObject
-    uint32_t instanceIndex = 0;           ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
-    Skin skin{};                          ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
-    std::vector<BoneBounds> boneBounds{}; ///< one per bone: makes culling exact; empty: the bounds above for all bones
-    MorphTargets morphTargets{};          ///< with as many vertices as the vertex buffer
-    std::vector<float> morphWeights{};    ///< initial weights; missing ones are 0
-    bool culled = true;                   ///< false: drawn even when its box is out of view
-    bool castsShadows = true;             ///< if its material is opaque or masked
+    /// Of the positions, in object space, without skin and morph targets; not empty. Unset: the bounds of all vertices
+    /// of the buffer, which follow Engine::update().
+    std::optional<Box> bounds{};
+    double4x4 worldFromObject{ 1.0 }; ///< affine; must stay the identity if there is a node
+    Node node{};                      ///< gives the renderable its transform; none: worldFromObject
+    uint32_t instanceIndex = 0;       ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
+    Skin skin{};                      ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
+    /// One per bone, of the vertices that it moves, in the bind pose; an empty box: it moves none. Makes culling exact.
+    /// Without boxes every bone has the bounds above.
+    std::vector<Box> boneBounds{};
+    MorphTargets morphTargets{};       ///< with as many vertices as the vertex buffer
+    std::vector<float> morphWeights{}; ///< initial weights; missing ones are 0
+    bool culled = true;                ///< false: drawn even when its box is out of view
+    bool castsShadows = true;          ///< if its material is opaque or masked
     bool receivesShadows = true;
     LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
     Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
@@ -102,9 +102,9 @@ public:
     /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they
     /// have.
     void setGeometry(Renderable renderable, GeometryDesc const& geometry);
-    /// In object space, as of RenderableDesc. What is outside of them may be missing at the edges of the view, in
-    /// shadow maps and in effects that look for objects.
-    void setBounds(Renderable renderable, float3 boundsMin, float3 boundsMax);
+    /// In object space, as of RenderableDesc. Vertices outside of the bounds may be missing at the edges of the view,
+    /// in shadow maps and in effects that look for objects.
+    void setBounds(Renderable renderable, Box const& bounds);
     /// Hidden renderables are not drawn and cast no shadows; they keep everything else. Visible by default.
     void setVisible(Renderable renderable, bool isVisible);
     /// For all renderables attached to the node or below it: a copy of a model, for example.

@@ -16,8 +16,7 @@ void addUnbounded(test::ShadowStage const& stage, Scene& scene) {
     scene.add({ .vertices = stage.square.vertices(),
                 .indices = stage.square.indices(),
                 .material = stage.white,
-                .boundsMin = float3(-1),
-                .boundsMax = float3(1),
+                .bounds = Box{ double3(-1), double3(1) },
                 .worldFromObject = behindCamera,
                 .culled = false });
 }

@@ -389,18 +389,17 @@ TEST_P(ChangesTest, BoundsAreThoseOfVerticesUnlessTheyAreNamed) {
     EXPECT_EQ(scene.bounds(shape).max, double3(1, 1, 0)) << "of one alone";
     EXPECT_EQ(scene.bounds(moved).min, double3(9, -1, 0));
     scene.remove(moved);
-    scene.setBounds(shape, { 100, 0, 0 }, { 101, 1, 1 });
+    scene.setBounds(shape, { { 100, 0, 0 }, { 101, 1, 1 } });
     EXPECT_EQ(scene.bounds().min, double3(100, 0, 0));
     const View view = test::SquareMesh::view();
     (void)draw(scene, view);
     EXPECT_EQ(renderer.statistics().visible, 0u);
-    scene.setBounds(shape, { -1, -1, 0 }, { 1, 1, 0 });
+    scene.setBounds(shape, { { -1, -1, 0 }, { 1, 1, 0 } });
     (void)draw(scene, view);
     EXPECT_EQ(renderer.statistics().visible, 1u);
     scene.setGeometry(shape, { .vertices = stage.square.vertices(),
                                .indices = stage.square.indices(),
-                               .boundsMin = float3(5),
-                               .boundsMax = float3(6) });
+                               .bounds = Box{ double3(5), double3(6) } });
     EXPECT_EQ(scene.bounds().max, double3(6));
 }
 

@@ -73,8 +73,7 @@ TEST_P(LayersTest, ANodePassesLayersToAllBelowItAndEachViewChoosesItsOwn) {
     const Renderable square = scene.add({ .vertices = stage.square.vertices(),
                                           .indices = stage.square.indices(),
                                           .material = stage.white,
-                                          .boundsMin = float3(-1),
-                                          .boundsMax = float3(1),
+                                          .bounds = Box{ double3(-1), double3(1) },
                                           .node = child,
                                           .layers = 0b11 });
     const Image shown = draw();

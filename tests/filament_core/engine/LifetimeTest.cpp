@@ -69,8 +69,7 @@ struct Painting {
         renderable = scene.add({ .vertices = vertices,
                                  .indices = indices,
                                  .material = instance,
-                                 .boundsMin = float3(-1.3f),
-                                 .boundsMax = float3(1.3f),
+                                 .bounds = Box{ double3(-1.3f), double3(1.3f) },
                                  .worldFromObject = world,
                                  .morphTargets = targets,
                                  .morphWeights = { 0.5f } });

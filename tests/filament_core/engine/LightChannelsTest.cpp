@@ -170,8 +170,7 @@ TEST(LightChannels, ANodePassesChannelsToAllBelowItAndALightCanChangeItsOwn) {
     scene.add({ .vertices = square.vertices(),
                 .indices = square.indices(),
                 .material = paint,
-                .boundsMin = float3(-1),
-                .boundsMax = float3(1),
+                .bounds = Box{ double3(-1), double3(1) },
                 .node = child });
     const Light light = scene.add(SunLight{ .directionWorld = { 0, 0, -1 } });
     const auto brightness = [&] {

@@ -340,8 +340,10 @@ std::vector<Use> usesOfRenderables() {
           [](World& world, Handles const& bad) {
               world.scene.setGeometry(bad.renderable, { .vertices = world.all.vertices, .indices = world.all.indices });
           } },
-        use("Scene::setBounds(Renderable, float3, float3)",
-            [](Scene& s, Renderable bad) { s.setBounds(bad, float3(0), float3(1)); }),
+        use("Scene::setBounds(Renderable, Box)",
+            [](Scene& s, Renderable bad) {
+                s.setBounds(bad, { double3(0), double3(1) });
+            }),
         use("Scene::bounds(Renderable)", [](Scene& s, Renderable bad) { (void)s.bounds(bad); }),
         use("Scene::setVisible(Renderable, bool)", [](Scene& s, Renderable bad) { s.setVisible(bad, true); }),
         use("Scene::isVisible(Renderable)", [](Scene& s, Renderable bad) { (void)s.isVisible(bad); }),
@@ -551,23 +553,22 @@ TEST(MisuseOfOwnersDeathTest, WhatWasMovedFromIsNotUsed) {
 TEST(MisuseOfBoundsDeathTest, NoAxisIsTurnedRoundAlone) {
     World world;
     Handles& all = world.all;
-    const float kNan = std::numeric_limits<float>::quiet_NaN();
+    const double kNan = std::numeric_limits<double>::quiet_NaN();
     const auto line = [](const char* call) {
         return test::misuseLine(
                 fmt::format("{}: the minimum of the bounds is above their maximum, or no number", call));
     };
-    for (const float3 low : { float3(2, 0, 0), float3(0, 2, 0), float3(0, 0, 2), float3(0, kNan, 0) }) {
-        EXPECT_DEATH(world.scene.setBounds(all.renderable, low, float3(1)),
-                     line("Scene::setBounds(Renderable, float3, float3)"));
-        const GeometryDesc geometry{
-            .vertices = all.vertices, .indices = all.indices, .boundsMin = low, .boundsMax = float3(1)
-        };
+    for (const double3 low : { double3(2, 0, 0), double3(0, 2, 0), double3(0, 0, 2), double3(0, kNan, 0) }) {
+        EXPECT_DEATH(world.scene.setBounds(all.renderable, { low, double3(1) }),
+                     line("Scene::setBounds(Renderable, Box)"));
+        const GeometryDesc geometry{ .vertices = all.vertices,
+                                     .indices = all.indices,
+                                     .bounds = Box{ low, double3(1) } };
         EXPECT_DEATH(world.scene.setGeometry(all.renderable, geometry),
                      line("Scene::setGeometry(Renderable, GeometryDesc)"));
     }
-    EXPECT_DEATH(world.scene.setBounds(all.renderable, kNoBoundsMin, kNoBoundsMax),
-                 line("Scene::setBounds(Renderable, float3, float3)"));
-    world.scene.setBounds(all.renderable, float3(1), float3(1)); // a point
+    EXPECT_DEATH(world.scene.setBounds(all.renderable, {}), line("Scene::setBounds(Renderable, Box)"));
+    world.scene.setBounds(all.renderable, { double3(1), double3(1) }); // a point
 }
 
 // ---- threads

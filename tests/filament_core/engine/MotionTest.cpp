@@ -49,8 +49,7 @@ public:
         return { .vertices = mVertices,
                  .indices = mIndices,
                  .material = mInstance,
-                 .boundsMin = float3(-1, -1, -0.01f),
-                 .boundsMax = float3(1, 1, 0.01f) };
+                 .bounds = Box{ double3(-1, -1, -0.01f), double3(1, 1, 0.01f) } };
     }
     void addPlain() { panel = scene.add(desc()); }
     void addSkinned() {

@@ -167,8 +167,7 @@ TEST_P(PickTest, SeesThroughHolesAndLayersAndNamesNodesAndPrimitives) {
         return scene.add({ .vertices = square.vertices(),
                            .indices = square.indices(),
                            .material = material,
-                           .boundsMin = float3(-1, -1, -0.01f),
-                           .boundsMax = float3(1, 1, 0.01f),
+                           .bounds = Box{ double3(-1, -1, -0.01f), double3(1, 1, 0.01f) },
                            .node = node,
                            .layers = layers });
     };
@@ -205,8 +204,7 @@ TEST_P(PickTest, FollowsBonesAndLooksThroughNothingThatBlends) {
     const Renderable renderable = scene.add({ .vertices = skinned,
                                               .indices = square.indices(),
                                               .material = paint,
-                                              .boundsMin = float3(-1, -1, -0.01f),
-                                              .boundsMax = float3(1, 1, 0.01f),
+                                              .bounds = Box{ double3(-1, -1, -0.01f), double3(1, 1, 0.01f) },
                                               .skin = skin });
     EXPECT_EQ(pick({ 12, 9 }).renderable, renderable);
     const float4x4 away = glm::translate(float4x4(1), float3(0, 0, -4)) * glm::scale(float4x4(1), float3(3));

@@ -314,8 +314,7 @@ TEST(Shadows, RenderablesThatReceiveNoneAreLitAmongOthersThatDo) {
             scene.add({ .vertices = stage.square.vertices(),
                         .indices = stage.square.indices(),
                         .material = stage.white,
-                        .boundsMin = float3(-1, -1, 0),
-                        .boundsMax = float3(1, 1, 0),
+                        .bounds = Box{ double3(-1, -1, 0), double3(1, 1, 0) },
                         .receivesShadows = receives });
             stage.square.add(scene, stage.white, { 0, 0, 5 }, 0.3);
             stage.square.add(scene, stage.white, { 0.9, 0.9, 0.1 }, 0.01);

@@ -140,8 +140,7 @@ Renderable Stage::add(Mesh const& mesh, double4x4 const& worldFromObject, Look c
     return scene.add({ .vertices = mVertices.back(),
                        .indices = mIndices.back(),
                        .material = mInstances.back(),
-                       .boundsMin = float3(-extent),
-                       .boundsMax = float3(extent),
+                       .bounds = Box{ double3(-extent), double3(extent) },
                        .worldFromObject = worldFromObject,
                        .node = node });
 }

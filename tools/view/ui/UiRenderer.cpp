@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kLeastVertices = 4096, kLeastIndices = 8192;
 
 /// Everything that is drawn lies in it; the device domain knows no other place.
-constexpr float3 kDeviceMin{ -1 }, kDeviceMax{ 1 };
+constexpr Box kDeviceBox{ double3(-1), double3(1) };
 
 ImTextureID textureId(size_t slot, uint32_t generation) {
     return textureIdOf(uint64_t{ generation } << 32 | (slot + 1));
@@ -161,8 +161,7 @@ void UiRenderer::showRun(size_t place, UiRun const& run, MaterialInstance materi
                                          .material = material,
                                          .firstIndex = run.firstIndex,
                                          .indexCount = run.indexCount,
-                                         .boundsMin = kDeviceMin,
-                                         .boundsMax = kDeviceMax,
+                                         .bounds = kDeviceBox,
                                          .culled = false,
                                          .castsShadows = false,
                                          .drawOrder = { .blendOrder = static_cast<uint16_t>(place) } }),
@@ -175,8 +174,7 @@ void UiRenderer::showRun(size_t place, UiRun const& run, MaterialInstance materi
                                                 .indices = mIndices,
                                                 .firstIndex = run.firstIndex,
                                                 .indexCount = run.indexCount,
-                                                .boundsMin = kDeviceMin,
-                                                .boundsMax = kDeviceMax });
+                                                .bounds = kDeviceBox });
     if (shown.material != material) mScene->setMaterial(shown.renderable, material);
     if (!shown.isVisible) mScene->setVisible(shown.renderable, true);
     shown = { shown.renderable, run, material, true };

@@ -282,10 +282,9 @@ TEST(MeshBuffers, DescribeTheVertices) {
     const IndexBufferDesc indices = mesh.indexBuffer();
     EXPECT_EQ(indices.indexCount, 36u);
     EXPECT_EQ(indices.data.size(), 36u * 4);
-    EXPECT_EQ(mesh.boundsMin(), float3(-0.5f, -1, -1.5f));
-    EXPECT_EQ(mesh.boundsMax(), float3(0.5f, 1, 1.5f));
-    EXPECT_EQ(Mesh{}.boundsMin(), float3(0));
-    EXPECT_EQ(Mesh{}.boundsMax(), float3(0));
+    EXPECT_EQ(mesh.bounds().min, double3(-0.5, -1, -1.5));
+    EXPECT_EQ(mesh.bounds().max, double3(0.5, 1, 1.5));
+    EXPECT_TRUE(Mesh{}.bounds().empty());
 }
 
 } // namespace

@@ -295,7 +295,7 @@ TEST(Primitives, ShowPicturesUprightFromTheirFronts) {
         for (MeshVertex const& vertex : c.mesh.vertices) {
             if (vertex.normal != c.normal) continue;
             ++found;
-            const float side = 2 * std::max({ std::abs(c.mesh.boundsMin().x), c.mesh.boundsMax().x });
+            const double side = 2 * std::max({ std::abs(c.mesh.bounds().min.x), c.mesh.bounds().max.x });
             EXPECT_NEAR(glm::dot(vertex.position, c.right) / side + 0.5f, vertex.uv.x, 1e-6);
             EXPECT_NEAR(glm::dot(vertex.position, c.up) / side + 0.5f, vertex.uv.y, 1e-6);
             EXPECT_NEAR(glm::length(frameOf(vertex.tangents).tangent - c.right), 0, 7e-5);

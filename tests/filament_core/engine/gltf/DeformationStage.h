@@ -63,8 +63,7 @@ public:
         return { .vertices = mVertices.back(),
                  .indices = mIndices.back(),
                  .material = instance,
-                 .boundsMin = float3(-1),
-                 .boundsMax = float3(1) };
+                 .bounds = Box{ double3(-1), double3(1) } };
     }
 
     Image draw() {

@@ -40,8 +40,7 @@ Renderable addMesh(MaterialStage& stage, Mesh const& mesh, MaterialInstance mate
     return stage.scene.add({ .vertices = *vertices,
                              .indices = *indices,
                              .material = material,
-                             .boundsMin = mesh.boundsMin(),
-                             .boundsMax = mesh.boundsMax(),
+                             .bounds = mesh.bounds(),
                              .worldFromObject = world });
 }
 

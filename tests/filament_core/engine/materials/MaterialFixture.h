@@ -58,8 +58,7 @@ public:
         return scene.add({ .vertices = mVertices,
                            .indices = mIndices,
                            .material = material,
-                           .boundsMin = float3(-1, -1, -0.01f),
-                           .boundsMax = float3(1, 1, 0.01f),
+                           .bounds = Box{ double3(-1, -1, -0.01f), double3(1, 1, 0.01f) },
                            .worldFromObject = world });
     }
 

@@ -92,8 +92,7 @@ public:
         return scene.add({ .vertices = mVertices.back(),
                            .indices = mIndices.back(),
                            .material = instance,
-                           .boundsMin = float3(-8),
-                           .boundsMax = float3(8),
+                           .bounds = Box{ double3(-8), double3(8) },
                            .worldFromObject = world,
                            .instanceIndex = instanceIndex });
     }
