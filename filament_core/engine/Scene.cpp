@@ -66,8 +66,8 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .name = desc.name,
                                         .instanceIndex = desc.instanceIndex,
                                         .castsShadows = desc.castsShadows,
-                                        .receivesShadows = desc.receivesShadows,
-                                        .lightChannels = desc.lightChannels,
+                                        .properties = { .receivesShadows = desc.receivesShadows,
+                                                        .lightChannels = desc.lightChannels },
                                         .layers = desc.layers,
                                         .place = desc.drawOrder };
     // Vertices outside object space cannot have bones in it.

@@ -27,7 +27,7 @@ public:
             bindPass(draw.material->material->package);
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
-        const uint32_t list = mContext.channels.of(draw.lightChannels);
+        const uint32_t list = mContext.channels.of(draw.properties.lightChannels);
         if (window != mWindow || list != mList) {
             ViewGroup const& view = list == 0 ? mContext.view : mContext.view.lists[list - 1];
             mCommands.record(view.bind(draw.firstObject));
@@ -91,7 +91,7 @@ constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
     return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
-           a.receivesShadows == b.receivesShadows && a.lightChannels == b.lightChannels && a.pass == b.pass &&
+           a.properties == b.properties && a.pass == b.pass &&
            (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
 }
 
@@ -104,7 +104,7 @@ struct DrawVariants {
 PipelineUse useOf(DrawCall const& draw, DrawVariants const& variants) {
     const uint8_t own = draw.deformation == scene::kNotDeformed ? 0 : shader::kVariantSkinning;
     const uint8_t variant = variants.channels.variantOf(draw, variants.ofView);
-    const int ofView = draw.receivesShadows ? variant : variant & ~shader::kVariantShadowReceiver;
+    const int ofView = draw.properties.receivesShadows ? variant : variant & ~shader::kVariantShadowReceiver;
     return { *draw.material, draw.geometry->layout, static_cast<uint8_t>(ofView | own), draw.mirrored, draw.pass };
 }
 

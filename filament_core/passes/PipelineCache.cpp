@@ -29,7 +29,7 @@ uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint
 
 // A material compiled without shadows, or without those of a filter, is drawn without them.
 uint8_t neededVariant(scene::Material const& material, uint8_t variant, ShadowFilter filter) {
-    const bool mayReceive = prepare::receivesShadows(material, filter);
+    const bool mayReceive = prepare::canReceiveShadows(material, filter);
     const int shadows = mayReceive ? shader::kVariantShadowReceiver : 0;
     const int others = material.isLit() ? ~shader::kVariantShadowReceiver : shader::kVariantSkinning;
     return static_cast<uint8_t>(variant & (others | shadows));

@@ -59,8 +59,7 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              static_cast<uint32_t>(first),
              static_cast<uint32_t>(end - first),
              isMirrored(draw),
-             drawable.receivesShadows,
-             drawable.lightChannels,
+             drawable.properties,
              isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only,
              drawable.deformation };
 }

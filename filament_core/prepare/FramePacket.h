@@ -46,8 +46,7 @@ struct DrawCall {
     uint32_t firstObject = 0;
     uint32_t instanceCount = 1;
     bool mirrored = false;
-    bool receivesShadows = true;
-    uint8_t lightChannels = 1;
+    scene::DrawProperties properties{};
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
 };
@@ -94,7 +93,7 @@ struct ChannelLights {
 /// Empty where every light of the view shines on everything in it.
 struct ChannelLists {
     std::span<const ChannelLights> lists;
-    std::span<const uint16_t> listOf; ///< by DrawCall::lightChannels; 0: the list of the view; n: lists[n - 1]
+    std::span<const uint16_t> listOf; ///< by DrawProperties::lightChannels; 0: the list of the view; n: lists[n - 1]
 
     uint32_t of(uint8_t channels) const { return listOf.empty() ? 0 : listOf[channels]; }
     /// What a draw needs of `variant`, that of the view.

@@ -49,7 +49,7 @@ public:
         std::bitset<kMasks> lightMasks, drawMasks;
         for (const uint32_t record : mView.lightRecords) lightMasks.set(mLights.records[record].channels);
         if (mView.sunRecord) lightMasks.set(mLights.records[*mView.sunRecord].channels);
-        forEachLit(mView.packet, [&](DrawCall const& draw) { drawMasks.set(draw.lightChannels); });
+        forEachLit(mView.packet, [&](DrawCall const& draw) { drawMasks.set(draw.properties.lightChannels); });
         for (size_t mask = 0; mask < kMasks; ++mask) {
             if (drawMasks[mask]) place(shining(lightMasks, static_cast<uint8_t>(mask)), lightMasks, mask);
         }
@@ -106,7 +106,7 @@ private:
 } // namespace
 
 uint8_t ChannelLists::variantOf(DrawCall const& draw, uint8_t variant) const {
-    const uint32_t at = of(draw.lightChannels);
+    const uint32_t at = of(draw.properties.lightChannels);
     if (at == 0) return variant;
     ChannelLights const& list = lists[at - 1];
     int kept = variant;
@@ -121,8 +121,8 @@ uint8_t ChannelLists::variantOf(DrawCall const& draw, uint8_t variant) const {
 DrawnChannels channelsOf(ViewPacket const& view) {
     DrawnChannels channels;
     forEachLit(view, [&](DrawCall const& draw) {
-        channels.any |= draw.lightChannels;
-        channels.inCommon &= draw.lightChannels;
+        channels.any |= draw.properties.lightChannels;
+        channels.inCommon &= draw.properties.lightChannels;
     });
     return channels;
 }

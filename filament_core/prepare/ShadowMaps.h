@@ -41,7 +41,7 @@ constexpr ShadowMoments momentsFor(ShadowFilter filter) {
 }
 
 /// Whether shadows change what a material draws: if it is lit or catches shadows, and has been compiled with them.
-inline bool receivesShadows(scene::Material const& material, ShadowFilter filter) {
+inline bool canReceiveShadows(scene::Material const& material, ShadowFilter filter) {
     shader::MaterialPackage const& package = material.package;
     const int filtered = momentsFor(filter) == ShadowMoments::None
                                  ? shader::kVariantShadowReceiver

@@ -40,7 +40,8 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
             [&](ShadowReceivers& part, size_t i) {
                 const uint32_t at = view.objects.order[i].renderable;
                 scene::Drawable const& drawable = renderables.drawables[renderables.drawable[at]];
-                if (!drawable.receivesShadows || !receivesShadows(*drawable.material->material, filter)) return;
+                if (!drawable.properties.receivesShadows || !canReceiveShadows(*drawable.material->material, filter))
+                    return;
                 addBox(part, renderables.bounds.centerAt(at), double3(renderables.bounds.halfExtentAt(at)), space,
                        nearMeters);
             },

@@ -54,10 +54,9 @@ size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
     Geometry const& geometry = drawable.geometry;
     const uint64_t buffers = static_cast<uint64_t>(geometry.vertices.bits) << 32 | geometry.indices.bits;
     const uint64_t range = static_cast<uint64_t>(geometry.firstIndex) << 32 | geometry.indexCount;
-    const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material),
-                                     uint64_t{ drawable.deformation } << 9 | uint64_t{ drawable.lightChannels } << 1 |
-                                             drawable.receivesShadows);
-    return hashCombine(hashCombine(buffers, range), hashCombine(own, placeOrder(drawable.place)));
+    const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material), drawable.properties.bits());
+    const uint64_t order = uint64_t{ drawable.deformation } << 32 | placeOrder(drawable.place);
+    return hashCombine(hashCombine(buffers, range), hashCombine(own, order));
 }
 
 uint32_t Drawables::acquire(Drawable const& drawable) {

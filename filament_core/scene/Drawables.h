@@ -47,13 +47,21 @@ private:
 /// For Drawable::deformation.
 inline constexpr uint32_t kNotDeformed = ~0u;
 
+/// What a renderable gives its draws besides geometry and material. RenderableInput, Drawable and DrawCall carry it
+/// whole, so a new property is a member here and whatever reads it.
+struct DrawProperties {
+    bool receivesShadows = true;
+    uint8_t lightChannels = 1; ///< bit n: lights of channel n shine on it
+    friend bool operator==(DrawProperties const&, DrawProperties const&) = default;
+    uint64_t bits() const { return uint64_t{ lightChannels } << 1 | receivesShadows; }
+};
+
 /// Deformed objects are drawn alone: no two renderables share a deformation.
 struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
-    bool receivesShadows = true;
-    uint8_t lightChannels = 1; ///< bit n: lights of channel n shine on it
+    DrawProperties properties{};
     DrawOrder place{};
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };

@@ -66,9 +66,8 @@ void BoundsColumns::remove(uint32_t gap) {
 }
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
-    const uint32_t drawable =
-            renderables.drawables.acquire({ input.geometry, input.material, input.deformation, input.receivesShadows,
-                                            input.lightChannels, checked(input.place) });
+    const uint32_t drawable = renderables.drawables.acquire(
+            { input.geometry, input.material, input.deformation, input.properties, checked(input.place) });
     const Renderable handle = renderables.index.add();
     const int flags =
             (input.culled ? kCulled : 0) | (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
@@ -134,7 +133,7 @@ void setVisible(Renderables& renderables, Renderable renderable, bool isVisible)
 
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels) {
     changeDrawable(renderables, renderables.index.at(renderable),
-                   [&](Drawable& changed) { changed.lightChannels = channels; });
+                   [&](Drawable& changed) { changed.properties.lightChannels = channels; });
 }
 
 void setDrawOrder(Renderables& renderables, Renderable renderable, DrawOrder place) {

@@ -83,8 +83,8 @@ struct RenderableInput {
     std::string name;
     uint32_t instanceIndex = 0; ///< < 2^24
     uint32_t deformation = kNotDeformed;
-    bool castsShadows = true, receivesShadows = true;
-    uint8_t lightChannels = 1;
+    bool castsShadows = true;
+    DrawProperties properties{};
     uint8_t layers = kDefaultLayers;
     DrawOrder place{};
 };

@@ -22,7 +22,7 @@ struct ChannelScene : BoxScene {
         double4x4 world(1.0);
         world[3] = double4(x, 0, 0, 1);
         scene::RenderableInput input = box(world, instance, 1);
-        input.lightChannels = channels;
+        input.properties.lightChannels = channels;
         addRenderable(scene, input);
     }
 
@@ -68,7 +68,7 @@ Shining expectedFor(scene::SceneData const& scene, uint8_t channels) {
 }
 
 Shining foundFor(ViewPacket const& view, DrawCall const& draw) {
-    const uint32_t list = view.channels.of(draw.lightChannels);
+    const uint32_t list = view.channels.of(draw.properties.lightChannels);
     shader::FrameUniforms const& uniforms = list ? view.channels.lists[list - 1].uniforms : view.uniforms;
     const std::span lights = list ? view.channels.lists[list - 1].lights : view.lights;
     const uint8_t variant = view.channels.variantOf(draw, view.variant);
@@ -110,7 +110,7 @@ TEST(LightChannels, RandomMasksGetExactlyTheLightsWithWhichTheyShareAChannel) {
         ViewPacket const& view = packet.mainView();
         lists += view.channels.lists.size();
         for (DrawCall const& draw : view.opaque)
-            expectNear(foundFor(view, draw), expectedFor(stage.scene, draw.lightChannels));
+            expectNear(foundFor(view, draw), expectedFor(stage.scene, draw.properties.lightChannels));
     }
     EXPECT_GT(lists, 200u) << "too few to mean anything";
 }
@@ -172,7 +172,7 @@ TEST(LightChannels, ALightOnNoChannelIsSwitchedOffAndARenderableOnNoneIsUnlit) {
     EXPECT_EQ(view.counts.suns, 1u);
     ASSERT_EQ(view.opaque.size(), 2u);
     for (DrawCall const& draw : view.opaque)
-        EXPECT_EQ(view.channels.variantOf(draw, view.variant), draw.lightChannels ? shader::kVariantSun : 0);
+        EXPECT_EQ(view.channels.variantOf(draw, view.variant), draw.properties.lightChannels ? shader::kVariantSun : 0);
 }
 
 TEST(LightChannels, UnlitSurfacesMakeNoLists) {

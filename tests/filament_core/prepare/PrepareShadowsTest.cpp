@@ -60,7 +60,7 @@ struct PrepareShadowsTest : testing::Test, BoxScene {
         removeRenderable(scene, box);
         scene::RenderableInput input = BoxScene::box(double4x4(1.0), lit, 1);
         input.castsShadows = casts;
-        input.receivesShadows = receives;
+        input.properties.receivesShadows = receives;
         addRenderable(scene, input);
     }
 
