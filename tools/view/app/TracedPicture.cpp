@@ -3,6 +3,8 @@
 
 #include "tools/reference/LoadScene.h"
 
+#include <filament_core/Options.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -50,13 +52,17 @@ Result<reference::ReferenceScene> load(Document const& document, jobs::JobSystem
     return scene;
 }
 
-/// Of the lens, the film and the eye. What stands in for light that is traced (ambient occlusion, reflections of the
-/// screen) is not among them, nor is fog, which is traced.
-bool hasPictureEffects(Effects const& effects) {
-    return effects.bloom.enabled || effects.lensFlare.enabled || effects.depthOfField.enabled ||
-           effects.motionBlur.enabled || effects.autoExposure.enabled || effects.colorGrading.enabled ||
-           effects.vignette.enabled || effects.grain.enabled || effects.chromaticAberration.enabled ||
-           effects.sharpening.enabled;
+/// Effects that the traced picture has, too: fog is traced, occlusion and reflections stand in for traced light, and a
+/// guard band only widens what they see.
+constexpr std::string_view kTracedEffects[] = { "fog", "ambientOcclusion", "screenSpaceReflections", "guardBand" };
+
+/// Effects of the lens, the film and the eye: all others.
+bool hasImageEffects(Effects const& effects) {
+    return std::ranges::any_of(filament_core::optionsOf<Effects>(), [&](Option const& option) {
+        const bool isSwitch = option.kind == OptionKind::Switch && option.name.find('.') == option.name.npos;
+        return isSwitch && std::ranges::count(kTracedEffects, option.name) == 0 &&
+               optionValue(option, &effects) == "on";
+    });
 }
 
 bool hasProfile(DocumentLight const& light) { return light.isOn && !light.profileFile.empty(); }
@@ -73,7 +79,7 @@ std::string untracedParts(Document const& document) {
     if (document.model.options.allLevels) parts.push_back("other levels of detail than the finest");
     if (document.playback.animation) parts.push_back("animations");
     if (std::ranges::any_of(document.lights, hasProfile)) parts.push_back("profiles of lights");
-    if (hasPictureEffects(document.view.effects)) parts.push_back("effects such as bloom");
+    if (hasImageEffects(document.view.effects)) parts.push_back("effects such as bloom");
     if (!document.look.empty()) parts.push_back("the look");
     if (document.view.debugView != DebugView::None) parts.push_back("debug views");
     return parts.empty() ? std::string{} : fmt::format("the path tracer does not see {}", fmt::join(parts, ", "));
