@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents: every file that a .md or .html file links to or shows exists, every picture is used and small, every
-source file names its licence, and documents and comments avoid the phrases of scripts/banned_phrases.txt (scripts/wording.py).
+source file names its licence, documents and comments avoid the phrases of scripts/banned_phrases.txt (scripts/wording.py), and headers
+state the ranges of options as they are (scripts/option_ranges.py), and the lists of CONTRIBUTING.md name the files that a change touches
+(scripts/checklists.py).
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
@@ -17,6 +19,8 @@ import subprocess
 import sys
 import urllib.parse
 
+import checklists
+import option_ranges
 import wording
 
 # [text](target) and ![text](target "title"); src="target" and href="target"
@@ -102,7 +106,7 @@ def check(root):
         if has_alpha(file):
             wrong.append(f"{file.relative_to(root)}:1: is larger than it must be: run scripts/shrink_pictures")
     wrong += without_licence(root, files)
-    wrong += wording.check(root, files)
+    wrong += [*wording.check(root, files), *option_ranges.check(root), *checklists.check(root)]
     return wrong, len(documents)
 
 

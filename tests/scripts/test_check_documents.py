@@ -54,6 +54,28 @@ class Documents(unittest.TestCase):
             self.assertEqual(check({"a.md": "![a](docs/a.png)", "docs/a.png": picture(color)})[0], 0)
         self.assertEqual(check({"a.md": "![a](b/a.png)", "b/a.png": picture(6)})[0], 0)
 
+    def test_ranges_of_options_are_those_of_the_headers(self):
+        page = "| `fog.density` | 1/m from 0 to 10000 | `0.1` | x |\n| `shBands` | 1, 2 or 3 | `3` | x |\n| `fog` | off or on | `off` | x |\n"
+        header = ("struct Fog {{\n    bool enabled = false;\n    float density = 0.1f; ///< at a height,\n                          ///< [0, {}] 1/m\n}};\n"
+                  "struct Quality {{\n    /// [1, 3]: 1, 4 or 9 coefficients\n    uint8_t shBands = 3;\n}};\n")
+        files = lambda text: {"docs/options.md": page, "filament_core/include/filament_core/Effects.h":
+                              "// SPDX-License-Identifier: Apache-2.0\n" + text}
+        status, output = check(files(header.format("1e4")))
+        self.assertEqual(status, 0, output)
+        self.assert_broken(files(header.format("10 001")), "Effects.h:4: density is in [0.0, 10001.0] here and in [0.0, 10000.0]")
+        self.assert_broken(files(header.format("1e4").replace("[1, 3]", "few")), "docs/options.md: shBands: no header states its range")
+
+    def test_the_lists_of_what_a_change_touches_are_those_of_the_tree(self):
+        page = "#### A number, `\\bhalo\\b`: {} files\n\n- `toolkit/a.h`: the member,\n  with a unit\n- `tools/b.cpp`: its use\n"
+        code = lambda words: "// SPDX-License-Identifier: Apache-2.0\n" + words
+        files = {"CONTRIBUTING.md": page.format(2), "tools/b.cpp": code("halo"), "tools/c.cpp": code("haloes"),
+                 "docs/d.cpp": code("halo"), "toolkit/a.h": code("int halo;")}
+        status, output = check(files)
+        self.assertEqual(status, 0, output)
+        self.assert_broken(files | {"tools/c.cpp": code("a halo")}, "`\\bhalo\\b`: tools/c.cpp is not in its list")
+        self.assert_broken(files | {"tools/b.cpp": code("haloes")}, "`\\bhalo\\b`: tools/b.cpp does not name it")
+        self.assert_broken(files | {"CONTRIBUTING.md": page.format(3)}, "`\\bhalo\\b`: 2 files are listed, not 3")
+
     def test_a_fragment_has_its_pictures_beside_it_and_its_links_above(self):
         fragment = '<a href="a.md">a</a><img src="x.png">'
         status, output = check({"docs/a.md": "a", "docs/p/1.fragment.html": fragment, "docs/p/x.png": ""})

@@ -30,8 +30,8 @@ inline constexpr LightChannels kDefaultLightChannels = 1;
 /// point costs, and materials compiled without dynamic lighting ignore them.
 struct SunLight {
     float3 directionWorld{ 0, -1, 0 }; ///< the direction in which the light travels; any length except zero
-    Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0
-    LinearColor color{ 1.0f };
+    Lux illuminance{ 110'000 };        ///< on a surface facing it, [0, 1e12]
+    LinearColor color{ 1.0f };         ///< linear, [0, 1e9]
     /// Half of its diameter in the sky, [0, 20]: softness of its shadows with ShadowFilter::Pcss.
     float angularRadiusDegrees = 0.2665f;
     /// In views of the sky: a disc of that radius, and a halo around it. They do not affect

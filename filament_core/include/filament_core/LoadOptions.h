@@ -38,7 +38,7 @@ struct EnvironmentLoadOptions {
     uint32_t faceSize = 256; ///< texels per side of a cube face, power of two in [16, 2048]
     EnvironmentFormat format = EnvironmentFormat::Rgba16F; ///< the others take half the memory
     RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
-    uint32_t samples = 512; ///< approximate number of pieces of the sky that each texel integrates
+    uint32_t samples = 512; ///< pieces of the sky that each texel integrates, about, [1, 65536]
     LoadProgress progress{};
 };
 
