@@ -232,14 +232,14 @@ void addFinish(std::vector<Pair>& all, const char* file) {
     const auto look = [](View& view) {
         view.effects.colorGrading = { .enabled = true, .temperature = 0.1f, .contrast = 1.1f, .saturation = 1.1f };
     };
-    all.push_back({ "grading", file, plain, withEffects(look) });
+    all.push_back({ "color grading", file, plain, withEffects(look) });
     all.push_back({ "grading by table32", file, plain, withEffects([look](View& view) {
                         look(view);
                         view.quality.toneMapping = ToneMapping::Table32;
                     }) });
     all.push_back({ "vignette", file, plain, withEffects([](View& view) { view.effects.vignette.enabled = true; }) });
     all.push_back({ "grain", file, plain, withEffects([](View& view) { view.effects.grain.enabled = true; }) });
-    all.push_back({ "fringes", file, plain,
+    all.push_back({ "chromatic aberration", file, plain,
                     withEffects([](View& view) { view.effects.chromaticAberration.enabled = true; }) });
     all.push_back({ "auto exposure", file, plain,
                     withEffects([](View& view) { view.effects.autoExposure.enabled = true; }) });

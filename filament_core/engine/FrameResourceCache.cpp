@@ -22,9 +22,9 @@ uint32_t toneTableSize(ToneMapping mapping) {
 }
 
 /// Without fields that change no colour, so that equal tables are shared.
-DisplayTransform keyOf(DisplayTransform const& grading) {
+DisplayTransform keyOf(DisplayTransform const& display) {
     constexpr ToneCurve kCurve{};
-    DisplayTransform key = clamped(grading);
+    DisplayTransform key = clamped(display);
     key.dither = false;
     if (key.toneMapper != ToneMapper::Agx) key.agxLook = AgxLook::Base;
     if (key.toneMapper != ToneMapper::Generic) key.toneCurve = kCurve;

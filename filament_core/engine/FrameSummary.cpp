@@ -34,12 +34,12 @@ double millisecondsOf(framegraph::CompiledGraph const& plan, size_t pass, std::s
 
 std::string table(std::vector<EffectDecision> const& decisions) {
     std::string text =
-            fmt::format("{:<18}{:<12}{:>10}{:>10}  {}\n", "effect or pass", "state", "device ms", "MB", "why");
+            fmt::format("{:<22}{:<12}{:>10}{:>10}  {}\n", "effect or pass", "state", "device ms", "MB", "why");
     for (EffectDecision const& one : decisions) {
         const std::string time = one.gpuMilliseconds > 0 ? fmt::format("{:.2f}", one.gpuMilliseconds) : "";
         const std::string size =
                 one.attachmentBytes > 0 ? fmt::format("{:.2f}", static_cast<double>(one.attachmentBytes) * 1e-6) : "";
-        text += fmt::format("{:<18}{:<12}{:>10}{:>10}  {}\n", one.name, toString(one.state), time, size, one.reason);
+        text += fmt::format("{:<22}{:<12}{:>10}{:>10}  {}\n", one.name, toString(one.state), time, size, one.reason);
     }
     return text;
 }

@@ -194,7 +194,7 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
 }
 
 void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target,
-                 prepare::PictureCopy const& copy, TextureId texture, ColorBlocks& blocks) {
+                 prepare::SceneColorCopy const& copy, TextureId texture, ColorBlocks& blocks) {
     blocks.target = declareTargetBeforePicture(context, target, context.settings().samples, copy);
     blocks.textures.sceneColor = texture;
     blocks.textures.sceneColorLevels = copy.levels;

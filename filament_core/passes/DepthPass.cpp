@@ -38,15 +38,15 @@ bool isDistanceRead(prepare::SceneDemand const& demand) {
 constexpr std::string_view kDistanceInputs[] = { "depth" };
 constexpr FullScreenInterface kDistance{ .pass = "distances", .inputs = kDistanceInputs };
 constexpr std::string_view kPyramidInputs[] = { "level" };
-constexpr FullScreenInterface kPyramid{ .pass = "distance pyramid", .inputs = kPyramidInputs };
+constexpr FullScreenInterface kPyramid{ .pass = "depth pyramid", .inputs = kPyramidInputs };
 
 /// From the level before it.
 void addPyramidLevel(FrameGraph& graph, FrameContext const& context, uint8_t level, TextureId distances) {
     const std::array inputs{ FullScreenInput{
             .name = "level", .texture = distances, .range = oneLevel(static_cast<uint8_t>(level - 1)) } };
     addFullScreenPass(graph, context,
-                      { .name = "distance pyramid",
-                        .material = context.resources.effects->get("distance_pyramid", {}, kPyramid),
+                      { .name = "depth pyramid",
+                        .material = context.resources.effects->get("depth_pyramid", {}, kPyramid),
                         .inputs = inputs,
                         .target = distances,
                         .level = level });
@@ -61,7 +61,7 @@ void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
     addFullScreenPass(graph, context,
                       { .name = "distances",
-                        .material = context.resources.effects->get("scene_distance", {}, kDistance),
+                        .material = context.resources.effects->get("linear_depth", {}, kDistance),
                         .inputs = inputs,
                         .target = targets.linearDepth });
     for (uint8_t level = 1; level < levels; ++level) addPyramidLevel(graph, context, level, targets.linearDepth);

@@ -112,7 +112,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addSurfacePasses(graph, context, targets);
     // Temporal accumulation comes before the blur of the lens: the history is clamped by colours of sharp neighbours.
     // Depth of field and motion blur look pixels up in the depths, so accumulation that upscales comes after them.
-    const bool isEnlarged = isEnlargedByGathering(context);
+    const bool isEnlarged = isUpscaledOverFrames(context);
     if (!isEnlarged) addTemporalPass(graph, context, targets);
     const framegraph::TextureId light = targets.color; // surfaces reflect the scene, not what the lens makes of it
     addDepthOfFieldPasses(graph, context, targets);

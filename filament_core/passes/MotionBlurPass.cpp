@@ -66,7 +66,7 @@ private:
         float4x4 const& clip = mContext.packet.mainView().uniforms.clipFromView;
         const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(mContext, double2(1)) },
                                  FullScreenValue{ "perSample", 1.0f / float2(mSize) },
-                                 FullScreenValue{ "jitter", mContext.packet.gathering.jitterPixels },
+                                 FullScreenValue{ "jitter", mContext.packet.accumulation.jitterPixels },
                                  FullScreenValue{ "inverseOfDepth",
                                                   isParallel(clip) ? distanceOfDepth(clip) : inverseOfDepth(clip) },
                                  FullScreenValue{ "scale", float2(mSize) * (share / 2) },

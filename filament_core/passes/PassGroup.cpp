@@ -44,7 +44,7 @@ PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDes
 }
 
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                                     uint8_t samples, prepare::PictureCopy const& copy) {
+                                     uint8_t samples, prepare::SceneColorCopy const& copy) {
     const float2 first(copy.rect.x, copy.rect.y), size(copy.rect.width, copy.rect.height);
     shader::PassUniforms block = uniformsOf(context, texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);

@@ -19,7 +19,7 @@ PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDes
 
 /// The same for a pass whose materials refract or reflect a picture.
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                                     uint8_t samples, prepare::PictureCopy const& copy);
+                                     uint8_t samples, prepare::SceneColorCopy const& copy);
 
 /// For surfaces of which a debug view shows a value.
 PassBlock declareDebugTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture,

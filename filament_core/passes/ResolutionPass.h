@@ -22,7 +22,7 @@ struct LastStep {
     bool hasGrain = false, dithers = false;
 };
 
-/// By a bilinear filter if Resolution::upscaling is off: nothing was gathered where nothing is visible.
+/// By a bilinear filter if Resolution::upscaling is off: nothing was accumulated where nothing is visible.
 void addUpscalingPass(framegraph::FrameGraph& graph, FrameContext const& context, PictureStep const& step,
                       LastStep const& last);
 void addSharpeningPass(framegraph::FrameGraph& graph, FrameContext const& context, PictureStep const& step,

@@ -13,10 +13,10 @@ using backend::Format;
 using backend::Rect;
 using framegraph::FrameGraph;
 using framegraph::TextureId;
-using prepare::PictureCopy;
+using prepare::SceneColorCopy;
 
 constexpr std::string_view kCopyInputs[] = { "color", "depth" };
-constexpr FullScreenInterface kCopy{ .pass = "picture", .inputs = kCopyInputs };
+constexpr FullScreenInterface kCopy{ .pass = "scene color copy", .inputs = kCopyInputs };
 constexpr std::string_view kReprojectionInputs[] = { "last", "depth", "motion" };
 constexpr FullScreenParameter kReprojectionValues[] = { { "lastFromPixel", ParameterType::Float4x4 },
                                                         { "lastAlong", ParameterType::Float4 },
@@ -29,12 +29,14 @@ constexpr FullScreenInterface kReprojection{ .pass = "reprojection",
 constexpr std::string_view kPictureLevelInputs[] = { "level" };
 constexpr FullScreenParameter kLevelValues[] = { { "texels", ParameterType::Float4 },
                                                  { "perTexel", ParameterType::Float2 } };
-constexpr FullScreenInterface kLevel{ .pass = "picture blur", .inputs = kPictureLevelInputs, .values = kLevelValues };
+constexpr FullScreenInterface kLevel{ .pass = "scene color blur",
+                                      .inputs = kPictureLevelInputs,
+                                      .values = kLevelValues };
 
 // Off the centre of an outer texel, so that no rounding lets the sampler read the one beyond it, even with weight 0.
 constexpr float kInset = 0.5f + 1.0f / 64;
 
-Rect rectOfLevel(PictureCopy const& copy, uint32_t level) {
+Rect rectOfLevel(SceneColorCopy const& copy, uint32_t level) {
     return { copy.rect.x >> level, copy.rect.y >> level, copy.rect.width >> level, copy.rect.height >> level };
 }
 
@@ -42,14 +44,14 @@ struct PictureSource {
     TextureId color, depth;
 };
 
-void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const& from, PictureCopy const& copy,
+void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const& from, SceneColorCopy const& copy,
              TextureId picture) {
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = from.color },
                              FullScreenInput{ .name = "depth", .texture = from.depth } };
     const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(copy, 0) } };
     addFullScreenPass(graph, context,
-                      { .name = "picture",
-                        .material = context.resources.effects->get("picture_copy", {}, kCopy),
+                      { .name = "scene color copy",
+                        .material = context.resources.effects->get("scene_color_copy", {}, kCopy),
                         .inputs = inputs,
                         .target = picture,
                         .tiles = tiles,
@@ -74,16 +76,17 @@ void addReprojected(FrameGraph& graph, FrameContext const& context, FrameTargets
                              FullScreenInput{ .name = "motion", .texture = targets.motionVectors } };
     const EffectConstant constants[] = { { "isElsewhere", last.isElsewhere || targets.motionVectors },
                                          { "hasMotion", static_cast<bool>(targets.motionVectors) } };
-    addFullScreenPass(graph, context,
-                      { .name = "reprojection",
-                        .material = context.resources.effects->get("picture_reprojection", constants, kReprojection),
-                        .inputs = inputs,
-                        .values = values,
-                        .target = picture });
+    addFullScreenPass(
+            graph, context,
+            { .name = "reprojection",
+              .material = context.resources.effects->get("scene_color_reprojection", constants, kReprojection),
+              .inputs = inputs,
+              .values = values,
+              .target = picture });
 }
 
 /// From the level before it.
-void addBlurred(FrameGraph& graph, FrameContext const& context, PictureCopy const& copy, uint8_t level,
+void addBlurred(FrameGraph& graph, FrameContext const& context, SceneColorCopy const& copy, uint8_t level,
                 TextureId picture) {
     const Rect from = rectOfLevel(copy, level - 1u);
     const float2 first(from.x, from.y), end = first + float2(from.width, from.height);
@@ -97,8 +100,8 @@ void addBlurred(FrameGraph& graph, FrameContext const& context, PictureCopy cons
                                               .range = backend::oneLevel(static_cast<uint8_t>(level - 1)) } };
     const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(copy, level), .values = values } };
     addFullScreenPass(graph, context,
-                      { .name = "picture blur",
-                        .material = context.resources.effects->get("picture_blur", {}, kLevel),
+                      { .name = "scene color blur",
+                        .material = context.resources.effects->get("scene_color_blur", {}, kLevel),
                         .inputs = inputs,
                         .target = picture,
                         .level = level,
@@ -111,24 +114,24 @@ framegraph::GraphTextureDesc pictureDesc(FrameContext const& context, uint8_t le
     return { .width = size.x, .height = size.y, .format = Format::RGBA16F, .levels = levels, .name = name };
 }
 
-TextureId createPicture(FrameGraph& graph, FrameContext const& context) {
-    return graph.createTexture(pictureDesc(context, prepare::pictureLevels(context.settings().size), "picture"));
+TextureId createSceneColor(FrameGraph& graph, FrameContext const& context) {
+    return graph.createTexture(pictureDesc(context, prepare::pictureLevels(context.settings().size), "scene color"));
 }
 
-void addBlurredLevels(FrameGraph& graph, FrameContext const& context, PictureCopy const& copy, TextureId picture) {
+void addBlurredLevels(FrameGraph& graph, FrameContext const& context, SceneColorCopy const& copy, TextureId picture) {
     for (uint8_t level = 1; level < copy.levels; ++level) addBlurred(graph, context, copy, level, picture);
 }
 
 } // namespace
 
-PictureCopy wholeSceneColor(FrameContext const& context) {
+SceneColorCopy wholeSceneColor(FrameContext const& context) {
     const uint2 size = context.settings().size;
     return prepare::copyAround({ float2(0.0f), float2(size) }, size);
 }
 
 TextureId addSceneColorCopyPasses(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId depth,
-                                  PictureCopy const& copy) {
-    const TextureId picture = createPicture(graph, context);
+                                  SceneColorCopy const& copy) {
+    const TextureId picture = createSceneColor(graph, context);
     addCopy(graph, context, { color, depth }, copy, picture);
     addBlurredLevels(graph, context, copy, picture);
     return picture;
@@ -139,7 +142,7 @@ void addReflectedSceneColor(FrameGraph& graph, FrameContext const& context, Fram
     targets.sceneColorHistory =
             graph.history(pictureDesc(context, 1, "last picture"), {}, !context.packet.last.isReflected);
     if (!targets.sceneColorHistory.previous) return;
-    targets.sceneColor = createPicture(graph, context);
+    targets.sceneColor = createSceneColor(graph, context);
     addReprojected(graph, context, targets, targets.sceneColor);
     addBlurredLevels(graph, context, wholeSceneColor(context), targets.sceneColor);
 }

@@ -14,7 +14,7 @@ namespace filament_core::passes {
 /// The rectangle and the levels of `copy`.
 framegraph::TextureId addSceneColorCopyPasses(framegraph::FrameGraph& graph, FrameContext const& context,
                                               framegraph::TextureId color, framegraph::TextureId depth,
-                                              prepare::PictureCopy const& copy);
+                                              prepare::SceneColorCopy const& copy);
 
 /// Before the colour pass, if something reflects the image: targets.sceneColor is that of the last frame, as this frame
 /// sees its surfaces. The product of its alpha and the distance is 1 where the last frame showed the same surface.
@@ -24,6 +24,6 @@ void addReflectedSceneColor(framegraph::FrameGraph& graph, FrameContext const& c
 void keepSceneColor(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets,
                     framegraph::TextureId color);
 /// All of the view.
-prepare::PictureCopy wholeSceneColor(FrameContext const& context);
+prepare::SceneColorCopy wholeSceneColor(FrameContext const& context);
 
 } // namespace filament_core::passes

@@ -20,17 +20,17 @@ constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .val
 
 } // namespace
 
-bool isEnlargedByGathering(FrameContext const& context) {
-    return context.packet.demand.needs(prepare::Effect::Taa) && context.settings().isEnlargedByGathering();
+bool isUpscaledOverFrames(FrameContext const& context) {
+    return context.packet.demand.needs(prepare::Effect::Taa) && context.settings().isUpscaledOverFrames();
 }
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     if (!context.packet.demand.needs(prepare::Effect::Taa)) return;
-    const bool isEnlarged = isEnlargedByGathering(context);
+    const bool isEnlarged = isUpscaledOverFrames(context);
     const uint2 size = isEnlarged ? context.settings().shownSize : context.settings().size;
     const framegraph::History history = graph.history(
-            { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "gathered picture" }, {},
-            context.packet.gathering.weight == 1);
+            { .width = size.x, .height = size.y, .format = backend::Format::RGBA16F, .name = "accumulated color" }, {},
+            context.packet.accumulation.weight == 1);
     const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
                              FullScreenInput{ .name = "history",
                                               .texture = history.previous,
@@ -39,15 +39,15 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                              FullScreenInput{ .name = "motion", .texture = targets.motionVectors } };
     const std::array values{ FullScreenValue{ "lastFromPixel", lastFromPixel(context, double2(1)) },
                              FullScreenValue{ "perPixel", 1.0f / float2(size) },
-                             FullScreenValue{ "jitter", context.packet.gathering.jitterPixels },
-                             FullScreenValue{ "weight", context.packet.gathering.weight },
-                             FullScreenValue{ "ramp", context.packet.gathering.ramp },
+                             FullScreenValue{ "jitter", context.packet.accumulation.jitterPixels },
+                             FullScreenValue{ "weight", context.packet.accumulation.weight },
+                             FullScreenValue{ "ramp", context.packet.accumulation.ramp },
                              FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) } };
     const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motionVectors);
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
     const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
                                 EffectConstant{ "hasDepth", hasDepth },
-                                EffectConstant{ "isFixed", context.packet.gathering.isFixed },
+                                EffectConstant{ "isFixed", context.packet.accumulation.isFixed },
                                 EffectConstant{ "hasMotion", hasMotion },
                                 EffectConstant{ "isEnlarged", isEnlarged },
                                 EffectConstant{ "showsShares", false } };

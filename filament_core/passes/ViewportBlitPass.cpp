@@ -122,7 +122,7 @@ void addTargetDepth(FrameGraph& graph, FrameContext const& context, FrameOutput 
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.sceneDepth } };
     addFullScreenPass(graph, context,
                       { .name = "target depth",
-                        .material = context.resources.effects->get("scene_distance", constants, kTargetDepth),
+                        .material = context.resources.effects->get("linear_depth", constants, kTargetDepth),
                         .inputs = inputs,
                         .target = drawn });
     if (!fills) place(graph, context, "place", drawn, whole, { isCleared, float4(kNothingMeters, 0, 0, 0) });

@@ -18,7 +18,7 @@ uint32_t specialOrders(DrawOrder const& order) {
     if (order.kind == ViewKind::Shadow) return 0;
     return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
            Drawables::kNoDepthTestOrder | Drawables::kStencilWriteOrder | (order.composes ? Drawables::kAnyOrder : 0) |
-           (order.refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
+           (order.refraction == RefractionOrder::Any ? 0 : Drawables::kReadsSceneColorOrder);
 }
 
 Composed composedAs(scene::Drawables::Use use, uint32_t depth, uint32_t special, DrawOrder const& order) {
@@ -33,7 +33,7 @@ uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, 
     const auto depth = static_cast<uint32_t>(item.key);
     if (special & Drawables::kBlendedOrder) return blendedKey(depth, use.place, composedAs(use, depth, special, order));
     if (special & Drawables::kStencilWriteOrder) return opaqueKey(use.order, item.draw, kStencilSlice, depth);
-    if (special & Drawables::kSeesPictureOrder)
+    if (special & Drawables::kReadsSceneColorOrder)
         return order.refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
         return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0, use.place);

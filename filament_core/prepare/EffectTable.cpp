@@ -358,10 +358,11 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::AutoExposure, "auto exposure", Stage::PostProcess, demandOfAutoExposure, "autoExposure=off",
           kChangesColor },
         { Effect::Bloom, "bloom", Stage::PostProcess, demandOfBloom, "bloom=off", kChangesColor },
-        { Effect::ChromaticAberration, "fringes", Stage::PostProcess, demandOfAberration, "chromaticAberration=off",
-          kChangesColor },
+        { Effect::ChromaticAberration, "chromatic aberration", Stage::PostProcess, demandOfAberration,
+          "chromaticAberration=off", kChangesColor },
         { Effect::Vignette, "vignette", Stage::PostProcess, demandOfVignette, "vignette=off", kChangesColor },
-        { Effect::ColorGrading, "grading", Stage::PostProcess, demandOfGrading, "colorGrading=off", kChangesColor },
+        { Effect::ColorGrading, "color grading", Stage::PostProcess, demandOfGrading, "colorGrading=off",
+          kChangesColor },
         { Effect::Grain, "grain", Stage::PostProcess, demandOfGrain, "grain=off" }, // of codes: light stays as it is
         { Effect::Fxaa, "fxaa", Stage::PostProcess, demandOfFxaa, "antiAliasing", kChangesColor },
         { Effect::Upscaling, "upscaling", Stage::PostProcess, demandOfUpscaling, "resolution.upscaling=off",
@@ -371,9 +372,9 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::MsaaResolve, "msaa resolve", Stage::PostProcess, demandOfResolve, "msaaResolve=average", 0,
           "pixels have one sample" }, // by the colour pass
         { Effect::MipBias, "mip bias", Stage::Geometry, demandOfMipBias, "mipBias=off", 0,
-          "no frames are gathered into more pixels than they have" },
+          "no frames are accumulated into more pixels than they have" },
         { Effect::GuardBand, "guard band", Stage::Geometry, demandOfBand, "guardBand=off", kChangesColor,
-          "nothing looks beside the picture, a debug view is shown, the target has depth, or gathering "
+          "nothing looks beside the picture, a debug view is shown, the target has depth, or accumulation "
           "enlarges the picture" },
         { Effect::DebugView, "debug view", Stage::PostProcess, demandOfDebugView },
 } };

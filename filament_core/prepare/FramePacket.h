@@ -10,7 +10,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/FrameSettings.h"
-#include "filament_core/prepare/PictureCopy.h"
+#include "filament_core/prepare/SceneColorCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/ShadowMaps.h"
 #include "filament_core/prepare/SortKey.h"
@@ -125,10 +125,10 @@ struct ViewPacket {
     bool hasAreaLights = false; ///< among `lights`
     ProfileLists profiles;      ///< of `lights`
     ObjectList objects;
-    std::span<const DrawCall> opaque;      ///< opaque and masked, roughly front to back
-    std::span<const DrawCall> blended;     ///< back to front; none where nothing is shaded
-    std::span<const PictureCopy> pictures; ///< for what of `blended` refracts what is drawn before it; none: nothing
-    AnyOrderDraws anyOrder;                ///< where of `blended`
+    std::span<const DrawCall> opaque;         ///< opaque and masked, roughly front to back
+    std::span<const DrawCall> blended;        ///< back to front; none where nothing is shaded
+    std::span<const SceneColorCopy> pictures; ///< for what of `blended` refracts what is drawn before it; none: nothing
+    AnyOrderDraws anyOrder;                   ///< where of `blended`
     ViewCounts counts;
 
     std::span<const DrawCall> anyOrderDraws() const {
@@ -171,12 +171,12 @@ struct Focus {
     float mostPixels = 0; ///< larger radii count as this
 };
 
-/// How this frame adds to a picture that is gathered over frames (TemporalPass.h).
-struct Gathering {
+/// How this frame adds to an image that is accumulated over frames (TemporalPass.h).
+struct Accumulation {
     float2 jitterPixels{ 0 }; ///< ViewInput::jitterPixels of the main view
     float weight = 1;         ///< of this frame in the accumulated colour, (0, 1]
     bool isFixed = false;     ///< only the direction of the camera changed: the accumulated colour is right
-    float ramp = 0;           ///< of a picture that gathering enlarges: half the width of its filter's edges, pixels
+    float ramp = 0;           ///< of an image that accumulation enlarges: half the width of its filter's edges, pixels
 };
 
 struct FramePacket {
@@ -184,7 +184,7 @@ struct FramePacket {
     FrameSettings settings;            ///< of the main view
     uint32_t motionView = kNowhere;    ///< of `views`: what moved by itself, two records an object (PrepareMotion.h)
     LastView last;                     ///< of the main view
-    Gathering gathering;               ///< of the main view
+    Accumulation accumulation;         ///< of the main view
     Focus focus;                       ///< of the main view
     DeformationList deformations;      ///< of what any of the views sees, each once
     ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views

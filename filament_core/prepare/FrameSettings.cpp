@@ -12,38 +12,38 @@
 namespace filament_core::prepare {
 namespace {
 
-bool gathersFrames(Quality const& quality, DebugView debugView) {
+bool accumulatesFrames(Quality const& quality, DebugView debugView) {
     return quality.antiAliasing == AntiAliasing::Taa &&
            (debugView == DebugView::None || debugView == DebugView::HistoryWeight);
 }
 
-bool gathersLarger(Quality const& quality, Upscaling upscaling, DebugView debugView) {
-    return gathersFrames(quality, debugView) && upscaling == Upscaling::Off;
+bool upscalesOverFrames(Quality const& quality, Upscaling upscaling, DebugView debugView) {
+    return accumulatesFrames(quality, debugView) && upscaling == Upscaling::Off;
 }
 
 uint2 drawnSize(View const& view, Resolution const& resolution) {
-    const bool isEnlarged = resolution.upscaling != Upscaling::Off || gathersFrames(view.quality, view.debugView);
+    const bool isEnlarged = resolution.upscaling != Upscaling::Off || accumulatesFrames(view.quality, view.debugView);
     if (!isEnlarged || view.debugView != DebugView::None) return view.size;
     return min(max(uint2(float2(view.size) * resolution.scale + 0.5f), 1u), view.size);
 }
 
-/// Gathering would have to cut the band off before it knows the image around it.
+/// Accumulation would have to cut the band off before it knows the image around it.
 uint32_t guardBand(View const& view, Effects const& effects, uint2 drawn) {
-    const bool isGatheredLarger =
-            drawn != view.size && gathersLarger(view.quality, effects.resolution.upscaling, view.debugView);
-    if (!effects.guardBand.enabled || view.debugView != DebugView::None || isGatheredLarger) return 0;
+    const bool isUpscaled =
+            drawn != view.size && upscalesOverFrames(view.quality, effects.resolution.upscaling, view.debugView);
+    if (!effects.guardBand.enabled || view.debugView != DebugView::None || isUpscaled) return 0;
     return static_cast<uint32_t>(std::ceil(effects.guardBand.width * static_cast<float>(drawn.y)));
 }
 
 DisplaySettings displayOf(DisplayTransform const& unlimited) {
-    const DisplayTransform grading = clamped(unlimited);
-    return { .toneMapper = shaderToneMapper(grading),
-             .outputSpace = shaderOutputSpace(grading),
-             .toneCurve = shaderToneCurve(grading.toneCurve),
-             .whiteShare = whiteShareOf(grading),
-             .halfWhiteLight = halfWhiteLight(grading),
-             .hasNumbers = grading.toneMapper == ToneMapper::Generic || grading.outputSpace != OutputSpace::Srgb,
-             .dithers = grading.dither };
+    const DisplayTransform display = clamped(unlimited);
+    return { .toneMapper = shaderToneMapper(display),
+             .outputSpace = shaderOutputSpace(display),
+             .toneCurve = shaderToneCurve(display.toneCurve),
+             .whiteShare = whiteShareOf(display),
+             .halfWhiteLight = halfWhiteLight(display),
+             .hasNumbers = display.toneMapper == ToneMapper::Generic || display.outputSpace != OutputSpace::Srgb,
+             .dithers = display.dither };
 }
 
 /// One layer that is peeled is what sorting draws.
@@ -65,10 +65,10 @@ Effects drawnEffects(Effects const& effects, DebugView debugView) {
     return drawn;
 }
 
-/// Frames that are gathered have more samples together than each has pixels: their textures may be as sharp as the
+/// Frames that are accumulated have more samples together than each has pixels: their textures may be as sharp as the
 /// image that they become.
-float mipBias(ViewInput const& view, bool gathers) {
-    if (view.quality.mipBias == MipBias::Off || !gathers) return 0;
+float mipBias(ViewInput const& view, bool accumulates) {
+    if (view.quality.mipBias == MipBias::Off || !accumulates) return 0;
     const float2 scale = float2(view.inside()) / float2(view.shown());
     const float sharper = view.quality.mipBias == MipBias::Sharp ? 1.0f : 0.0f;
     return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
@@ -98,23 +98,24 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
 
 FrameSettings resolve(ViewInput const& main) {
     FILAMENT_ASSERT(main.samples == 1 || main.samples == 4, "a view has 1 or 4 samples a pixel");
-    const bool gathers = gathersFrames(main.quality, main.debugView), isImage = main.debugView == DebugView::None;
-    FrameSettings settings{
-        .quality = drawnQuality(main.quality, main.debugView),
-        .effects = drawnEffects(main.effects, main.debugView),
-        .display = main.display,
-        .debugView = main.debugView,
-        .size = main.size,
-        .shownSize = main.shown(),
-        .band = main.band,
-        .samples = isImage ? main.samples : uint8_t{ 1 },
-        .clearColor = main.clearColor,
-        .viewport = main.viewport,
-        .gathersFrames = gathers,
-        .gathersLarger = gathersLarger(main.quality, main.effects.resolution.upscaling, main.debugView),
-        .tracksMotion = gathers || main.debugView == DebugView::Motion || (main.effects.motionBlur.enabled && isImage),
-        .mipBias = mipBias(main, gathers)
-    };
+    const bool accumulates = accumulatesFrames(main.quality, main.debugView),
+               isImage = main.debugView == DebugView::None;
+    FrameSettings settings{ .quality = drawnQuality(main.quality, main.debugView),
+                            .effects = drawnEffects(main.effects, main.debugView),
+                            .display = main.display,
+                            .debugView = main.debugView,
+                            .size = main.size,
+                            .shownSize = main.shown(),
+                            .band = main.band,
+                            .samples = isImage ? main.samples : uint8_t{ 1 },
+                            .clearColor = main.clearColor,
+                            .viewport = main.viewport,
+                            .accumulatesFrames = accumulates,
+                            .upscalesOverFrames =
+                                    upscalesOverFrames(main.quality, main.effects.resolution.upscaling, main.debugView),
+                            .tracksMotion = accumulates || main.debugView == DebugView::Motion ||
+                                            (main.effects.motionBlur.enabled && isImage),
+                            .mipBias = mipBias(main, accumulates) };
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
     return settings;
 }

@@ -21,15 +21,16 @@ struct FrameSettings {
     uint8_t samples = 1;     ///< a pixel; 1 for debug views, which read depths
     float4 clearColor{ 0, 0, 0, 1 };
     std::optional<Viewport> viewport{};
-    bool gathersFrames = false;    ///< the image is gathered over frames, if there is anything in it
-    bool gathersLarger = false;    ///< and gathering, not a filter, makes it as large as it is shown
-    bool composesAnyOrder = false; ///< transparent objects, if they may overlap
-    bool tracksMotion = false;     ///< an effect of the image looks at the last one, so that it matters what moved
-    float mipBias = 0;             ///< of materials' textures, in levels, at most 0
+    bool accumulatesFrames =
+            false; ///< the image is accumulated over frames (temporal anti-aliasing), if there is anything in it
+    bool upscalesOverFrames = false; ///< and accumulation, not a filter, makes it as large as it is shown
+    bool composesAnyOrder = false;   ///< transparent objects, if they may overlap
+    bool tracksMotion = false;       ///< an effect of the image looks at the last one, so that it matters what moved
+    float mipBias = 0;               ///< of materials' textures, in levels, at most 0
 
     uint2 insideSize() const { return size - 2u * band; } ///< pixels of the image that are drawn
-    /// Whether gathering makes the image larger than it is drawn.
-    bool isEnlargedByGathering() const { return gathersLarger && insideSize() != shownSize; }
+    /// Whether accumulation makes the image larger than it is drawn.
+    bool isUpscaledOverFrames() const { return upscalesOverFrames && insideSize() != shownSize; }
     /// Whether it matters what moved since the last frame: to an effect of the image, or to a surface that reflects it.
     bool readsMotion(ViewCounts const& counts) const {
         return tracksMotion || (effects.screenSpaceReflections.enabled && counts.reflectiveDraws > 0);

@@ -57,10 +57,11 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
-    hash = hashWords(hash, packet.motionView, packet.gathering.isFixed, packet.last.isExposed, packet.last.isReflected);
+    hash = hashWords(hash, packet.motionView, packet.accumulation.isFixed, packet.last.isExposed,
+                     packet.last.isReflected);
     hash = hashValues(hash, packet.settings.size, packet.settings.shownSize, packet.settings.band, packet.covered,
-                      packet.gathering.jitterPixels, packet.gathering.weight, packet.gathering.ramp, packet.focus,
-                      packet.last.secondsSince);
+                      packet.accumulation.jitterPixels, packet.accumulation.weight, packet.accumulation.ramp,
+                      packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

@@ -105,7 +105,7 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed) {
                      view.opaque.size(), view.blended.size());
     seed = hashWords(seed, view.anyOrder.first, view.anyOrder.end,
                      std::bit_cast<uint32_t>(view.anyOrder.nearestMeters));
-    for (PictureCopy const& copy : view.pictures)
+    for (SceneColorCopy const& copy : view.pictures)
         seed = hashWords(seed, copy.rect.x, copy.rect.y, copy.rect.width, copy.rect.height, copy.levels,
                          copy.firstDraw);
     return hashCounts(view.counts, seed);

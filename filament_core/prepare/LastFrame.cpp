@@ -11,22 +11,24 @@ namespace {
 
 // How many frames are in the picture while something moves: enough to smooth edges, and few enough that what each
 // filtering of the history blurs, and each limit of its colours, is soon replaced.
-constexpr float kGatheredInMotion = 4;
-constexpr float kGatheredInTurn = 9; // of the camera alone
-constexpr float kMostGathered = 255; // of a still picture
+constexpr float kAccumulatedInMotion = 4;
+constexpr float kAccumulatedInTurn = 9; // of the camera alone
+constexpr float kMostAccumulated = 255; // of a still picture
 constexpr uint32_t kJitters = 1024;
 
 // A pixel of an enlarged picture is the mean of the samples in it in the end. Until there are some, the filter is as
 // wide as two pixels.
 constexpr float kWidestRamp = 0.5f, kNarrowestRamp = 0.0625f;
 
-float rampOf(float gathered) { return std::max(kWidestRamp / std::sqrt(std::max(gathered, 1.0f)), kNarrowestRamp); }
+float rampOf(float accumulated) {
+    return std::max(kWidestRamp / std::sqrt(std::max(accumulated, 1.0f)), kNarrowestRamp);
+}
 
 } // namespace
 
 void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) {
     const ViewSpace space = makeViewSpace(view);
-    const bool isFollowing = isGatheredBy(scene, packet.settings);
+    const bool isFollowing = isAccumulatedBy(scene, packet.settings);
     mSeen = { view,
               packet.settings,
               scene.serial,
@@ -34,11 +36,11 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
               space.cameraWorld,
               space.forward,
               packet.mainView().uniforms.time };
-    const bool gathers = packet.demand.needs(Effect::Taa);
-    mJitters = gathers ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
+    const bool accumulates = packet.demand.needs(Effect::Taa);
+    mJitters = accumulates ? ((isFollowing ? mJitters : 0) + 1) % kJitters : 0;
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
     mIsReflected = packet.demand.needs(Effect::Reflections);
-    mGathered = gathers ? 1 / packet.gathering.weight : 0;
+    mAccumulated = accumulates ? 1 / packet.accumulation.weight : 0;
     mScene = 0; // until all places are kept
     if (packet.settings.readsMotion(packet.mainView().counts)) keepPlaces(scene);
 }
@@ -46,7 +48,7 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
 // Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences": multiples of the inverses of the plastic
 // number and of its square. Any few that follow each other cover the pixel evenly; the first is in its middle.
 float2 LastFrame::jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const {
-    const double at = isGatheredBy(scene, settings) ? mJitters : 0;
+    const double at = isAccumulatedBy(scene, settings) ? mJitters : 0;
     const double2 place = double2(0.75487766624669276, 0.56984029099805327) * at + 0.5;
     return float2(glm::fract(place) - 0.5);
 }
@@ -57,9 +59,9 @@ bool LastFrame::isFollowedBy(scene::SceneData const& scene, FrameSettings const&
 }
 
 /// By one whose history has the same size, too.
-bool LastFrame::isGatheredBy(scene::SceneData const& scene, FrameSettings const& settings) const {
-    const auto gatheredSize = [](FrameSettings const& of) { return of.gathersLarger ? of.shownSize : of.size; };
-    return isFollowedBy(scene, settings) && gatheredSize(mSeen->settings) == gatheredSize(settings);
+bool LastFrame::isAccumulatedBy(scene::SceneData const& scene, FrameSettings const& settings) const {
+    const auto accumulatedSize = [](FrameSettings const& of) { return of.upscalesOverFrames ? of.shownSize : of.size; };
+    return isFollowedBy(scene, settings) && accumulatedSize(mSeen->settings) == accumulatedSize(settings);
 }
 
 /// Whether this frame shows what the last one did, as far as both see it.
@@ -78,18 +80,19 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
     return std::ranges::none_of(main.opaque, readsFrame) && std::ranges::none_of(main.blended, readsFrame);
 }
 
-Gathering LastFrame::gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const {
-    Gathering gathering{ .jitterPixels = jitterPixels(scene, packet.settings) };
-    const bool isEnlarged = packet.settings.isEnlargedByGathering();
-    if (isEnlarged) gathering.ramp = kWidestRamp;
-    if (!isGatheredBy(scene, packet.settings)) return gathering;
-    gathering.isFixed = isFixed(view, packet);
-    const bool isStill = gathering.isFixed && !packet.last.isElsewhere;
-    const float most = isStill ? kMostGathered : gathering.isFixed ? kGatheredInTurn : kGatheredInMotion;
-    const float gathered = std::min(mGathered, most);
-    gathering.weight = 1 / (1 + gathered);
-    if (isEnlarged && isStill) gathering.ramp = rampOf(gathered);
-    return gathering;
+Accumulation LastFrame::accumulation(scene::SceneData const& scene, ViewInput const& view,
+                                     FramePacket const& packet) const {
+    Accumulation accumulation{ .jitterPixels = jitterPixels(scene, packet.settings) };
+    const bool isEnlarged = packet.settings.isUpscaledOverFrames();
+    if (isEnlarged) accumulation.ramp = kWidestRamp;
+    if (!isAccumulatedBy(scene, packet.settings)) return accumulation;
+    accumulation.isFixed = isFixed(view, packet);
+    const bool isStill = accumulation.isFixed && !packet.last.isElsewhere;
+    const float most = isStill ? kMostAccumulated : accumulation.isFixed ? kAccumulatedInTurn : kAccumulatedInMotion;
+    const float accumulated = std::min(mAccumulated, most);
+    accumulation.weight = 1 / (1 + accumulated);
+    if (isEnlarged && isStill) accumulation.ramp = rampOf(accumulated);
+    return accumulation;
 }
 
 void LastFrame::keepPlaces(scene::SceneData const& scene) {

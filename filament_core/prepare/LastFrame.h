@@ -31,10 +31,10 @@ public:
 
     /// As this frame sees the last one; itself, if there was none.
     LastView seenFrom(ViewSpace const& space, ViewInput const& view, float4 const& time) const;
-    /// Of a frame that gathers: another place in the pixels for each.
+    /// Of a frame that is accumulated: another place in the pixels for each.
     float2 jitterPixels(scene::SceneData const& scene, FrameSettings const& settings) const;
     /// The mean of all frames since something changed.
-    Gathering gathering(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
+    Accumulation accumulation(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
 
     /// Whether the renderable at position `at` was in the last frame's scene, and its place there.
     scene::Placement const* placement(scene::SceneData const& scene, uint32_t at) const;
@@ -58,12 +58,12 @@ private:
     };
 
     void keepPlaces(scene::SceneData const& scene);
-    bool isGatheredBy(scene::SceneData const& scene, FrameSettings const& settings) const;
+    bool isAccumulatedBy(scene::SceneData const& scene, FrameSettings const& settings) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
     std::optional<Seen> mSeen;
-    uint32_t mJitters = 0;                ///< frames in a row that gathered
-    float mGathered = 0;                  ///< accumulated frames
+    uint32_t mJitters = 0;                ///< frames in a row that were accumulated
+    float mAccumulated = 0;               ///< accumulated frames
     bool mIsExposed = false;              ///< by AutoExposure
     bool mIsReflected = false;            ///< its picture was kept for reflections
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known

@@ -30,9 +30,9 @@ uint32_t countDeformed(DeformationList const& list) {
     }));
 }
 
-uint32_t copiedPixels(std::span<const PictureCopy> pictures) {
+uint32_t copiedPixels(std::span<const SceneColorCopy> pictures) {
     uint32_t pixels = 0;
-    for (PictureCopy const& copy : pictures) pixels += copy.pixels();
+    for (SceneColorCopy const& copy : pictures) pixels += copy.pixels();
     return pixels;
 }
 
@@ -101,7 +101,7 @@ backend::Rect coveredPixelsIn(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
 std::span<const ViewInput> jittered(Arena& arena, scene::SceneData const& scene, std::span<const ViewInput> views,
                                     FrameSettings const& settings, LastFrame const& last) {
     const std::span<ViewInput> drawn = arena.copy(views);
-    if (settings.gathersFrames) drawn[0].jitterPixels = last.jitterPixels(scene, settings);
+    if (settings.accumulatesFrames) drawn[0].jitterPixels = last.jitterPixels(scene, settings);
     return drawn;
 }
 
@@ -155,7 +155,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // The demand comes after all that it counts; what only an effect needs, after the demand.
     packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
-    if (packet.demand.needs(Effect::Taa)) packet.gathering = last.gathering(scene, main, packet);
+    if (packet.demand.needs(Effect::Taa)) packet.accumulation = last.accumulation(scene, main, packet);
     return packet;
 }
 

@@ -4,8 +4,8 @@
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/Froxels.h"
 #include "filament_core/prepare/LightChannels.h"
-#include "filament_core/prepare/PictureLayers.h"
 #include "filament_core/prepare/PlaceProfiles.h"
+#include "filament_core/prepare/SceneColorLayers.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
 #include "filament_core/prepare/ViewConstants.h"
@@ -135,8 +135,8 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
     // Copies of the scene colour are planned by the counts above: without a refractive draw there are none.
     if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
-        packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,
-                                        settings.quality.refractionLayers);
+        packet.pictures = sceneColorLayers(arena, renderables, order, packet.blended, space, view.size,
+                                           settings.quality.refractionLayers);
     // Lights are dropped before the variant, profiles and froxels follow from those that are left.
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;

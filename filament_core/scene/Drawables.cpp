@@ -9,12 +9,12 @@ namespace {
 
 uint32_t depthOrder(MaterialInstance const& instance) {
     if (instance.material->isBlended()) return Drawables::kBlendedOrder;
-    const bool seesPicture = instance.material->package.refractionMode == shader::RefractionMode::ScreenSpace;
+    const bool readsSceneColor = instance.material->package.refractionMode == shader::RefractionMode::ScreenSpace;
     const bool writesStencil = instance.raster.stencil && instance.raster.stencil->writes();
-    if (writesStencil && !seesPicture) return Drawables::kStencilWriteOrder;
+    if (writesStencil && !readsSceneColor) return Drawables::kStencilWriteOrder;
     if (!instance.raster.depthCulling) return Drawables::kNoDepthTestOrder;
-    if (seesPicture)
-        return Drawables::kSeesPictureOrder | (instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder);
+    if (readsSceneColor)
+        return Drawables::kReadsSceneColorOrder | (instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder);
     return instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder;
 }
 

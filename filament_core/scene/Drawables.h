@@ -84,7 +84,7 @@ public:
     /// Opaque without depth test or depth write: drawn after the sky, before transparent objects.
     static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
     static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
-    static constexpr uint32_t kSeesPictureOrder = 1u << 27; ///< opaque, but refracts the scene colour
+    static constexpr uint32_t kReadsSceneColorOrder = 1u << 27; ///< opaque, but refracts the scene colour
     static constexpr uint32_t kAnyOrder = 1u << 26; ///< blended, but may be composed in any order (blendsInAnyOrder())
     static constexpr uint32_t kStencilWriteOrder = 1u << 25; ///< opaque, and writes stencil values: drawn first
 

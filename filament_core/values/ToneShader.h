@@ -20,15 +20,15 @@ constexpr int32_t shaderToneMapper(ToneMapper mapper, AgxLook look) {
     if (mapper == ToneMapper::Agx && look == AgxLook::Punchy) return 10;
     return static_cast<int32_t>(mapper);
 }
-inline int32_t shaderToneMapper(DisplayTransform const& grading) {
-    return shaderToneMapper(grading.toneMapper, grading.agxLook);
+inline int32_t shaderToneMapper(DisplayTransform const& display) {
+    return shaderToneMapper(display.toneMapper, display.agxLook);
 }
 
 /// kOutput... of tone.glsl.
-inline int32_t shaderOutputSpace(DisplayTransform const& grading) { return static_cast<int32_t>(grading.outputSpace); }
+inline int32_t shaderOutputSpace(DisplayTransform const& display) { return static_cast<int32_t>(display.outputSpace); }
 
 /// White as a share of what PQ encodes.
-inline float whiteShareOf(DisplayTransform const& grading) { return grading.whiteNits / 10'000; }
+inline float whiteShareOf(DisplayTransform const& display) { return display.whiteNits / 10'000; }
 
 /// Of toneMapGeneric(): c, a, b and the light that is white, so that f(midGreyIn) = midGreyOut and f(maximum) = 1.
 inline float4 shaderToneCurve(ToneCurve const& curve) {
@@ -42,8 +42,8 @@ inline float4 shaderToneCurve(ToneCurve const& curve) {
 
 /// The light that the tone mapper displays at half of white, of grey: where displayWeight() of tone.glsl bends. False
 /// colours have none; middle grey is in their middle.
-inline float halfWhiteLight(DisplayTransform const& grading) {
-    switch (grading.toneMapper) {
+inline float halfWhiteLight(DisplayTransform const& display) {
+    switch (display.toneMapper) {
     case ToneMapper::Linear:
         return 0.5f;
     case ToneMapper::Aces:
@@ -53,13 +53,13 @@ inline float halfWhiteLight(DisplayTransform const& grading) {
     case ToneMapper::Mobile:
         return 0.402f;
     case ToneMapper::Agx:
-        return grading.agxLook == AgxLook::Base ? 0.686f : grading.agxLook == AgxLook::Golden ? 0.681f : 1.036f;
+        return display.agxLook == AgxLook::Base ? 0.686f : display.agxLook == AgxLook::Golden ? 0.681f : 1.036f;
     case ToneMapper::PbrNeutral:
         return 0.54f;
     case ToneMapper::AcesReference:
         return 0.691f;
     case ToneMapper::Generic: {
-        const float4 curve = shaderToneCurve(grading.toneCurve);
+        const float4 curve = shaderToneCurve(display.toneCurve);
         return elementary::pow(0.5f * curve.z / (curve.y - 0.5f), 1 / curve.x);
     }
     case ToneMapper::DisplayRange:

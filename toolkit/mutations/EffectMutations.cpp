@@ -92,8 +92,8 @@ std::unique_ptr<StreamEdit> makeFinish() {
     return std::make_unique<SwitchEdit>("finish", Constant);
 }
 
-/// Each frame counts half as much in the picture that is gathered over frames.
-class GatheredWeightEdit final : public PassBlocksEdit {
+/// Each frame counts half as much in the image that is accumulated over frames.
+class AccumulationWeightEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
         constexpr size_t kBlock = 24 * sizeof(float); // a matrix, 1 / size, jitter, weight, ramp, 1 / size
         for (size_t at = 0; at + kBlock <= bytes.size(); at += sizeof(float4)) {
@@ -102,10 +102,10 @@ class GatheredWeightEdit final : public PassBlocksEdit {
                 const float size = number(i) > 0 ? 1 / number(i) : 0;
                 return size >= 1 && size < 20'000 && std::abs(size - std::round(size)) < 1e-2f;
             };
-            const bool isGathering = isReciprocal(16) && isReciprocal(17) && std::abs(number(18)) <= 0.5f &&
-                                     std::abs(number(19)) <= 0.5f && number(20) > 0 && number(20) < 1 &&
-                                     number(21) >= 0 && number(21) <= 0.5f && isReciprocal(22) && isReciprocal(23);
-            if (isGathering) writeFloat(bytes, at + 20 * sizeof(float), 0.5f * number(20));
+            const bool isAccumulation = isReciprocal(16) && isReciprocal(17) && std::abs(number(18)) <= 0.5f &&
+                                        std::abs(number(19)) <= 0.5f && number(20) > 0 && number(20) < 1 &&
+                                        number(21) >= 0 && number(21) <= 0.5f && isReciprocal(22) && isReciprocal(23);
+            if (isAccumulation) writeFloat(bytes, at + 20 * sizeof(float), 0.5f * number(20));
         }
     }
 };
@@ -169,7 +169,7 @@ constexpr Mutation kEffectMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("focus_tiles", 0); } },
     { "wayTiles", "motion blur does not reach into the next tile",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("motion_blur_tiles", 0); } },
-    { "gatheredWeight", "frames count half as much in the gathered picture", make<GatheredWeightEdit> },
+    { "gatheredWeight", "frames count half as much in the accumulated image", make<AccumulationWeightEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
 };

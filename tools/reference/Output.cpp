@@ -32,14 +32,14 @@ double largestError(ReferenceImage const& image) {
 
 } // namespace
 
-std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& grading) {
+std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& display) {
     std::vector<std::byte> pixels;
     pixels.reserve(image.color.size() * 4);
-    const assets::DisplayColor displayColor(grading);
+    const assets::DisplayColor displayColor(display);
     for (size_t i = 0; i < image.color.size(); ++i) {
         const float2 center(static_cast<float>(i % image.width) + 0.5f, static_cast<float>(i / image.width) + 0.5f);
-        const float3 display = ditheredColor(displayColor(image.color[i]), grading.dither, center);
-        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(display[c] * 255.0f)));
+        const float3 shown = ditheredColor(displayColor(image.color[i]), display.dither, center);
+        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(shown[c] * 255.0f)));
         pixels.push_back(std::byte{ 255 });
     }
     return pixels;

@@ -9,7 +9,7 @@
 namespace filament_core::reference {
 
 /// RGBA8 as the engine's tone mapping pass stores it.
-std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& grading);
+std::vector<std::byte> displayPixels(ReferenceImage const& image, DisplayTransform const& display);
 
 Result<void> writePictures(Options const& options, ReferenceImage const& image);
 Result<void> writeReport(Options const& options, ReferenceImage const& image, std::vector<std::string> const& warnings);

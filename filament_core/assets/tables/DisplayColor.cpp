@@ -46,9 +46,9 @@ lib::Grading asInShaders(ColorGrading const& grading, double3x3 const& mix) {
     return values;
 }
 
-lib::ToneSettings asInShaders(DisplayTransform const& grading) {
-    return lib::toneSettings(shaderToneMapper(grading), shaderToneCurve(grading.toneCurve), shaderOutputSpace(grading),
-                             whiteShareOf(grading));
+lib::ToneSettings asInShaders(DisplayTransform const& display) {
+    return lib::toneSettings(shaderToneMapper(display), shaderToneCurve(display.toneCurve), shaderOutputSpace(display),
+                             whiteShareOf(display));
 }
 
 float3 finiteOf(float3 light) { return glm::clamp(light, float3(0), float3(1e4f)); }
@@ -56,8 +56,8 @@ float3 finiteOf(float3 light) { return glm::clamp(light, float3(0), float3(1e4f)
 } // namespace
 
 DisplayColor::DisplayColor(DisplayTransform const& display, ColorGrading const* grading)
-        : mColorGrading(clamped(display)), mGrading(grading ? *grading : ColorGrading{}),
-          mMix(matrixAfterNight(mGrading)), mIsGraded(grading != nullptr) {}
+        : mDisplay(clamped(display)), mGrading(grading ? *grading : ColorGrading{}), mMix(matrixAfterNight(mGrading)),
+          mIsGraded(grading != nullptr) {}
 
 float3 DisplayColor::operator()(float3 light) const {
     if (!mIsGraded) return mapped(light);
@@ -65,14 +65,14 @@ float3 DisplayColor::operator()(float3 light) const {
 }
 
 float3 DisplayColor::mapped(float3 light) const {
-    lib::ToneSettings tone = asInShaders(mColorGrading);
-    const bool isReference = mColorGrading.toneMapper == ToneMapper::AcesReference;
-    if (!isReference && !mColorGrading.look) return lib::displayColor(light, tone);
+    lib::ToneSettings tone = asInShaders(mDisplay);
+    const bool isReference = mDisplay.toneMapper == ToneMapper::AcesReference;
+    if (!isReference && !mDisplay.look) return lib::displayColor(light, tone);
     const int space = tone.space;
     tone.space = lib::kOutputSrgb;
     float3 color = isReference ? lib::srgbFromLinear(float3(acesReference(double3(finiteOf(light)))))
                                : lib::displayColor(light, tone);
-    if (mColorGrading.look) color = lookedUp(*mColorGrading.look, color);
+    if (mDisplay.look) color = lookedUp(*mDisplay.look, color);
     if (space == lib::kOutputSrgb) return color;
     tone.space = space;
     return lib::encodedForDisplay(lib::linearFromSrgb(lib::saturate(color)), tone);

@@ -22,7 +22,7 @@ public:
 private:
     float3 mapped(float3 light) const;
 
-    DisplayTransform mColorGrading;
+    DisplayTransform mDisplay;
     ColorGrading mGrading;
     double3x3 mMix;
     bool mIsGraded;

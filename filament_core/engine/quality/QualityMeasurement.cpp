@@ -22,9 +22,9 @@ namespace filament_core {
 namespace {
 
 constexpr uint32_t kFewestRounds = 15; // half of them suffice for a median between least and largest
-constexpr uint32_t kGatheredFrames = 16, kFramesOfSmoothEdges = 64; // of a static view
-constexpr double kDarkest = 0.01;                                   // of the mean: darker values count as this
-constexpr double kMostLinear = 65504;                               // the largest half float
+constexpr uint32_t kAccumulatedFrames = 16, kFramesOfSmoothEdges = 64; // of a static view
+constexpr double kDarkest = 0.01;                                      // of the mean: darker values count as this
+constexpr double kMostLinear = 65504;                                  // the largest half float
 
 double linearFromHalf(uint16_t half) {
     const auto value = static_cast<double>(floatFromHalf(half));
@@ -171,7 +171,7 @@ private:
     /// A setting that does not change light changes the tone mapper, or nothing.
     Result<double> errorOf(Quality const& quality, Pictures const& exact) {
         Pictures drawn;
-        const uint32_t frames = quality.antiAliasing == AntiAliasing::Taa ? kGatheredFrames : 1;
+        const uint32_t frames = quality.antiAliasing == AntiAliasing::Taa ? kAccumulatedFrames : 1;
         if (const Result<void> result = draw(quality, frames, drawn); !result) return result.error();
         const double error = relativeError(drawn.linear, exact.linear);
         return error > 0 ? error : relativeError(drawn.display, exact.display);

@@ -11,7 +11,7 @@ const highp float kReflectionBorder = 0.08;     // of the screen, over which hit
 const highp float kReflectionBias = 0.0009765625; // of the distance: tolerance for the same surface
 const highp float kIntoNextCell = 0.03125; // pixels: beyond the border, despite rounding
 
-#include "shaders/material/surface/picture_texel.glsl"
+#include "shaders/material/surface/scene_color_texel.glsl"
 
 struct PictureHit {
     highp vec3 color; // pre-exposed

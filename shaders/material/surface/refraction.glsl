@@ -5,7 +5,7 @@
 
 #include "shaders/material/surface/transmission.glsl"
 #if defined(REFRACTION_OF_PICTURE)
-#include "shaders/material/surface/picture.glsl"
+#include "shaders/material/surface/scene_color.glsl"
 #endif
 
 // Contribution of the far interface to the albedo f of the near one. A ball's is omitted: that light leaves elsewhere.

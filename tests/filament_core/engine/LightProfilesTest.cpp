@@ -340,12 +340,12 @@ TEST(LightProfileDemand, AProfileThatNoLitSurfaceSeesChangesNoCommand) {
         const ProfiledFrame with = frameWith(light, true), without = frameWith(light, false);
         EXPECT_NE(with.stream, 0u);
         EXPECT_EQ(with.stream, without.stream);
-        EXPECT_THAT(with.explanation, HasSubstr("light profiles    not needed"));
+        EXPECT_THAT(with.explanation, HasSubstr("light profiles        not needed"));
     }
     const PointLight near{ .positionWorld = { 0, 0, 1 } };
     const ProfiledFrame with = frameWith(near, true);
     EXPECT_NE(with.stream, frameWith(near, false).stream);
-    EXPECT_THAT(with.explanation, HasSubstr("light profiles    needed"));
+    EXPECT_THAT(with.explanation, HasSubstr("light profiles        needed"));
 }
 
 // ---- files

@@ -186,7 +186,7 @@ TEST(MipBias, CostsNothingWhereFramesHaveAllPixels) {
             photo.view.quality.mipBias = bias;
             EXPECT_EQ(photo.draw().pixels, plain.pixels) << "nothing is gathered";
         }
-        EXPECT_NE(photo.renderer.explain().find("no frames are gathered"), std::string::npos)
+        EXPECT_NE(photo.renderer.explain().find("no frames are accumulated"), std::string::npos)
                 << photo.renderer.explain();
         photo.view.quality = {};
         const Image output = photo.gathered(float2(1), MipBias::Output, 3);

@@ -203,7 +203,7 @@ TEST_P(SunDiscs, OutOfViewOrSwitchedOffAreNotDrawn) {
     stage.square.add(none, stage.black, { 3.2, -2, 4 }, 0.3);
     Image expected;
     const backend::CapturedFrame without = stage.drawCaptured(none, view, expected);
-    EXPECT_NE(explained(stage).find("sun disc          not needed                        none in the scene"),
+    EXPECT_NE(explained(stage).find("sun disc              not needed                        none in the scene"),
               std::string::npos)
             << explained(stage);
     const auto expectNothing = [&](SunLight const& sun, const char* why) {

@@ -96,10 +96,10 @@ TEST(TemporalUpscaling, IsLeftToTheFilterIfThereIsOne) {
     Fan fan(Backend::Vulkan);
     gather(fan.view, float2(0.5f));
     fan.draw();
-    EXPECT_EQ(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
+    EXPECT_EQ(fan.renderer.explain().find("upscaling             ran"), std::string::npos) << fan.renderer.explain();
     fan.view.effects.resolution.upscaling = Upscaling::EdgeAdaptive;
     fan.draw();
-    EXPECT_NE(fan.renderer.explain().find("upscaling         ran"), std::string::npos) << fan.renderer.explain();
+    EXPECT_NE(fan.renderer.explain().find("upscaling             ran"), std::string::npos) << fan.renderer.explain();
 }
 
 /// Depth of field and reflections work on pixels with depth; bloom, exposure and other post-processing on

@@ -353,9 +353,9 @@ TEST_F(PrepareFrameTest, GatheringMovesThePictureInsideOfItsPixels) {
         const FramePacket packet = prepareFrame(jobs, arena, scene, views, {}, last);
         ASSERT_TRUE(packet.demand.needs(Effect::Taa));
         EXPECT_FALSE(packet.last.isElsewhere);
-        const float2 jitter = packet.gathering.jitterPixels;
+        const float2 jitter = packet.accumulation.jitterPixels;
         EXPECT_EQ(jitter == float2(0), frame == 0);
-        EXPECT_NEAR(packet.gathering.weight, 1.0f / static_cast<float>(frame + 1), 1e-6f);
+        EXPECT_NEAR(packet.accumulation.weight, 1.0f / static_cast<float>(frame + 1), 1e-6f);
         const float4 clip = packet.mainView().uniforms.clipFromWorld * float4(0, 0, -10, 1);
         EXPECT_NEAR(clip.x / clip.w * 320, jitter.x, 1e-4f);
         EXPECT_NEAR(clip.y / clip.w * 240, jitter.y, 1e-4f);
@@ -382,13 +382,13 @@ TEST_F(PrepareFrameTest, GatheringOfALargerPictureSurvivesAnotherScale) {
         EXPECT_EQ(packet.settings.shownSize, view.shownSize);
         EXPECT_FALSE(packet.last.isElsewhere) << "the proportions are those of what is shown";
         const float2 jitter(packet.mainView().uniforms.jitter);
-        EXPECT_EQ(jitter, 2.0f * packet.gathering.jitterPixels / float2(size));
+        EXPECT_EQ(jitter, 2.0f * packet.accumulation.jitterPixels / float2(size));
         last.keep(scene, view, packet);
-        return packet.gathering;
+        return packet.accumulation;
     };
     EXPECT_EQ(next({ 320, 240 }, Upscaling::Off).weight, 1);
     EXPECT_EQ(next({ 320, 240 }, Upscaling::Off).weight, 1.0f / 2);
-    const Gathering third = next({ 430, 321 }, Upscaling::Off);
+    const Accumulation third = next({ 430, 321 }, Upscaling::Off);
     EXPECT_EQ(third.weight, 1.0f / 3);
     EXPECT_TRUE(third.isFixed);
     EXPECT_LT(third.ramp, 0.5f) << "narrower with each frame";

@@ -336,7 +336,7 @@ TEST(SceneDemand, SharpensTexturesByTheShareOfPixelsThatFramesHave) {
         return resolve({ .size = size, .shownSize = { 400, 300 }, .quality = input.quality, .debugView = debugView })
                 .mipBias;
     };
-    EXPECT_EQ(words(Effect::MipBias, input), "no frames are gathered into more pixels than they have");
+    EXPECT_EQ(words(Effect::MipBias, input), "no frames are accumulated into more pixels than they have");
     input.quality.antiAliasing = AntiAliasing::Taa;
     EXPECT_EQ(words(Effect::MipBias, input), "textures are read 1.00 mip levels sharper");
     EXPECT_EQ(bias(input.size, DebugView::None), -1);
@@ -371,10 +371,9 @@ TEST(SceneDemand, DrawsAGuardBandOnlyWhereItIsCutOff) {
     DemandCase input;
     EXPECT_EQ(words(Effect::GuardBand, input), "switched off: guardBand=off");
     input.effects = effects;
-    EXPECT_EQ(
-            words(Effect::GuardBand, input),
-            "nothing looks beside the picture, a debug view is shown, the target has depth, or gathering enlarges the "
-            "picture");
+    EXPECT_EQ(words(Effect::GuardBand, input), "nothing looks beside the picture, a debug view is shown, the target "
+                                               "has depth, or accumulation enlarges the "
+                                               "picture");
     input.band = 11;
     EXPECT_EQ(words(Effect::GuardBand, input), "11 pixels on each side are drawn and cut off");
     input.effects.guardBand.width = 0;

@@ -16,7 +16,7 @@
 namespace filament_core::view {
 namespace {
 
-constexpr uint32_t kGathered = 16; // frames, where a setting gathers them
+constexpr uint32_t kAccumulated = 16; // frames, where a setting accumulates them
 
 EngineOptions headless(EngineOptions options) {
     options.display = {};
@@ -168,7 +168,7 @@ private:
     Result<Image> draw(QualitySetting const& setting) {
         apply(setting);
         mStage->forgetFrames();
-        const uint32_t frames = setting.quality.antiAliasing == AntiAliasing::Taa ? kGathered : 1;
+        const uint32_t frames = setting.quality.antiAliasing == AntiAliasing::Taa ? kAccumulated : 1;
         for (uint32_t frame = 0; frame < frames && (frame == 0 || !mIsCancelled); ++frame) {
             mStage->render(mChain);
             mStage->engine().waitIdle();

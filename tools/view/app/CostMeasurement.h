@@ -3,9 +3,9 @@
 /// images step by step: see CostPlot.h.
 ///   Engine   its own, without a window, on a thread of its own. The document is as it was at start(); the viewer may
 ///            go on.
-///   Picture  one of each setting, as a new stage draws it; of 16 frames, if the setting gathers them (TAA).
+///   Picture  one of each setting, as a new stage draws it; of 16 frames, if the setting accumulates them (TAA).
 ///   Error    from the reference that start() was given (the path tracer's image), else from the image of the most
-///            exact setting: QualityPreset::Reference, gathered over 16 frames (TAA), so that its edges are smooth.
+///            exact setting: QualityPreset::Reference, accumulated over 16 frames (TAA), so that its edges are smooth.
 ///   Steps    in the first round each setting's image is compared and its first time taken, so points appear one by
 ///            one.
 ///   Time     the second frame after each change of setting: programs, tables and shadow maps are then there. Settings

@@ -22,7 +22,7 @@ namespace filament_core::view {
 
 /// Which frame an image is.
 enum class PictureFrame : uint8_t {
-    Next, ///< the one that the stage would draw now: with what temporal effects have gathered
+    Next, ///< the one that the stage would draw now: with what temporal effects have accumulated
     New,  ///< as a new stage would draw it
 };
 

@@ -17,7 +17,7 @@ namespace filament_core::view {
 namespace {
 
 constexpr uint32_t kFramesAfterChange = 3; ///< ImGui settles in two frames, picks and statistics arrive with the next
-constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has gathered its image
+constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has accumulated its image
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
 constexpr double kProgressSeconds = 0.25; ///< between frames that show only how far loading has come
 constexpr double kFovDegrees = 40;        ///< of a camera that was parallel
@@ -133,8 +133,8 @@ void Viewer::setBackend(Backend backend) {
 // ---------------------------------------------------------------------------------------------- events
 
 void Viewer::touch() {
-    const bool gathers = mDocument.view.quality.antiAliasing == AntiAliasing::Taa;
-    mFramesToDraw = std::max(mFramesToDraw, gathers ? kFramesOfHistory : kFramesAfterChange);
+    const bool accumulates = mDocument.view.quality.antiAliasing == AntiAliasing::Taa;
+    mFramesToDraw = std::max(mFramesToDraw, accumulates ? kFramesOfHistory : kFramesAfterChange);
 }
 
 void Viewer::note(std::string message) {

@@ -184,8 +184,8 @@ Image linearPicture(reference::ReferenceImage const& image) {
     return picture;
 }
 
-Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& grading) {
-    return { .width = image.width, .height = image.height, .pixels = reference::displayPixels(image, grading) };
+Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& display) {
+    return { .width = image.width, .height = image.height, .pixels = reference::displayPixels(image, display) };
 }
 
 } // namespace filament_core::view

@@ -69,6 +69,6 @@ private:
 /// Scene-linear RGBA16F, as the engine's target of that format; alpha is 1.
 Image linearPicture(reference::ReferenceImage const& image);
 /// RGBA8, as the engine's tone mapping pass stores it.
-Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& grading);
+Image displayPicture(reference::ReferenceImage const& image, DisplayTransform const& display);
 
 } // namespace filament_core::view

@@ -82,7 +82,7 @@ public:
     /// Waits for the pixels: display-referred RGBA8 of the document's size.
     Result<Image> renderToImage();
 
-    /// The next frame is drawn as a new stage would draw it: nothing is gathered, and shadow maps find new places.
+    /// The next frame is drawn as a new stage would draw it: nothing is accumulated, and shadow maps find new places.
     void forgetFrames();
 
     /// What went wrong or needs to be known since the last call: failed loads with file and reason, edits that name

@@ -364,7 +364,7 @@ TEST(PictureRefraction, EveryBlurredLevelHasATimeOfItsOwn) {
     for (int i = 0; i < 2; ++i) ASSERT_TRUE(renderer.renderToImage(stage.scene, stage.view).ok());
     std::vector<double> times;
     for (EffectDecision const& one : renderer.decisions()) {
-        if (one.name == "picture blur") times.push_back(one.gpuMilliseconds);
+        if (one.name == "scene color blur") times.push_back(one.gpuMilliseconds);
     }
     ASSERT_GE(times.size(), 5u);
     for (const double time : times) EXPECT_GT(time, 0);
@@ -409,7 +409,7 @@ TEST(PictureRefraction, OffItIsTheRefractionOfTheEnvironment) {
         EXPECT_GT(screen.after.passesRun, screen.before.passesRun);
         EXPECT_NE(screen.explanation.find("1 in view sees the picture, of which "), std::string::npos)
                 << screen.explanation;
-        EXPECT_NE(screen.explanation.find("picture blur"), std::string::npos);
+        EXPECT_NE(screen.explanation.find("scene color blur"), std::string::npos);
     }
 }
 

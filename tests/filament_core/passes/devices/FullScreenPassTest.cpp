@@ -339,7 +339,7 @@ TEST_F(FullScreenPasses, OfThePyramidKeepTheNearestDistanceBelowEachCell) {
             const Floats picture = onBoth([&](Stage& stage) {
                 scene::Material& source = stage.material(
                         "", "inputs.color = vec4(float((getPixel().x * 73 + getPixel().y * 179) % 251 + 1));");
-                scene::Material& pyramid = stage.materialOfFile("shaders/post/distance_pyramid.mat");
+                scene::Material& pyramid = stage.materialOfFile("shaders/post/depth_pyramid.mat");
                 return stage.draw({ size.x, size.y, levels, level },
                                   [&](framegraph::FrameGraph& graph, FrameContext const& context, TextureId target) {
                                       addFullScreenPass(graph, context,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/prepare/PictureCopy.h"
+#include "filament_core/prepare/SceneColorCopy.h"
 
 #include "shaders/lib/LibCpp.h"
 
@@ -42,7 +42,7 @@ uint2 pictureTextureSize(uint2 view) {
     return { wholeSteps(view.x, step), wholeSteps(view.y, step) };
 }
 
-PictureCopy copyAround(PixelBox box, uint2 view) {
+SceneColorCopy copyAround(PixelBox box, uint2 view) {
     const float2 size(view);
     const float2 least = glm::clamp(box.least, float2(0.0f), size), most = glm::clamp(box.most, float2(0.0f), size);
     const float2 extent = glm::max(most - least, float2(0.0f));

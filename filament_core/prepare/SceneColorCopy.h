@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PictureCopy: the part of the scene colour that is copied for refraction, and its number of blurred levels.
+/// SceneColorCopy: the part of the scene colour that is copied for refraction, and its number of blurred levels.
 ///   In      the boxes of the refracting objects, as the camera sees them.
 ///   Out     a rectangle of pixels that holds what a refracted ray is expected to meet: the objects' own pixels and a
 ///           margin. Beyond it, shaders fade to the environment.
@@ -21,7 +21,7 @@ uint8_t pictureLevels(uint2 view);
 /// Of that texture: every level halves the one before it exactly.
 uint2 pictureTextureSize(uint2 view);
 
-struct PictureCopy {
+struct SceneColorCopy {
     backend::Rect rect{};   ///< pixels, in whole texels of the last level; may end beyond the view
     uint8_t levels = 0;     ///< that are drawn, with the copy itself
     uint32_t firstDraw = 0; ///< of ViewPacket::blended: what is drawn over the copy; those before it are in it
@@ -30,7 +30,7 @@ struct PictureCopy {
 };
 
 /// The part that is copied for objects in `box`.
-PictureCopy copyAround(PixelBox box, uint2 view);
+SceneColorCopy copyAround(PixelBox box, uint2 view);
 
 /// Levels that surfaces of no more than this roughness read in perspective views; `pixelsPerTangent`: of the middle.
 uint8_t levelsOfRoughness(float perceptualRoughness, float pixelsPerTangent);

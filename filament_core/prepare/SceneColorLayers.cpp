@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/prepare/PictureLayers.h"
+#include "filament_core/prepare/SceneColorLayers.h"
 
 #include "filament_core/prepare/CoveredPixels.h"
 #include "filament_core/prepare/DrawList.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kMostLayers = 8;
 
-bool seesPicture(scene::Renderables const& renderables, SortItem const& item) {
+bool readsSceneColor(scene::Renderables const& renderables, SortItem const& item) {
     scene::Drawable const& drawable = renderables.drawables[drawableOf(item.draw)];
     return drawable.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
 }
@@ -23,7 +23,7 @@ PixelBox boxOf(scene::Renderables const& renderables, std::span<const SortItem> 
                uint2 view) {
     PixelBox box{ float2(view), float2(0.0f) };
     for (SortItem const& item : items) {
-        if (!seesPicture(renderables, item)) continue;
+        if (!readsSceneColor(renderables, item)) continue;
         box = unionOf(box, coveredBy(renderables, item.renderable, space, view));
     }
     return box;
@@ -43,7 +43,7 @@ uint8_t levelsFor(scene::Renderables const& renderables, std::span<const SortIte
     if (space.clipFromView[3].w != 0) return kMostPictureLevels; // parallel: blur grows with the distance behind
     float roughness = 0;
     for (SortItem const& item : items) {
-        if (seesPicture(renderables, item))
+        if (readsSceneColor(renderables, item))
             roughness = std::max(roughness, mostRoughness(*renderables.drawables[drawableOf(item.draw)].material));
     }
     const float pixelsPerTangent = 0.5f * std::abs(space.clipFromView[1].y) * static_cast<float>(view.y);
@@ -52,12 +52,12 @@ uint8_t levelsFor(scene::Renderables const& renderables, std::span<const SortIte
 
 } // namespace
 
-std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables const& renderables,
-                                           std::span<const SortItem> order, std::span<const DrawCall> blended,
-                                           ViewSpace const& space, uint2 view, uint32_t mostLayers) {
+std::span<const SceneColorCopy> sceneColorLayers(Arena& arena, scene::Renderables const& renderables,
+                                                 std::span<const SortItem> order, std::span<const DrawCall> blended,
+                                                 ViewSpace const& space, uint2 view, uint32_t mostLayers) {
     const size_t begin = itemsBefore(order, kPictureEndKey).size();
     const size_t end = itemsBefore(order, kRefractingEndKey).size();
-    const auto layers = arena.array<PictureCopy>(
+    const auto layers = arena.array<SceneColorCopy>(
             std::clamp<size_t>(end - begin, 1, std::clamp<size_t>(mostLayers, 1, kMostLayers)));
     const auto firstItem = [&](size_t layer) { return layer == 0 ? begin : end - (layers.size() - layer); };
     for (size_t i = 0; i < layers.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of the scene colour that is copied for refraction, and the draws before and after.
-#include "filament_core/prepare/PictureCopy.h"
+#include "filament_core/prepare/SceneColorCopy.h"
 
 #include "tests/filament_core/prepare/BoxScene.h"
 
@@ -12,7 +12,7 @@
 namespace filament_core::prepare {
 namespace {
 
-struct PictureCopyTest : testing::Test, BoxScene {
+struct SceneColorCopyTest : testing::Test, BoxScene {
     Arena arena;
     ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 }),
                     .size = { 640, 480 },
@@ -41,7 +41,7 @@ struct PictureCopyTest : testing::Test, BoxScene {
     }
 };
 
-TEST_F(PictureCopyTest, LevelsHalveExactlyAndTheLastHasTwoTexels) {
+TEST_F(SceneColorCopyTest, LevelsHalveExactlyAndTheLastHasTwoTexels) {
     for (const uint2 size :
          { uint2(1, 1), uint2(2, 1000), uint2(7, 129), uint2(640, 480), uint2(1280, 720), uint2(8192, 8192) }) {
         const uint8_t levels = pictureLevels(size);
@@ -58,7 +58,7 @@ TEST_F(PictureCopyTest, LevelsHalveExactlyAndTheLastHasTwoTexels) {
     EXPECT_EQ(pictureLevels({ 1, 1 }), 1);
 }
 
-TEST_F(PictureCopyTest, ABoxCoversThePixelsOfItsCorners) {
+TEST_F(SceneColorCopyTest, ABoxCoversThePixelsOfItsCorners) {
     // The pinhole of 90 degrees at the origin that looks along -z.
     float4x4 clip(0.0f);
     clip[0].x = 1, clip[1].y = -1, clip[2].w = -1, clip[3].z = 0.1f;
@@ -73,13 +73,13 @@ TEST_F(PictureCopyTest, ABoxCoversThePixelsOfItsCorners) {
     EXPECT_EQ(around.most, float2(300, 200));
 }
 
-TEST_F(PictureCopyTest, TheRectangleHoldsTheBoxAndItsReach) {
+TEST_F(SceneColorCopyTest, TheRectangleHoldsTheBoxAndItsReach) {
     Random random(3);
     for (int i = 0; i < 2000; ++i) {
         const uint2 size(1 + random.next() % 2000, 1 + random.next() % 1200);
         const float2 a(random.within(-500, 2500), random.within(-500, 1500)),
                 extent(random.within(0, 900), random.within(0, 900));
-        const PictureCopy copy = copyAround({ a, a + extent }, size);
+        const SceneColorCopy copy = copyAround({ a, a + extent }, size);
         const uint32_t step = 1u << (copy.levels - 1);
         ASSERT_GE(copy.levels, 1);
         ASSERT_LE(copy.levels, pictureLevels(size));
@@ -102,7 +102,7 @@ TEST_F(PictureCopyTest, TheRectangleHoldsTheBoxAndItsReach) {
     }
 }
 
-TEST_F(PictureCopyTest, OnlyTheSurroundingsOfWhatRefractsAreCopied) {
+TEST_F(SceneColorCopyTest, OnlyTheSurroundingsOfWhatRefractsAreCopied) {
     add(double3(0, 0, 0), material());
     EXPECT_EQ(copiedPixels(), 0u);
     add(double3(0, 0, -2), glass());
@@ -112,7 +112,7 @@ TEST_F(PictureCopyTest, OnlyTheSurroundingsOfWhatRefractsAreCopied) {
     EXPECT_GE(copiedPixels(), 640u * 480u);
 }
 
-TEST_F(PictureCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
+TEST_F(SceneColorCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
     scene::MaterialInstance* const late = material();
     late->raster.depthWrite = false;
     scene::MaterialInstance* const onTop = material();
@@ -132,7 +132,7 @@ TEST_F(PictureCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
     EXPECT_EQ(packet.counts.refractiveDraws, 2u);
 }
 
-TEST_F(PictureCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
+TEST_F(SceneColorCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
     view.quality.refraction = RefractionSource::Environment;
     add(double3(0, 0, 0), material());
     add(double3(1, 0, 0), glass());
@@ -143,7 +143,7 @@ TEST_F(PictureCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
     EXPECT_FALSE(frame().demand.needs(Effect::Refraction));
 }
 
-TEST_F(PictureCopyTest, RefractingObjectsAreFrontToBack) {
+TEST_F(SceneColorCopyTest, RefractingObjectsAreFrontToBack) {
     scene::MaterialInstance* const look = glass();
     for (const double z : { -3.0, 2.0, -1.0 }) add(double3(0, 0, z), look, 1);
     ViewPacket const& packet = mainView();
@@ -154,7 +154,7 @@ TEST_F(PictureCopyTest, RefractingObjectsAreFrontToBack) {
     EXPECT_EQ(packet.blended.size(), 1u) << "instances of one draw";
 }
 
-TEST_F(PictureCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
+TEST_F(SceneColorCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
     scene::MaterialInstance* const look = glass();
     for (const double z : { -3.0, 2.0, -1.0, 0.0, 1.0 }) add(double3(z, 0, z), look, 1);
     add(double3(0, 0, -4), glass(shader::Blending::Fade), 2);
@@ -177,7 +177,7 @@ TEST_F(PictureCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
     }
 }
 
-TEST_F(PictureCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
+TEST_F(SceneColorCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
     view.quality.refractionLayers = 4;
     add(double3(0, 0, 0), glass(shader::Blending::Fade), 1);
     EXPECT_EQ(mainView().pictures.size(), 1u);
@@ -185,7 +185,7 @@ TEST_F(PictureCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
     EXPECT_EQ(mainView().pictures.size(), 1u);
 }
 
-TEST_F(PictureCopyTest, LevelsAreThoseThatTheRoughnessReads) {
+TEST_F(SceneColorCopyTest, LevelsAreThoseThatTheRoughnessReads) {
     EXPECT_EQ(levelsOfRoughness(0, 1000), 1);
     EXPECT_EQ(levelsOfRoughness(-1, 1000), 1);
     EXPECT_EQ(levelsOfRoughness(1, 1e9f), kMostPictureLevels + 2) << "more than any picture has";
@@ -200,15 +200,15 @@ TEST_F(PictureCopyTest, LevelsAreThoseThatTheRoughnessReads) {
     }
 }
 
-TEST_F(PictureCopyTest, FewerLevelsLieInTheSameRectangle) {
+TEST_F(SceneColorCopyTest, FewerLevelsLieInTheSameRectangle) {
     scene::MaterialInstance* const look = glass();
     look->parameters.resize(16);
     add(double3(0, 0, 0), look, 1);
-    const PictureCopy all = mainView().pictures[0];
+    const SceneColorCopy all = mainView().pictures[0];
     look->material->roughnessBound = 4;
     for (const float roughness : { 0.0f, 0.05f, 1.0f, std::numeric_limits<float>::quiet_NaN() }) {
         std::memcpy(look->parameters.data() + 4, &roughness, sizeof(float));
-        const PictureCopy copy = mainView().pictures[0];
+        const SceneColorCopy copy = mainView().pictures[0];
         EXPECT_EQ(copy.rect, all.rect);
         if (roughness < 0.1f)
             EXPECT_LT(copy.levels, all.levels) << roughness;

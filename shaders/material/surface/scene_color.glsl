@@ -6,7 +6,7 @@
 const highp float kPictureBorder = 0.0625; // of the view's height: off-screen its edge fades to the environment
 const highp float kLeastNearness = 1e-6;   // 1 / m
 
-#include "shaders/material/surface/picture_texel.glsl"
+#include "shaders/material/surface/scene_color_texel.glsl"
 
 struct Behind {
     highp vec3 light;       // pre-exposed, times its share
