@@ -135,6 +135,7 @@ std::vector<uint32_t> decodeIndices(PrimitiveData const& primitive) {
 Part makePart(PrimitiveData const& primitive, double4x4 const& worldFromObject, double3 origin) {
     Part part;
     part.isMirrored = glm::determinant(double3x3(worldFromObject)) < 0;
+    part.tangentBasis = primitive.tangentBasis;
     part.indices = decodeIndices(primitive);
     part.indices.resize(part.indices.size() / 3 * 3);
     for (float4 const& position : decodeAttribute(primitive, shader::kAttributePosition)) {

@@ -28,7 +28,8 @@ struct Part {
     std::vector<uint32_t> indices;                ///< three per triangle
     double sceneFromMesh = 1;                     ///< metres of the file's scene per metre of the mesh
     double worldFromScene = 1;                    ///< metres of the world per metre of the scene
-    bool isMirrored = false;                      ///< the transform reverses the winding
+    assets::TangentBasis tangentBasis{};
+    bool isMirrored = false; ///< the transform reverses the winding
 };
 
 /// The attribute at `location` of every vertex; missing components are 0, 0, 0, 1. Empty if there is none.

@@ -63,6 +63,7 @@ void addAnisotropy(MaterialPoint const& point, double roughness, SurfaceSample& 
         const double4 texel = point.fetch(data.map);
         const double2 authored = double2(texel) * 2.0 - 1.0;
         direction = { authored.x * turn.x - authored.y * turn.y, authored.x * turn.y + authored.y * turn.x };
+        direction = point.vectorOfVertex(data.map, direction);
         strength *= texel.z;
     }
     if (!(strength > 0)) return;

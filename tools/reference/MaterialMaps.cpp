@@ -46,10 +46,42 @@ double3 MaterialPoint::toWorld(double3 local) const {
 
 double3 MaterialPoint::smoothNormal() const { return normalizedOr(varyings.normal * side, varyings.faceNormal * side); }
 
+std::array<double2, 2> MaterialPoint::uvEdgesOf(assets::TextureRef const& map) const {
+    std::array<double2, 2> edges;
+    for (size_t i = 0; i < 2; ++i) {
+        edges[i] = varyings.uvEdges[map.uvSet][i];
+        if (map.hasTransform) edges[i] = double2(double3x3(map.uvTransform) * double3(edges[i], 0.0));
+    }
+    return edges;
+}
+
+double2 MaterialPoint::derivedVector(assets::TextureRef const& map, double2 vector) const {
+    const std::array<double2, 2> uv = uvEdgesOf(map);
+    const double area = uv[0].x * uv[1].y - uv[1].x * uv[0].y, side = area < 0 ? -1 : 1;
+    const double3 tangent(varyings.tangent), bitangent = glm::cross(varyings.normal, tangent) * varyings.tangent.w;
+    const auto inFrame = [&](double3 v) { return double2(glm::dot(v, tangent), glm::dot(v, bitangent)) * side; };
+    const double2 right = inFrame(varyings.edges[0] * uv[1].y - varyings.edges[1] * uv[0].y);
+    const double2 up = inFrame(varyings.edges[0] * uv[1].x - varyings.edges[1] * uv[0].x);
+    if (area == 0 || right == double2(0.0)) return vector;
+    const double2 x = glm::normalize(right), y(-x.y, x.x);
+    return vector.x * x + vector.y * (glm::dot(y, up) < 0 ? -1.0 : 1.0) * y;
+}
+
+double2 MaterialPoint::vectorOfVertex(assets::TextureRef const& map, double2 vector) const {
+    const assets::MapFrame frame = assets::frameOf(map, part.tangentBasis);
+    if (frame == assets::MapFrame::Derived) return derivedVector(map, vector);
+    const glm::dmat2 turn{ double3x3(map.uvTransform) };
+    const double area = glm::determinant(turn);
+    if (frame == assets::MapFrame::Vertex || area == 0) return vector;
+    const double side = area < 0 ? -1 : 1;
+    const double2 x = glm::normalize(double2(turn[1].y, turn[0].y) * side), y(-x.y, x.x);
+    return vector.x * x + vector.y * side * y;
+}
+
 double3 MaterialPoint::mappedNormal(assets::TextureRef const& map, double scale) const {
     if (!has(map)) return smoothNormal();
     const double3 texel = double3(fetch(map)) * 2.0 - 1.0;
-    return normalizedOr(toWorld({ texel.x * scale, texel.y * scale, texel.z }), smoothNormal());
+    return normalizedOr(toWorld({ vectorOfVertex(map, double2(texel)) * scale, texel.z }), smoothNormal());
 }
 
 double2 MaterialPoint::riseAlongEdges() const {
@@ -59,11 +91,8 @@ double2 MaterialPoint::riseAlongEdges() const {
     const auto height = [&](double2 at) { return fetchAt(bump.map, at).x * bump.factor; };
     const double2 perTexel(height(uv + toU) - height(uv - toU), height(uv + toV) - height(uv - toV));
     double2 rise(0.0);
-    for (int edge = 0; edge < 2; ++edge) {
-        double2 step = varyings.uvEdges[bump.map.uvSet][edge];
-        if (bump.map.hasTransform) step = double2(double3x3(bump.map.uvTransform) * double3(step, 0.0));
-        rise[edge] = glm::dot(perTexel, step * size);
-    }
+    const std::array<double2, 2> steps = uvEdgesOf(bump.map);
+    for (int edge = 0; edge < 2; ++edge) rise[edge] = glm::dot(perTexel, steps[static_cast<size_t>(edge)] * size);
     return rise;
 }
 

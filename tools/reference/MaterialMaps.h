@@ -6,6 +6,8 @@
 
 #include "tools/reference/Geometry.h"
 
+#include <array>
+
 namespace filament_core::reference {
 
 inline bool has(assets::TextureRef const& texture) { return texture.image != assets::kNone; }
@@ -25,6 +27,9 @@ struct MaterialPoint {
 
     /// From the tangent frame, any length.
     double3 toWorld(double3 local) const;
+    /// A vector of a map, as its x and y are in the tangent frame: shaders/material/gltf/vectors.glsl, with the
+    /// triangle's edges in place of derivatives.
+    double2 vectorOfVertex(assets::TextureRef const& map, double2 vector) const;
     /// The geometry's normal, unit.
     double3 smoothNormal() const;
     /// Unit; smoothNormal() if there is no map.
@@ -37,6 +42,9 @@ struct MaterialPoint {
 private:
     double2 uvOf(assets::TextureRef const& texture) const;
     double4 fetchAt(assets::TextureRef const& texture, double2 uv) const;
+    /// How the map's coordinates change along the edges of the triangle.
+    std::array<double2, 2> uvEdgesOf(assets::TextureRef const& map) const;
+    double2 derivedVector(assets::TextureRef const& map, double2 vector) const;
     /// Metres that the height grows along the edges of the triangle.
     double2 riseAlongEdges() const;
 };

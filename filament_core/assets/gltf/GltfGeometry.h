@@ -85,8 +85,9 @@ void dropUnusedVertices(GltfGeometry& geometry);
 /// Gives triangles without normals flat ones: every corner becomes a vertex, and tangents of the file are dropped.
 void addFlatNormals(GltfGeometry& geometry);
 
-/// Gives triangles without tangents MikkTSpace tangents from `uvSet`, splitting vertices where needed.
-void addTangents(GltfGeometry& geometry, uint32_t uvSet);
+/// Gives triangles without tangents MikkTSpace tangents of a basis, splitting vertices where needed. Returns the basis
+/// that the tangents have: those of the file follow texture coordinates without a transform.
+TangentBasis addTangents(GltfGeometry& geometry, TangentBasis const& basis);
 
 /// Interleaves everything into the form that goes to the GPU.
 PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage = {});

@@ -5,28 +5,30 @@
 #include "filament_core/assets/gltf/GltfGeometry.h"
 
 #include <exception>
+#include <optional>
 
 namespace filament_core::assets {
 namespace {
 
-/// The texture coordinates that tangents follow if a material of the primitive needs tangents, else kNone. With several
-/// maps the normal map decides, as KHR_materials_anisotropy specifies.
-uint32_t tangentUvSet(GltfDocument const& document, GltfPrimitive const& primitive) {
+/// What tangents follow, if a material of the primitive needs them. With several maps the normal map decides, as
+/// KHR_materials_anisotropy specifies; a transform that changes in time is left to the shader.
+std::optional<TangentBasis> tangentBasis(GltfDocument const& document, GltfPrimitive const& primitive) {
     std::vector<uint32_t> materials;
     if (primitive.material != kNone) materials.push_back(primitive.material);
     for (VariantMaterial const& variant : primitive.variants) materials.push_back(variant.material);
-    uint32_t uvSet = kNone;
+    std::optional<TangentBasis> basis;
     const auto take = [&](GltfTextureInfo const& map, bool isUsed) {
-        if (uvSet == kNone && isUsed && map.texture != kNone) uvSet = map.uvSet;
+        if (basis || !isUsed || map.texture == kNone) return;
+        basis = { map.uvSet, turnOf({ .uvTransform = map.uvTransform, .isAnimated = map.isAnimated }) };
     };
     for (const uint32_t index : materials) take(document.materials[index].normal, true);
     for (const uint32_t index : materials) {
         GltfMaterial const& material = document.materials[index];
         take(material.anisotropy, material.values.anisotropy.isUsed());
         take(material.clearCoatNormal, material.values.clearCoat.isUsed());
-        if (uvSet == kNone && material.values.anisotropy.isUsed()) uvSet = 0;
+        if (!basis && material.values.anisotropy.isUsed()) basis = TangentBasis{};
     }
-    return uvSet;
+    return basis;
 }
 
 void replaceOverflow(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
@@ -59,10 +61,12 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     if (!diagnostics.ok()) return {};
     replaceOverflow(path, geometry, diagnostics);
     addFlatNormals(geometry);
-    if (const uint32_t uvSet = tangentUvSet(document, primitive); uvSet != kNone) addTangents(geometry, uvSet);
+    std::optional<TangentBasis> basis = tangentBasis(document, primitive);
+    if (basis) basis = addTangents(geometry, *basis);
     std::vector<float3> atRest = positionsAtRest(geometry, request.weights, request.worldFromBind);
     const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
     PrimitiveData packed = packGeometry(std::move(geometry), storage);
+    packed.tangentBasis = basis.value_or(TangentBasis{});
     for (float3 const& position : atRest) packed.restBounds.add(position);
     if (isDeformed) packed.restPositions = std::move(atRest);
     return packed;

@@ -130,16 +130,21 @@ void addFlatNormals(GltfGeometry& geometry) {
     geometry.wasIndexed = false;
 }
 
-void addTangents(GltfGeometry& geometry, uint32_t uvSet) {
+TangentBasis addTangents(GltfGeometry& geometry, TangentBasis const& basis) {
     const bool isPossible = geometry.topology == PrimitiveType::Triangles && !geometry.normals.empty() &&
-                            !geometry.uvs[uvSet].empty() && geometry.tangents.empty();
-    if (!isPossible) return;
+                            !geometry.uvs[basis.uvSet].empty() && geometry.tangents.empty();
+    if (!isPossible) return { .uvSet = basis.uvSet };
     for (float3& normal : geometry.normals) normal = normalizedOr(normal, float3(0, 0, 1));
-    TangentOutput output =
-            generateTangents({ geometry.positions, geometry.normals, geometry.uvs[uvSet], geometry.indices });
+    std::vector<float2> uvs = geometry.uvs[basis.uvSet];
+    if (basis != TangentBasis{ .uvSet = basis.uvSet }) {
+        const glm::mat2 turn(basis.turn[0], basis.turn[1], basis.turn[2], basis.turn[3]);
+        for (float2& uv : uvs) uv = turn * uv;
+    }
+    TangentOutput output = generateTangents({ geometry.positions, geometry.normals, uvs, geometry.indices });
     reorderVertices(geometry, output.sources);
     geometry.tangents = std::move(output.tangents);
     geometry.indices = std::move(output.indices);
+    return basis;
 }
 
 } // namespace filament_core::assets

@@ -11,6 +11,8 @@
 
 #include <filament_core/Sampler.h>
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -41,6 +43,25 @@ struct TextureRef {
     bool isAnimated = false; ///< `placement` changes; hasTransform is true then
     UvPlacement placement{}; ///< of uvTransform
 };
+
+/// The texture coordinates that the tangents of a primitive follow.
+struct TangentBasis {
+    uint32_t uvSet = 0;
+    std::array<float, 4> turn{ 1, 0, 0, 1 }; ///< columns of the matrix that the coordinates are multiplied by
+    auto operator<=>(TangentBasis const&) const = default;
+};
+
+/// The linear part of the map's transform as a TangentBasis has it: the identity unless it turns or mirrors. Scales
+/// alone change no direction.
+std::array<float, 4> turnOf(TextureRef const& map);
+
+/// Where the vectors of a map (normals, directions) point: in which frame their x and y are.
+enum class MapFrame : uint8_t {
+    Vertex,  ///< that of the vertices: the tangents follow the map's own coordinates
+    Turned,  ///< that of the vertices, turned by the map's transform
+    Derived, ///< of other texture coordinates: from their gradient over the surface
+};
+MapFrame frameOf(TextureRef const& map, TangentBasis const& basis);
 
 /// Two maps of an extension with disjoint channels, in one texture. If the file has two textures, the loader packs them
 /// (TexturePacking.h).

@@ -77,6 +77,7 @@ struct PrimitiveData {
     bool hasColor = false, hasUv0 = false, hasUv1 = false;
     bool hasNormals = false;  ///< tangent frames; false: the file has no normals of these points or lines
     bool hasTangents = false; ///< false: the frames of these points or lines turn about their normals as they like
+    TangentBasis tangentBasis{};
 
     // Left to the device (GltfDeformation::Kept)
     bool isSkinned = false;               ///< vertices have joints and weights that sum to 1

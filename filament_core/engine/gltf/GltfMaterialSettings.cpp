@@ -69,6 +69,16 @@ public:
         addMap(stem, texture);
     }
 
+    /// Of vectors: the shader turns them into the frame of the vertices.
+    void vectorMap(const char* stem, const char* has, TextureRef const& texture, GltfVertices const& vertices) {
+        if (texture.image == kNone || !vertices.hasTangents || !hasRoomFor(stem)) return;
+        feature(has);
+        addMap(stem, texture);
+        const assets::MapFrame frame = assets::frameOf(texture, vertices.basis);
+        if (frame != assets::MapFrame::Vertex)
+            mSettings->constants.push_back({ stem + std::string("Frame"), static_cast<int32_t>(frame) });
+    }
+
     void maps(const char* stem, const char* hasFirst, const char* hasSecond, TexturePair const& pair) {
         if (pair.texture.image == kNone || !hasRoomFor(stem)) return;
         if (pair.hasFirst) feature(hasFirst);
@@ -118,10 +128,10 @@ void setEmission(Settings& settings, MaterialData const& material) {
     settings.map("emissive", "hasEmissiveMap", material.emissive);
 }
 
-void setCommonMaps(Settings& settings, MaterialData const& material, bool hasTangents) {
+void setCommonMaps(Settings& settings, MaterialData const& material, GltfVertices const& vertices) {
     settings.parameter("normalScale", material.normalScale);
     settings.parameter("occlusionStrength", material.occlusionStrength);
-    if (hasTangents) settings.map("normal", "hasNormalMap", material.normal);
+    settings.vectorMap("normal", "hasNormalMap", material.normal, vertices);
     if (material.bump.isUsed() && material.bump.map.image != kNone) {
         settings.parameter("bumpFactor", material.bump.factor);
         settings.map("bump", "hasBumpMap", material.bump.map);
@@ -133,14 +143,14 @@ void setCommonMaps(Settings& settings, MaterialData const& material, bool hasTan
     setEmission(settings, material);
 }
 
-void setClearCoat(Settings& settings, assets::ClearCoatData const& coat, bool hasTangents) {
+void setClearCoat(Settings& settings, assets::ClearCoatData const& coat, GltfVertices const& vertices) {
     if (!coat.isUsed()) return;
     settings.feature("hasClearCoat");
     settings.parameter("clearCoat", coat.factor);
     settings.parameter("clearCoatRoughness", coat.roughness);
     settings.maps("clearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", coat.maps);
     settings.parameter("clearCoatNormalScale", coat.normalScale);
-    if (hasTangents) settings.map("clearCoatNormal", "hasClearCoatNormalMap", coat.normal);
+    settings.vectorMap("clearCoatNormal", "hasClearCoatNormalMap", coat.normal, vertices);
 }
 
 void setSheen(Settings& settings, assets::SheenData const& sheen) {
@@ -163,13 +173,13 @@ void setSpecular(Settings& settings, MaterialData const& material) {
     settings.maps("specular", "hasSpecularColorMap", "hasSpecularFactorMap", material.specular.maps);
 }
 
-void setAnisotropy(Settings& settings, assets::AnisotropyData const& anisotropy) {
+void setAnisotropy(Settings& settings, assets::AnisotropyData const& anisotropy, GltfVertices const& vertices) {
     if (!anisotropy.isUsed()) return;
     settings.feature("hasAnisotropy");
     settings.parameter("anisotropyStrength", anisotropy.strength);
     const float angle = anisotropy.rotationRadians;
     settings.parameter("anisotropyRotation", float2(elementary::cos(angle), elementary::sin(angle)));
-    settings.map("anisotropy", "hasAnisotropyMap", anisotropy.map);
+    settings.vectorMap("anisotropy", "hasAnisotropyMap", anisotropy.map, vertices);
 }
 
 void setIridescence(Settings& settings, assets::IridescenceData const& film) {
@@ -217,12 +227,12 @@ void setAll(Settings& settings, MaterialData const& material, GltfVertices const
     }
     material.specularGlossiness ? setSpecularGlossiness(settings, *material.specularGlossiness)
                                 : setMetallicRoughness(settings, material);
-    setCommonMaps(settings, material, vertices.hasTangents);
+    setCommonMaps(settings, material, vertices);
     if (material.specularGlossiness) return;
-    setClearCoat(settings, material.clearCoat, vertices.hasTangents);
+    setClearCoat(settings, material.clearCoat, vertices);
     setSheen(settings, material.sheen);
     setSpecular(settings, material);
-    setAnisotropy(settings, material.anisotropy);
+    setAnisotropy(settings, material.anisotropy, vertices);
     setIridescence(settings, material.iridescence);
     setDiffuseTransmission(settings, material.diffuseTransmission);
     setTransmission(settings, material.transmission, scale);
@@ -231,7 +241,7 @@ void setAll(Settings& settings, MaterialData const& material, GltfVertices const
 } // namespace
 
 GltfVertices verticesOf(assets::PrimitiveData const& primitive) {
-    return { primitive.hasColor, primitive.hasNormals, primitive.hasTangents };
+    return { primitive.hasColor, primitive.hasNormals, primitive.hasTangents, primitive.tangentBasis };
 }
 
 GltfMaterialSettings settingsOf(MaterialData const& material, GltfVertices const& vertices, float scale,

@@ -39,6 +39,7 @@ struct GltfVertices {
     bool hasColor = false;
     bool hasNormals = true;  ///< without, base colour and emission are unlit (glTF 2.0, 3.9.7)
     bool hasTangents = true; ///< without, normal maps are ignored (glTF 2.0, 3.9.7)
+    assets::TangentBasis basis{};
     auto operator<=>(GltfVertices const&) const = default;
 };
 GltfVertices verticesOf(assets::PrimitiveData const& primitive);

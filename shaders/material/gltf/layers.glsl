@@ -21,6 +21,7 @@ vec3 gltfClearCoatNormal() {
     vec2 uv = mapUv(materialConstants_clearCoatNormalUv, materialConstants_clearCoatNormalTransform,
             materialParams.clearCoatNormalUvMatrix);
     vec3 n = texture(materialParams_clearCoatNormalMap, uv).xyz * 2.0 - 1.0;
+    n.xy = vectorOfVertex(n.xy, materialConstants_clearCoatNormalFrame, uv, materialParams.clearCoatNormalUvMatrix);
     return vec3(n.xy * materialParams.clearCoatNormalScale, n.z);
 }
 
@@ -59,10 +60,12 @@ void gltfAnisotropy(inout MaterialInputs material) {
         vec2 direction = turn;
         float amount = 1.0;
         if (materialConstants_hasAnisotropyMap) {
-            vec3 map = texture(materialParams_anisotropyMap, mapUv(materialConstants_anisotropyUv,
-                    materialConstants_anisotropyTransform, materialParams.anisotropyUvMatrix)).xyz;
+            vec2 uv = mapUv(materialConstants_anisotropyUv, materialConstants_anisotropyTransform,
+                    materialParams.anisotropyUvMatrix);
+            vec3 map = texture(materialParams_anisotropyMap, uv).xyz;
             vec2 authored = map.xy * 2.0 - 1.0;
             direction = vec2(authored.x * turn.x - authored.y * turn.y, authored.x * turn.y + authored.y * turn.x);
+            direction = vectorOfVertex(direction, materialConstants_anisotropyFrame, uv, materialParams.anisotropyUvMatrix);
             amount = map.z;
         }
         float strength = amount * materialParams.anisotropyStrength;

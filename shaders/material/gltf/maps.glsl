@@ -2,10 +2,12 @@
 // Maps shared by all lit glTF materials: normals, occlusion, emission, bumps. glTF 2.0 specification, 3.9.3.
 
 #include "shaders/material/gltf/emission.glsl"
+#include "shaders/material/gltf/vectors.glsl"
 
 vec3 gltfNormal() {
     vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
     vec3 n = texture(materialParams_normalMap, uv).xyz * 2.0 - 1.0;
+    n.xy = vectorOfVertex(n.xy, materialConstants_normalFrame, uv, materialParams.normalUvMatrix);
     return vec3(n.xy * materialParams.normalScale, n.z);
 }
 

@@ -65,6 +65,7 @@ TEST(TextureLookup, NearestTakesTheTexelAndBadCoordinatesAreHarmless) {
 struct Triangle {
     std::vector<assets::Image> images;
     assets::MaterialData material = lambert(1);
+    assets::TangentBasis tangentBasis{};
 
     Part part(double4x4 const& world = double4x4(1.0)) const {
         const TestVertex vertices[3] = { { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0, 0 } },
@@ -74,6 +75,7 @@ struct Triangle {
         Part part = makePart(makePrimitive(vertices, indices), world, double3(0.0));
         part.material = &material;
         part.images = &images;
+        part.tangentBasis = tangentBasis;
         return part;
     }
     SurfaceSample at(double u, double v, double3 view = { 0, 0, 1 }) const {
@@ -151,6 +153,32 @@ TEST(Material, TheNormalMapTurnsTheNormalInTheTangentFrame) {
     // From behind, the whole frame is reversed.
     EXPECT_LT(glm::distance(triangle.at(0.3, 0.3, { 0, 0, -1 }).normal, -flatter), 1e-4);
     EXPECT_LT(glm::distance(triangle.at(0.3, 0.3, { 0, 0, -1 }).geometricNormal, double3(0, 0, -1)), 1e-12);
+}
+
+TEST(Material, VectorsOfMapsFollowTheirTextureCoordinates) {
+    Triangle triangle;
+    triangle.material.normal = triangle.texture(makeImage(1, 1, { { 204, 153, 230, 255 } }));
+    const double x = 204 / 127.5 - 1, y = 153 / 127.5 - 1, z = 230 / 127.5 - 1;
+    triangle.material.normal.hasTransform = true;
+    const auto expectNormal = [&](double2 tilt, const char* what) {
+        EXPECT_LT(glm::distance(triangle.at(0.3, 0.3).normal, glm::normalize(double3(tilt, z))), 1e-4) << what;
+    };
+    const float3x3 mirror(float3(-1, 0, 0), float3(0, 1, 0), float3(0, 0, 1));
+    const float3x3 quarter(float3(0, -1, 0), float3(1, 0, 0), float3(0, 0, 1)); // u' = v, v' = -u
+    expectNormal({ x, y }, "the identity");
+    triangle.material.normal.uvTransform = mirror;
+    expectNormal({ -x, y }, "u' = -u");
+    triangle.material.normal.uvTransform = quarter;
+    expectNormal({ y, -x }, "u' points against the bitangent, v' against the tangent");
+    triangle.tangentBasis.turn = assets::turnOf(triangle.material.normal);
+    expectNormal({ x, y }, "the tangents contain the transform");
+    // Other coordinates than the tangents follow: v grows along the bitangent of this triangle.
+    triangle.tangentBasis = { .uvSet = 1 };
+    expectNormal({ y, x }, "u' along y, v' against x");
+    triangle.material.normal.uvTransform = mirror;
+    expectNormal({ -x, -y }, "u' against x, v' along y");
+    triangle.material.normal.uvTransform = float3x3(0.0f);
+    expectNormal({ x, y }, "a transform that no direction survives changes none");
 }
 
 TEST(Material, MirroredAndSkewedTransformsKeepNormalsPerpendicular) {
