@@ -151,7 +151,7 @@ void TransientPool::destroy(backend::CommandBuffer& commands, KeptHistory const&
 
 backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands,
                                                   backend::BindGroupDesc const& desc) {
-    FILAMENT_ASSERT(desc.entries.size() <= backend::kMaxBindings, "a bind group has at most 16 entries");
+    FILAMENT_ASSERT(desc.entries.size() <= backend::kMaxBindings, "a bind group has at most kMaxBindings entries");
     const auto isSame = [&](PooledBindGroup const& pooled) {
         return pooled.layout == desc.layout &&
                std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),

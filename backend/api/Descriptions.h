@@ -23,7 +23,7 @@ inline constexpr uint32_t kMaxSubpasses = 4;
 inline constexpr uint32_t kMaxVertexAttributes = 16;
 inline constexpr uint32_t kMaxVertexBuffers = 4;
 inline constexpr uint32_t kMaxBindGroups = 4;     ///< what every Vulkan device can bind at a time
-inline constexpr uint32_t kMaxBindings = 17;      ///< of one group: a block and 16 textures
+inline constexpr uint32_t kMaxBindings = 25;      ///< of one group: a block and 24 textures
 inline constexpr uint32_t kMaxDynamicOffsets = 4; ///< of one group
 
 struct Rect {

@@ -8,7 +8,7 @@
 ///     lit, screen space      8        8   screen-space reflections or refraction
 ///     unlit                 12        4
 ///     without fog           +1       -1
-///     featureLevel 3        16        as above; using all 16 needs a device with more than 16
+///     featureLevel 3        24        as above; what usedIf leaves of them fits the device, or the engine rejects it
 ///
 ///   The engine's textures are in the Pass group; the View group has none. kEngineTextures is the only list of them:
 ///   bind group layouts, the rules of the material compiler and the tests are derived from it. A new effect gives its

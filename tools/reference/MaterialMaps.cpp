@@ -28,14 +28,14 @@ double4 MaterialPoint::fetch(assets::TextureRef const& texture) const { return f
 
 double2 MaterialPoint::fetchScalars(assets::TexturePair const& pair) const {
     if (!has(pair.texture)) return double2(1.0);
-    const double4 texel = fetch(pair.texture);
-    return { pair.hasFirst ? texel.x : 1, pair.hasSecond ? texel.y : 1 };
+    const double4 texel = fetch(pair.texture), second = pair.isApart() ? fetch(pair.second) : texel;
+    return { pair.hasFirst ? texel.x : 1, pair.hasSecond ? second.y : 1 };
 }
 
 double4 MaterialPoint::fetchColorAndScalar(assets::TexturePair const& pair) const {
     if (!has(pair.texture)) return double4(1.0);
-    const double4 texel = fetch(pair.texture);
-    return { pair.hasFirst ? double3(texel) : double3(1.0), pair.hasSecond ? texel.w : 1 };
+    const double4 texel = fetch(pair.texture), second = pair.isApart() ? fetch(pair.second) : texel;
+    return { pair.hasFirst ? double3(texel) : double3(1.0), pair.hasSecond ? second.w : 1 };
 }
 
 double3 MaterialPoint::toWorld(double3 local) const {

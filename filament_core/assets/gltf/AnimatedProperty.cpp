@@ -89,19 +89,19 @@ constexpr std::array kTexturePaths{
     TexturePath{ "emissiveTexture", MapName::Emissive },
     TexturePath{ "extensions/EXT_materials_bump/bumpTexture", MapName::Bump },
     TexturePath{ EXTENSION "clearcoat/clearcoatTexture", MapName::ClearCoat },
-    TexturePath{ EXTENSION "clearcoat/clearcoatRoughnessTexture", MapName::ClearCoat, true },
+    TexturePath{ EXTENSION "clearcoat/clearcoatRoughnessTexture", MapName::ClearCoatRoughness },
     TexturePath{ EXTENSION "clearcoat/clearcoatNormalTexture", MapName::ClearCoatNormal },
     TexturePath{ EXTENSION "sheen/sheenColorTexture", MapName::Sheen },
-    TexturePath{ EXTENSION "sheen/sheenRoughnessTexture", MapName::Sheen, true },
+    TexturePath{ EXTENSION "sheen/sheenRoughnessTexture", MapName::SheenRoughness },
     TexturePath{ EXTENSION "specular/specularColorTexture", MapName::Specular },
-    TexturePath{ EXTENSION "specular/specularTexture", MapName::Specular, true },
+    TexturePath{ EXTENSION "specular/specularTexture", MapName::SpecularFactor },
     TexturePath{ EXTENSION "anisotropy/anisotropyTexture", MapName::Anisotropy },
     TexturePath{ EXTENSION "iridescence/iridescenceTexture", MapName::Iridescence },
-    TexturePath{ EXTENSION "iridescence/iridescenceThicknessTexture", MapName::Iridescence, true },
+    TexturePath{ EXTENSION "iridescence/iridescenceThicknessTexture", MapName::IridescenceThickness },
     TexturePath{ EXTENSION "transmission/transmissionTexture", MapName::Transmission },
-    TexturePath{ EXTENSION "volume/thicknessTexture", MapName::Transmission, true },
+    TexturePath{ EXTENSION "volume/thicknessTexture", MapName::Thickness },
     TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionColorTexture", MapName::DiffuseTransmission },
-    TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionTexture", MapName::DiffuseTransmission, true },
+    TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionTexture", MapName::DiffuseTransmissionFactor },
 };
 #undef EXTENSION
 
@@ -248,6 +248,7 @@ PropertyRow const& rowOf(PropertyName name) {
 }
 
 TextureRef& mapOf(MaterialData& m, MapName map) {
+    const auto secondOf = [](TexturePair& pair) -> TextureRef& { return pair.isApart() ? pair.second : pair.texture; };
     switch (map) {
     case MapName::MetallicRoughness:
         return m.metallicRoughness;
@@ -261,20 +262,32 @@ TextureRef& mapOf(MaterialData& m, MapName map) {
         return m.bump.map;
     case MapName::ClearCoat:
         return m.clearCoat.maps.texture;
+    case MapName::ClearCoatRoughness:
+        return secondOf(m.clearCoat.maps);
     case MapName::ClearCoatNormal:
         return m.clearCoat.normal;
     case MapName::Sheen:
         return m.sheen.maps.texture;
+    case MapName::SheenRoughness:
+        return secondOf(m.sheen.maps);
     case MapName::Specular:
         return m.specular.maps.texture;
+    case MapName::SpecularFactor:
+        return secondOf(m.specular.maps);
     case MapName::Anisotropy:
         return m.anisotropy.map;
     case MapName::Iridescence:
         return m.iridescence.maps.texture;
+    case MapName::IridescenceThickness:
+        return secondOf(m.iridescence.maps);
     case MapName::Transmission:
         return m.transmission.maps.texture;
+    case MapName::Thickness:
+        return secondOf(m.transmission.maps);
     case MapName::DiffuseTransmission:
         return m.diffuseTransmission.maps.texture;
+    case MapName::DiffuseTransmissionFactor:
+        return secondOf(m.diffuseTransmission.maps);
     case MapName::BaseColor:
     case MapName::None:
         break;

@@ -70,7 +70,7 @@ enum class PropertyName : uint8_t {
     CameraFar,
 };
 
-/// The maps of a material, as MaterialData keeps them: pairs are one.
+/// The maps of a material. The second map of a pair follows the first.
 enum class MapName : uint8_t {
     None,
     BaseColor,
@@ -80,13 +80,19 @@ enum class MapName : uint8_t {
     Emissive,
     Bump,
     ClearCoat,
+    ClearCoatRoughness,
     ClearCoatNormal,
     Sheen,
+    SheenRoughness,
     Specular,
+    SpecularFactor,
     Anisotropy,
     Iridescence,
+    IridescenceThickness,
     Transmission,
+    Thickness,
     DiffuseTransmission,
+    DiffuseTransmissionFactor,
 };
 
 struct AnimatedProperty {
@@ -116,10 +122,10 @@ PropertyRow const& rowOf(PropertyName name);
 struct TexturePath {
     const char* path; ///< "pbrMetallicRoughness/baseColorTexture"
     MapName map;
-    bool isSecond = false; ///< of a pair
 };
 std::span<const TexturePath> texturePaths();
 
+/// The texture that holds the map.
 TextureRef& mapOf(MaterialData& material, MapName map);
 
 /// Keeps what the property is part of in the material, whatever its value is.

@@ -113,7 +113,7 @@ private:
     void readProperty(GltfAnimationChannel const& channel, size_t index, std::string const& path) {
         AnimatedProperty property = channel.property;
         if (property.owner == PropertyOwner::Node) property.object = mScene.nodeOf[property.object];
-        if (property.object == kNone || !hasItsType(channel, path) || !hasItsTexture(channel, path)) return;
+        if (property.object == kNone || !hasItsType(channel, path) || !hasItsTexture(channel)) return;
         const std::optional<uint32_t> sampler = samplerFor(channel, rowOf(property.name).width, path);
         if (!sampler) return;
         if (mRepairs[*sampler].any()) mMended.push_back(index);
@@ -137,16 +137,10 @@ private:
         return false;
     }
 
-    /// The second map of a pair is in the texture of the first one (TexturePair), so it has no place of its own.
-    bool hasItsTexture(GltfAnimationChannel const& channel, std::string const& path) {
+    bool hasItsTexture(GltfAnimationChannel const& channel) {
         if (channel.property.map == MapName::None) return true;
         GltfMaterial& material = mDocument.materials[channel.property.object];
-        if (textureInfoOf(material, channel.property.map, channel.isSecondMap)->texture == kNone) return false;
-        if (!channel.isSecondMap || textureInfoOf(material, channel.property.map, false)->texture == kNone) return true;
-        mDiagnostics.warn("{}: its texture shares one with another map of materials[{}] and moves with that; the "
-                          "channel is left out",
-                          path, channel.property.object);
-        return false;
+        return textureInfoOf(material, channel.property.map)->texture != kNone;
     }
 
     std::optional<uint32_t> samplerFor(GltfAnimationChannel const& channel, uint32_t width, std::string const& path) {

@@ -167,7 +167,6 @@ struct GltfAnimationChannel {
     uint32_t mesh = kNone;       ///< whose weights it moves, where nodes have none of their own
     uint32_t weight = kNone;     ///< the only one that it moves; kNone: all
     AnimatedProperty property{}; ///< AnimationPath::Property; its object is an index of the file
-    bool isSecondMap = false;    ///< property.map is the second map of a pair
 };
 
 struct GltfAnimation {

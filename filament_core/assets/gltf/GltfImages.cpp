@@ -46,6 +46,7 @@ std::vector<uint32_t> firstOfSameImages(GltfDocument const& document) {
 }
 
 void readImage(GltfDocument const& document, GltfFolder const& folder, GltfImageSource& source) {
+    source.isRead = true;
     try {
         read(document, folder, source);
     } catch (std::bad_alloc const&) {

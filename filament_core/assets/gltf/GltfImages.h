@@ -23,6 +23,7 @@ struct GltfImageSource {
     std::vector<std::byte> owned{};
     std::span<const std::byte> bytes{}; ///< `owned`, or of a buffer of the document
     uint2 size{ 0 };                    ///< as its header says
+    bool isRead = false;                ///< readImage() was called
     Diagnostics diagnostics{};
 };
 

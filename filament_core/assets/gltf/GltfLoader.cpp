@@ -133,7 +133,9 @@ void readImages(GltfDocument const& document, GltfFolder const& folder, Content&
     for (GltfImageSource& source : content.textures.sources) sources.push_back(&source);
     for (GltfFaceJob& job : content.environment.faces) sources.push_back(&job.source);
     jobs::parallelFor<"read image">(jobs, sources.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end && !isCancelled(options); ++i) readImage(document, folder, *sources[i]);
+        for (size_t i = begin; i < end && !isCancelled(options); ++i) {
+            if (!sources[i]->isRead) readImage(document, folder, *sources[i]);
+        }
     });
     if (!goesOn(options, diagnostics)) return;
     for (GltfImageSource* source : sources) diagnostics.merge(std::move(source->diagnostics));
@@ -198,7 +200,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     structure.step();
 
     std::vector<uint32_t> newMaterial;
-    content.textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
+    content.textures = planTextures(document, folder, usedMaterials(document, scene), newMaterial, diagnostics);
     content.environment = planEnvironment(document);
     readImages(document, folder, content, jobs, options, diagnostics);
     GltfProfiles profiles;

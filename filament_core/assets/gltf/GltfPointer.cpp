@@ -163,10 +163,7 @@ std::optional<GltfAnimationChannel> GltfPointers::propertyOf(PropertyRow const& 
         return std::nullopt;
     GltfAnimationChannel channel{ .path = AnimationPath::Property };
     channel.property = { .owner = row.owner, .name = row.name, .object = object };
-    if (match->texture) {
-        channel.property.map = match->texture->map;
-        channel.isSecondMap = match->texture->isSecond;
-    }
+    if (match->texture) channel.property.map = match->texture->map;
     return channel;
 }
 
@@ -181,8 +178,7 @@ std::optional<GltfAnimationChannel> GltfPointers::resolve(std::string_view point
     return std::nullopt;
 }
 
-GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map, bool isSecond) {
-    const auto ofPair = [&](GltfTexturePair& pair) { return isSecond ? &pair.second : &pair.first; };
+GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map) {
     switch (map) {
     case MapName::None:
         return nullptr;
@@ -199,21 +195,33 @@ GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map, bool isSecond) {
     case MapName::Bump:
         return &m.bump;
     case MapName::ClearCoat:
-        return ofPair(m.clearCoat);
+        return &m.clearCoat.first;
+    case MapName::ClearCoatRoughness:
+        return &m.clearCoat.second;
     case MapName::ClearCoatNormal:
         return &m.clearCoatNormal;
     case MapName::Sheen:
-        return ofPair(m.sheen);
+        return &m.sheen.first;
+    case MapName::SheenRoughness:
+        return &m.sheen.second;
     case MapName::Specular:
-        return ofPair(m.specular);
+        return &m.specular.first;
+    case MapName::SpecularFactor:
+        return &m.specular.second;
     case MapName::Anisotropy:
         return &m.anisotropy;
     case MapName::Iridescence:
-        return ofPair(m.iridescence);
+        return &m.iridescence.first;
+    case MapName::IridescenceThickness:
+        return &m.iridescence.second;
     case MapName::Transmission:
-        return ofPair(m.transmission);
+        return &m.transmission.first;
+    case MapName::Thickness:
+        return &m.transmission.second;
     case MapName::DiffuseTransmission:
-        return ofPair(m.diffuseTransmission);
+        return &m.diffuseTransmission.first;
+    case MapName::DiffuseTransmissionFactor:
+        return &m.diffuseTransmission.second;
     }
     return nullptr;
 }
@@ -227,8 +235,7 @@ void keepAnimated(GltfDocument& document) {
             if (property.owner != PropertyOwner::Material) continue;
             GltfMaterial& material = document.materials[property.object];
             keepProperty(material.values, property.name);
-            if (GltfTextureInfo* info = textureInfoOf(material, property.map, channel.isSecondMap))
-                info->isAnimated = true;
+            if (GltfTextureInfo* info = textureInfoOf(material, property.map)) info->isAnimated = true;
         }
     }
 }

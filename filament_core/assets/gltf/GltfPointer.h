@@ -40,6 +40,6 @@ private:
 void keepAnimated(GltfDocument& document);
 
 /// The map of a material as the file has it; null: none.
-GltfTextureInfo* textureInfoOf(GltfMaterial& material, MapName map, bool isSecond);
+GltfTextureInfo* textureInfoOf(GltfMaterial& material, MapName map);
 
 } // namespace filament_core::assets

@@ -20,8 +20,9 @@ constexpr Sampler kDefaultSampler{ .magFilter = Filter::Linear,
 
 class TexturePlanner {
 public:
-    TexturePlanner(GltfDocument const& document, GltfTextures& textures, Diagnostics& diagnostics)
-            : mDocument(document), mTextures(textures), mDiagnostics(diagnostics),
+    TexturePlanner(GltfDocument const& document, GltfFolder const& folder, GltfTextures& textures,
+                   Diagnostics& diagnostics)
+            : mDocument(document), mFolder(folder), mTextures(textures), mDiagnostics(diagnostics),
               mFirstOfSame(firstOfSameImages(document)), mSourceOfImage(document.images.size(), kNone),
               mJobOfSource(document.images.size(), kNone) {}
 
@@ -48,32 +49,20 @@ private:
     // Maps that a material does not use are neither decoded nor uploaded.
     void resolveExtensions(GltfMaterial const& material, MaterialData& data) {
         if (data.clearCoat.isUsed()) {
-            data.clearCoat.maps = pairFor(material.clearCoat, PackLayout::RedGreen, "clearcoatRoughnessTexture");
+            data.clearCoat.maps = pairFor(material.clearCoat, PackLayout::RedGreen);
             data.clearCoat.normal = textureFor(material.clearCoatNormal, false);
         }
-        if (data.sheen.isUsed())
-            data.sheen.maps = pairFor(material.sheen, PackLayout::ColorAlpha, "sheenRoughnessTexture");
-        if (data.specular.isUsed())
-            data.specular.maps = pairFor(material.specular, PackLayout::ColorAlpha, "specularTexture");
+        if (data.sheen.isUsed()) data.sheen.maps = pairFor(material.sheen, PackLayout::ColorAlpha);
+        if (data.specular.isUsed()) data.specular.maps = pairFor(material.specular, PackLayout::ColorAlpha);
         if (data.anisotropy.isUsed()) data.anisotropy.map = textureFor(material.anisotropy, false);
-        if (data.iridescence.isUsed())
-            data.iridescence.maps = pairFor(material.iridescence, PackLayout::RedGreen, "iridescenceThicknessTexture");
+        if (data.iridescence.isUsed()) data.iridescence.maps = pairFor(material.iridescence, PackLayout::RedGreen);
         if (data.transmission.isUsed()) {
             GltfTexturePair maps = material.transmission;
             if (!data.transmission.isSolid()) maps.second = {};
-            data.transmission.maps = pairFor(maps, PackLayout::RedGreen, "thicknessTexture");
+            data.transmission.maps = pairFor(maps, PackLayout::RedGreen);
         }
-        if (!data.diffuseTransmission.isUsed()) return;
-        if (!data.transmission.isUsed()) {
-            data.diffuseTransmission.maps =
-                    pairFor(material.diffuseTransmission, PackLayout::ColorAlpha, "diffuseTransmissionTexture");
-        } else if (material.diffuseTransmission.first.texture != kNone ||
-                   material.diffuseTransmission.second.texture != kNone) {
-            mDiagnostics.warn(
-                    "materials[{}]: the textures of KHR_materials_diffuse_transmission are left out: with those of "
-                    "KHR_materials_transmission, the material would have more than 12",
-                    mMaterial);
-        }
+        if (data.diffuseTransmission.isUsed())
+            data.diffuseTransmission.maps = pairFor(material.diffuseTransmission, PackLayout::ColorAlpha);
     }
 
     TextureRef textureFor(GltfTextureInfo const& info, bool isColor) {
@@ -82,28 +71,35 @@ private:
         return reference;
     }
 
-    /// `lesser`: the name of the second map in the file.
-    TexturePair pairFor(GltfTexturePair const& infos, PackLayout layout, const char* lesser) {
+    TexturePair pairFor(GltfTexturePair const& infos, PackLayout layout) {
         const bool isColor = layout == PackLayout::ColorAlpha;
         const TextureRef first = referenceTo(infos.first), second = referenceTo(infos.second);
         TexturePair pair{ first, first.image != kNone, second.image != kNone };
         if (!pair.hasFirst && !pair.hasSecond) return pair;
-        if (pair.hasFirst && pair.hasSecond && !isReadAlike(first, second)) {
-            mDiagnostics.warn(
-                    "materials[{}]: {} is left out, as it shares a texture with another map here; give both the "
-                    "same sampler and texture coordinates",
-                    mMaterial, lesser);
-            pair.hasSecond = false;
-        }
-        if (!pair.hasFirst) pair.texture = second;
         const bool isOne = !pair.hasFirst || !pair.hasSecond || first.image == second.image;
+        if (!pair.hasFirst) pair.texture = second;
+        if (pair.hasFirst && pair.hasSecond && !(isReadAlike(first, second) && (isOne || haveOneSize(first, second)))) {
+            pair.texture.image = slotFor(first.image, isColor);
+            pair.second = second;
+            pair.second.image = slotFor(second.image, isColor && isOne); // alpha is the same in both
+            return pair;
+        }
         pair.texture.image =
                 isOne ? slotFor(pair.texture.image, isColor) : packedSlotFor({ first.image, second.image, layout });
         return pair;
     }
 
     static bool isReadAlike(TextureRef const& a, TextureRef const& b) {
-        return a.sampler == b.sampler && a.uvSet == b.uvSet && a.uvTransform == b.uvTransform;
+        return a.sampler == b.sampler && a.uvSet == b.uvSet && a.uvTransform == b.uvTransform && !a.isAnimated &&
+               !b.isAnimated;
+    }
+
+    /// Packing would resample images of different sizes: a sampler would no longer see the texels of the smaller one.
+    bool haveOneSize(TextureRef const& a, TextureRef const& b) { return sizeOf(a.image) == sizeOf(b.image); }
+    uint2 sizeOf(uint32_t image) {
+        GltfImageSource& source = mTextures.sources[sourceFor(image)];
+        if (!source.isRead) readImage(mDocument, mFolder, source);
+        return source.size;
     }
 
     /// `image` is still an index of the document; kNone: there is no image that this loader can read.
@@ -160,6 +156,7 @@ private:
     }
 
     GltfDocument const& mDocument;
+    GltfFolder const& mFolder;
     GltfTextures& mTextures;
     Diagnostics& mDiagnostics;
     std::vector<uint32_t> mFirstOfSame, mSourceOfImage; // by index in the document
@@ -197,10 +194,10 @@ uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
 
 } // namespace
 
-GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
-                          Diagnostics& diagnostics) {
+GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder, std::vector<bool> const& used,
+                          std::vector<uint32_t>& remap, Diagnostics& diagnostics) {
     GltfTextures textures;
-    TexturePlanner planner(document, textures, diagnostics);
+    TexturePlanner planner(document, folder, textures, diagnostics);
     remap.assign(document.materials.size(), kNone);
     for (uint32_t i = 0; i < document.materials.size(); ++i) {
         if (!used[i]) continue;
@@ -216,8 +213,7 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
         const uint64_t uses = (job.colorTexture != kNone ? 1u : 0u) + (job.dataTexture != kNone ? 1u : 0u);
         pixels += uses * pixelsOf(textures.sources[job.source].size);
     }
-    for (GltfPackJob const& job : textures.packs)
-        pixels += pixelsOf(glm::max(textures.sources[job.first].size, textures.sources[job.second].size));
+    for (GltfPackJob const& job : textures.packs) pixels += pixelsOf(textures.sources[job.first].size);
     if (pixels > kMaxImagePixels)
         diagnostics.refuse(ErrorCode::Unsupported,
                            "images: the {} textures have {} pixels, more than {}; use smaller ones",
@@ -249,7 +245,10 @@ void packImagesJob(GltfDocument const& document, GltfTextures const& textures, u
         if (!first) return job.diagnostics.refuse(first.error());
         Result<Image> second = decodeFirstLevel(document, other);
         if (!second) return job.diagnostics.refuse(second.error());
-        Image packed = packImages(std::move(*first), std::move(*second), job.layout);
+        if (first->width != second->width || first->height != second->height)
+            return job.diagnostics.refuse(ErrorCode::Corrupt, "{} and {}: the size of one is not what its header says",
+                                          imageName(document, one.image), imageName(document, other.image));
+        Image packed = packImages(std::move(*first), *second, job.layout);
         job.image = withMipMaps(std::move(packed), job.layout == PackLayout::ColorAlpha, maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory,

@@ -3,11 +3,11 @@
 ///   In      a document, and the flags of its materials that are used.
 ///   Out     materials in file order, and image jobs, one per image and use (images with the same bytes are one): an
 ///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
-///           expects a pair of maps in one texture and the file has two, they are packed, with one job per distinct
-///           pair. TextureRef::image is an index into the jobs' textures, in order.
+///           expects a pair of maps in one texture and the file has two that are read alike and have one size, they are
+///           packed, with one job per distinct pair; others stay apart. TextureRef::image is an index into the jobs'
+///           textures, in order.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
-///   Fails   a missing or broken image is an error that names it. The second map of a pair whose texture coordinates
-///           or sampler differ from those of the first is dropped with a warning.
+///   Fails   a missing or broken image is an error that names it.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -36,16 +36,16 @@ struct GltfPackJob {
 
 struct GltfTextures {
     std::vector<MaterialData> materials;
-    std::vector<GltfImageSource> sources; ///< readImage() fills them before any job runs
+    std::vector<GltfImageSource> sources; ///< all read before any job runs
     std::vector<GltfImageJob> jobs;
     std::vector<GltfPackJob> packs;
     uint32_t textureCount = 0;
 };
 
 /// `used`: for each material of the document, whether it is used. Unused materials are dropped; `remap` gives the new
-/// index of the others.
-GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
-                          Diagnostics& diagnostics);
+/// index of the others. Reads the images of pairs, whose sizes decide.
+GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder, std::vector<bool> const& used,
+                          std::vector<uint32_t>& remap, Diagnostics& diagnostics);
 
 /// An error if the textures together have more than kMaxImagePixels; the sources are read.
 void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);

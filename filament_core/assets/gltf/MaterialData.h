@@ -63,11 +63,14 @@ enum class MapFrame : uint8_t {
 };
 MapFrame frameOf(TextureRef const& map, TangentBasis const& basis);
 
-/// Two maps of an extension with disjoint channels, in one texture. If the file has two textures, the loader packs them
-/// (TexturePacking.h).
+/// Two maps of an extension with disjoint channels. They are in one texture if that is what the file has, or if they
+/// are read alike and of one size: then the loader packs them (TexturePacking.h).
 struct TexturePair {
     TextureRef texture;
     bool hasFirst = false, hasSecond = false; ///< otherwise its channels have no meaning
+    TextureRef second{};                      ///< has an image: the second map has this texture of its own
+
+    bool isApart() const { return second.image != kNone; }
 };
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };

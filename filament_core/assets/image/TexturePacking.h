@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// packImages: combines two maps with different channels into one image, in the layout that the glTF extensions define.
-///   In      two images of one level, RGBA8, as decoded. If their sizes differ, both are resized to the larger width
-///           and height by linear interpolation in linear light; texels at the edges are repeated.
+///   In      two images of one size and one level, RGBA8, as decoded.
 ///   Out     one level, RGBA8. RedGreen: red of the first and green of the second, for numbers. ColorAlpha: RGB of the
 ///           first, in sRGB, and alpha of the second.
-///   Thread  any; integers only: the same bits everywhere.
-///   Memory  the result, and one image of its size for each resized input.
+///   Thread  any.   Memory: that of the first.
 #pragma once
 
 #include "filament_core/assets/image/Image.h"
@@ -14,6 +12,6 @@ namespace filament_core::assets {
 
 enum class PackLayout : uint8_t { RedGreen, ColorAlpha };
 
-Image packImages(Image first, Image second, PackLayout layout);
+Image packImages(Image first, Image const& second, PackLayout layout);
 
 } // namespace filament_core::assets

@@ -79,11 +79,17 @@ public:
             mSettings->constants.push_back({ stem + std::string("Frame"), static_cast<int32_t>(frame) });
     }
 
-    void maps(const char* stem, const char* hasFirst, const char* hasSecond, TexturePair const& pair) {
+    /// `second`: stem of the second map where it has a texture of its own, of which `isApart` tells the shader.
+    void maps(const char* stem, const char* hasFirst, const char* hasSecond, TexturePair const& pair,
+              const char* second, const char* isApart) {
         if (pair.texture.image == kNone || !hasRoomFor(stem)) return;
         if (pair.hasFirst) feature(hasFirst);
-        if (pair.hasSecond) feature(hasSecond);
         addMap(stem, pair.texture);
+        if (!pair.hasSecond || (pair.isApart() && !hasRoomFor(second))) return;
+        feature(hasSecond);
+        if (!pair.isApart()) return;
+        feature(isApart);
+        addMap(second, pair.second);
     }
 
 private:
@@ -148,7 +154,8 @@ void setClearCoat(Settings& settings, assets::ClearCoatData const& coat, GltfVer
     settings.feature("hasClearCoat");
     settings.parameter("clearCoat", coat.factor);
     settings.parameter("clearCoatRoughness", coat.roughness);
-    settings.maps("clearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", coat.maps);
+    settings.maps("clearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", coat.maps, "clearCoatRoughness",
+                  "clearCoatRoughnessApart");
     settings.parameter("clearCoatNormalScale", coat.normalScale);
     settings.vectorMap("clearCoatNormal", "hasClearCoatNormalMap", coat.normal, vertices);
 }
@@ -158,7 +165,8 @@ void setSheen(Settings& settings, assets::SheenData const& sheen) {
     settings.feature("hasSheen");
     settings.parameter("sheenColor", sheen.color);
     settings.parameter("sheenRoughness", sheen.roughness);
-    settings.maps("sheen", "hasSheenColorMap", "hasSheenRoughnessMap", sheen.maps);
+    settings.maps("sheen", "hasSheenColorMap", "hasSheenRoughnessMap", sheen.maps, "sheenRoughness",
+                  "sheenRoughnessApart");
 }
 
 void setSpecular(Settings& settings, MaterialData const& material) {
@@ -170,7 +178,8 @@ void setSpecular(Settings& settings, MaterialData const& material) {
     settings.feature("hasSpecular");
     settings.parameter("specularFactor", material.specular.factor);
     settings.parameter("specularColorFactor", material.specular.color);
-    settings.maps("specular", "hasSpecularColorMap", "hasSpecularFactorMap", material.specular.maps);
+    settings.maps("specular", "hasSpecularColorMap", "hasSpecularFactorMap", material.specular.maps, "specularFactor",
+                  "specularFactorApart");
 }
 
 void setAnisotropy(Settings& settings, assets::AnisotropyData const& anisotropy, GltfVertices const& vertices) {
@@ -188,7 +197,8 @@ void setIridescence(Settings& settings, assets::IridescenceData const& film) {
     settings.parameter("iridescence", film.factor);
     settings.parameter("iridescenceIor", film.ior);
     settings.parameter("iridescenceThickness", float2(film.thicknessMinNanometers, film.thicknessMaxNanometers));
-    settings.maps("iridescence", "hasIridescenceMap", "hasIridescenceThicknessMap", film.maps);
+    settings.maps("iridescence", "hasIridescenceMap", "hasIridescenceThicknessMap", film.maps, "iridescenceThickness",
+                  "iridescenceThicknessApart");
 }
 
 void setDiffuseTransmission(Settings& settings, assets::DiffuseTransmissionData const& data) {
@@ -196,13 +206,14 @@ void setDiffuseTransmission(Settings& settings, assets::DiffuseTransmissionData 
     settings.feature("hasDiffuseTransmission");
     settings.parameter("diffuseTransmission", data.factor);
     settings.parameter("diffuseTransmissionColor", data.color);
-    settings.maps("diffuseTransmission", "hasDiffuseTransmissionColorMap", "hasDiffuseTransmissionMap", data.maps);
+    settings.maps("diffuseTransmission", "hasDiffuseTransmissionColorMap", "hasDiffuseTransmissionMap", data.maps,
+                  "diffuseTransmissionFactor", "diffuseTransmissionFactorApart");
 }
 
 void setTransmission(Settings& settings, assets::TransmissionData const& data, float scale) {
     if (!data.isUsed()) return;
     settings.parameter("transmission", data.factor);
-    settings.maps("transmission", "hasTransmissionMap", "hasThicknessMap", data.maps);
+    settings.maps("transmission", "hasTransmissionMap", "hasThicknessMap", data.maps, "thickness", "thicknessApart");
     if (!data.isSolid()) return;
     settings.parameter("thickness", std::min(data.thicknessMeters * scale, kMaxHalf));
     if (data.dispersion > 0 || data.isDispersionAnimated) {

@@ -72,13 +72,19 @@ constexpr std::array kMaps{
     MapRow{ MapName::Emissive, "emissive", "emissiveUvMatrix" },
     MapRow{ MapName::Bump, "bump", "bumpUvMatrix" },
     MapRow{ MapName::ClearCoat, "clearCoat", "clearCoatUvMatrix" },
+    MapRow{ MapName::ClearCoatRoughness, "clearCoatRoughness", "clearCoatRoughnessUvMatrix" },
     MapRow{ MapName::ClearCoatNormal, "clearCoatNormal", "clearCoatNormalUvMatrix" },
     MapRow{ MapName::Sheen, "sheen", "sheenUvMatrix" },
+    MapRow{ MapName::SheenRoughness, "sheenRoughness", "sheenRoughnessUvMatrix" },
     MapRow{ MapName::Specular, "specular", "specularUvMatrix" },
+    MapRow{ MapName::SpecularFactor, "specularFactor", "specularFactorUvMatrix" },
     MapRow{ MapName::Anisotropy, "anisotropy", "anisotropyUvMatrix" },
     MapRow{ MapName::Iridescence, "iridescence", "iridescenceUvMatrix" },
+    MapRow{ MapName::IridescenceThickness, "iridescenceThickness", "iridescenceThicknessUvMatrix" },
     MapRow{ MapName::Transmission, "transmission", "transmissionUvMatrix" },
+    MapRow{ MapName::Thickness, "thickness", "thicknessUvMatrix" },
     MapRow{ MapName::DiffuseTransmission, "diffuseTransmission", "diffuseTransmissionUvMatrix" },
+    MapRow{ MapName::DiffuseTransmissionFactor, "diffuseTransmissionFactor", "diffuseTransmissionFactorUvMatrix" },
 };
 
 void requireDone(Result<void> const& result) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layers of the KHR_materials extensions on top of gltfSurface(). Unused layers are neutral: constants that the
 // driver knows when it creates the pipeline, so it removes the layer.
-// A file that includes this must define gltfDiffuseTransmissionMaps() first.
 
 void gltfClearCoat(inout MaterialInputs material) {
     material.clearCoat = 0.0;
@@ -10,6 +9,10 @@ void gltfClearCoat(inout MaterialInputs material) {
         if (materialConstants_hasClearCoatMap || materialConstants_hasClearCoatRoughnessMap) {
             maps = texture(materialParams_clearCoatMap, mapUv(materialConstants_clearCoatUv,
                     materialConstants_clearCoatTransform, materialParams.clearCoatUvMatrix));
+        }
+        if (materialConstants_clearCoatRoughnessApart) {
+            maps.g = texture(materialParams_clearCoatRoughnessMap, mapUv(materialConstants_clearCoatRoughnessUv,
+                    materialConstants_clearCoatRoughnessTransform, materialParams.clearCoatRoughnessUvMatrix)).g;
         }
         material.clearCoat = (materialConstants_hasClearCoatMap ? maps.r : 1.0) * materialParams.clearCoat;
         material.clearCoatRoughness =
@@ -32,6 +35,10 @@ void gltfSheen(inout MaterialInputs material) {
             maps = texture(materialParams_sheenMap, mapUv(materialConstants_sheenUv, materialConstants_sheenTransform,
                     materialParams.sheenUvMatrix));
         }
+        if (materialConstants_sheenRoughnessApart) {
+            maps.a = texture(materialParams_sheenRoughnessMap, mapUv(materialConstants_sheenRoughnessUv,
+                    materialConstants_sheenRoughnessTransform, materialParams.sheenRoughnessUvMatrix)).a;
+        }
         material.sheenColor = (materialConstants_hasSheenColorMap ? maps.rgb : vec3(1.0)) * materialParams.sheenColor;
         material.sheenRoughness = (materialConstants_hasSheenRoughnessMap ? maps.a : 1.0) * materialParams.sheenRoughness;
     }
@@ -44,6 +51,10 @@ void gltfSpecular(inout MaterialInputs material) {
         if (materialConstants_hasSpecularColorMap || materialConstants_hasSpecularFactorMap) {
             maps = texture(materialParams_specularMap, mapUv(materialConstants_specularUv,
                     materialConstants_specularTransform, materialParams.specularUvMatrix));
+        }
+        if (materialConstants_specularFactorApart) {
+            maps.a = texture(materialParams_specularFactorMap, mapUv(materialConstants_specularFactorUv,
+                    materialConstants_specularFactorTransform, materialParams.specularFactorUvMatrix)).a;
         }
         material.specularColorFactor =
                 (materialConstants_hasSpecularColorMap ? maps.rgb : vec3(1.0)) * materialParams.specularColorFactor;
@@ -85,12 +96,32 @@ void gltfIridescence(inout MaterialInputs material) {
             maps = texture(materialParams_iridescenceMap, mapUv(materialConstants_iridescenceUv,
                     materialConstants_iridescenceTransform, materialParams.iridescenceUvMatrix));
         }
+        if (materialConstants_iridescenceThicknessApart) {
+            maps.g = texture(materialParams_iridescenceThicknessMap, mapUv(materialConstants_iridescenceThicknessUv,
+                    materialConstants_iridescenceThicknessTransform, materialParams.iridescenceThicknessUvMatrix)).g;
+        }
         vec2 range = materialParams.iridescenceThickness;
         material.iridescence = (materialConstants_hasIridescenceMap ? maps.r : 1.0) * materialParams.iridescence;
         material.iridescenceIor = materialParams.iridescenceIor;
         material.iridescenceThickness =
                 materialConstants_hasIridescenceThicknessMap ? mix(range.x, range.y, maps.g) : range.y;
     }
+}
+
+vec4 gltfDiffuseTransmissionMaps() {
+    vec4 maps = vec4(1.0); // RGB: colour, alpha: factor
+    if (materialConstants_hasDiffuseTransmissionColorMap || materialConstants_hasDiffuseTransmissionMap) {
+        vec4 texel = texture(materialParams_diffuseTransmissionMap, mapUv(materialConstants_diffuseTransmissionUv,
+                materialConstants_diffuseTransmissionTransform, materialParams.diffuseTransmissionUvMatrix));
+        if (materialConstants_hasDiffuseTransmissionColorMap) maps.rgb = texel.rgb;
+        if (materialConstants_hasDiffuseTransmissionMap) maps.a = texel.a;
+    }
+    if (materialConstants_diffuseTransmissionFactorApart) {
+        maps.a = texture(materialParams_diffuseTransmissionFactorMap, mapUv(materialConstants_diffuseTransmissionFactorUv,
+                materialConstants_diffuseTransmissionFactorTransform,
+                materialParams.diffuseTransmissionFactorUvMatrix)).a;
+    }
+    return maps;
 }
 
 void gltfDiffuseTransmission(inout MaterialInputs material) {

@@ -3,8 +3,6 @@
 
 #include "shaders/material/gltf/surface.glsl"
 
-vec4 gltfDiffuseTransmissionMaps() { return vec4(1.0); } // no texture is left for them: the loader warns
-
 #include "shaders/material/gltf/layers.glsl"
 
 vec2 gltfTransmission() {
@@ -14,6 +12,10 @@ vec2 gltfTransmission() {
                 materialConstants_transmissionTransform, materialParams.transmissionUvMatrix)).xy;
         if (materialConstants_hasTransmissionMap) amounts.x = maps.x;
         if (materialConstants_hasThicknessMap) amounts.y = maps.y;
+    }
+    if (materialConstants_thicknessApart) {
+        amounts.y = texture(materialParams_thicknessMap, mapUv(materialConstants_thicknessUv,
+                materialConstants_thicknessTransform, materialParams.thicknessUvMatrix)).y;
     }
     return amounts * vec2(materialParams.transmission, materialParams.thickness);
 }

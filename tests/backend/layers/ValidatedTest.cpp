@@ -871,7 +871,7 @@ std::vector<Case> computeCases() {
                   }
               }));
           },
-          "34 storage buffers; this device has 16 blocks" },
+          "50 storage buffers; this device has 16 blocks" },
         { "StorageWithoutUsage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.buffer = kUniforms; }); },
           "'uniforms' lacks BufferUsage::Storage" },
         { "UnalignedStorage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.offset = 16; }); },

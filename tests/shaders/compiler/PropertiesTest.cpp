@@ -153,7 +153,7 @@ struct Budget {
 constexpr Budget kBudgets[] = {
     { "", samplersOfMaterial(PassKind::Lit) },
     { "featureLevel : 2,", samplersOfMaterial(PassKind::Lit) },
-    { "featureLevel : 3,", 16 },
+    { "featureLevel : 3,", 24 },
     { "variantFilter : [ fog ],", samplersOfMaterial(PassKind::Lit, false) },
     { "refractionMode : screenspace,", samplersOfMaterial(PassKind::LitScreen) },
     { "reflections : screenspace, variantFilter : [ fog ],", samplersOfMaterial(PassKind::LitScreen, false) },

@@ -212,7 +212,7 @@ TEST(GltfMaterialExtensions, MapsThatTheFileKeepsApartArePacked) {
     EXPECT_EQ(model.images.size(), 2u) << "equal pairs are packed once";
 }
 
-TEST(GltfMaterialExtensions, TransmissionAndThicknessArePackedAndDiffuseTransmissionBesideThemHasNoMaps) {
+TEST(GltfMaterialExtensions, TransmissionAndThicknessArePackedBesideDiffuseTransmission) {
     const ModelData model = modelWith(R"({
         "KHR_materials_transmission": { "transmissionFactor": 1, "transmissionTexture": { "index": 0 } },
         "KHR_materials_volume": { "thicknessFactor": 1, "thicknessTexture": { "index": 1 } },
@@ -222,8 +222,8 @@ TEST(GltfMaterialExtensions, TransmissionAndThicknessArePackedAndDiffuseTransmis
     EXPECT_TRUE(material.transmission.maps.hasFirst && material.transmission.maps.hasSecond);
     EXPECT_EQ(texel(model, material.transmission.maps.texture)[0], 1);
     EXPECT_EQ(texel(model, material.transmission.maps.texture)[1], 12);
-    EXPECT_EQ(material.diffuseTransmission.maps.texture.image, kNone);
-    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("materials[0]"), HasSubstr("diffuse_transmission"))));
+    EXPECT_EQ(texel(model, material.diffuseTransmission.maps.texture)[3], 14);
+    EXPECT_THAT(model.warnings, IsEmpty());
 }
 
 TEST(GltfMaterialExtensions, CoverageAndTransmissionCombine) {
@@ -244,14 +244,15 @@ TEST(GltfMaterialExtensions, OneMapOfAPairStandsAlone) {
     EXPECT_THAT(texel(model, maps.texture), ElementsAre(21, 22, 23, 24));
 }
 
-TEST(GltfMaterialExtensions, MapsThatAreReadDifferentlyCannotShareATextureAndTheSecondIsNamed) {
+TEST(GltfMaterialExtensions, MapsThatAreReadDifferentlyKeepTexturesOfTheirOwn) {
     const ModelData model = modelWith(R"({ "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ],
         "sheenColorTexture": { "index": 0 }, "sheenRoughnessTexture": { "index": 1, "texCoord": 1 } } })");
     TexturePair const& maps = model.materials[0].sheen.maps;
-    EXPECT_TRUE(maps.hasFirst);
-    EXPECT_FALSE(maps.hasSecond);
+    EXPECT_TRUE(maps.hasFirst && maps.hasSecond && maps.isApart());
     EXPECT_THAT(texel(model, maps.texture), ElementsAre(1, 2, 3, 4));
-    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("materials[0]"), HasSubstr("sheenRoughnessTexture"))));
+    EXPECT_THAT(texel(model, maps.second), ElementsAre(11, 12, 13, 14));
+    EXPECT_EQ(maps.second.uvSet, 1u);
+    EXPECT_THAT(model.warnings, IsEmpty());
 }
 
 TEST(GltfMaterialExtensions, MapsOfWhatIsNotUsedAreNotDecoded) {

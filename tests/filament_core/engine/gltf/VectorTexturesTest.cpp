@@ -13,7 +13,7 @@
 #include <optional>
 #include <span>
 
-namespace filament_core {
+namespace filament_core::vector_textures {
 namespace {
 
 using assets::test::Bytes;
@@ -292,4 +292,4 @@ TEST(VectorTextures, MapsOfOneMaterialDoNotDisturbEachOther) {
 }
 
 } // namespace
-} // namespace filament_core
+} // namespace filament_core::vector_textures
