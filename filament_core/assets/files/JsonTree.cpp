@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace filament_core::assets {
 
@@ -127,7 +128,8 @@ bool JsonNode::numbers(std::span<double> values) const {
 
 std::vector<float> JsonNode::numberList() const {
     std::vector<float> values;
-    for (JsonNode const& element : elements()) values.push_back(static_cast<float>(element.number(0)));
+    constexpr float kMost = std::numeric_limits<float>::max();
+    for (JsonNode const& element : elements()) values.push_back(element.numberInRange(0, -kMost, kMost));
     return values;
 }
 

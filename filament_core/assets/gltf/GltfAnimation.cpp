@@ -60,7 +60,7 @@ public:
         for (AnimationSampler const& sampler : mData.samplers) {
             mData.durationSeconds = std::max(mData.durationSeconds, static_cast<double>(sampler.times.back()));
         }
-        warnAboutTimes();
+        warnAboutKeys();
         return std::move(mData);
     }
 
@@ -151,7 +151,7 @@ private:
         if (!mDiagnostics.ok() || !hasItsValues(sampler, path)) return std::nullopt;
         const KeyRepairs repairs = mendKeys(sampler);
         if (sampler.times.empty()) {
-            mDiagnostics.warn("{}: no key has a finite time; the channel is left out", path);
+            mDiagnostics.warn("{}: no key has a finite time and value; the channel is left out", path);
             return std::nullopt;
         }
         mRepairs.push_back(repairs);
@@ -175,12 +175,12 @@ private:
         if (!checkAccessor(mDocument, source.input, { &one, 1 }, "the times of an animation", mDiagnostics))
             return sampler;
         sampler.times.resize(keys);
-        readFloatsAsStored(mDocument, source.input, sampler.times); // mendKeys() drops those that are not finite
+        readFloatsAsStored(mDocument, source.input, sampler.times); // mendKeys() drops keys that are not finite
         const uint8_t components = output.components;
         if (!checkAccessor(mDocument, source.output, { &components, 1 }, "the values of an animation", mDiagnostics))
             return sampler;
         sampler.values.resize(output.count * output.components);
-        readFloats(mDocument, source.output, sampler.values, mDiagnostics);
+        readFloatsAsStored(mDocument, source.output, sampler.values);
         return sampler;
     }
 
@@ -194,12 +194,13 @@ private:
     }
 
     /// One line for all channels: files with this fault have it everywhere.
-    void warnAboutTimes() {
+    void warnAboutKeys() {
         if (mMended.empty()) return;
         KeyRepairs all;
         for (KeyRepairs const& repairs : mRepairs) all += repairs;
-        mDiagnostics.warn("{}: {} '{}': the times of channels {} do not grow from 0 on: {}", mFile, mPath,
-                          mSource.name.substr(0, 80), listOfNumbers(mMended), toString(all));
+        const char* what = all.broken > 0 ? "are broken" : "do not grow from 0 on";
+        mDiagnostics.warn("{}: {} '{}': the {} of channels {} {}: {}", mFile, mPath, mSource.name.substr(0, 80),
+                          all.broken > 0 ? "keys" : "times", listOfNumbers(mMended), what, toString(all));
     }
 
     GltfDocument& mDocument;

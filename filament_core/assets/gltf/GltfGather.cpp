@@ -61,7 +61,8 @@ public:
     /// Vectors of `T`, one per vertex; empty if the primitive lacks the attribute. The first call determines the vertex
     /// count.
     template <class T>
-    std::vector<T> read(uint32_t accessor, uint32_t dracoId, const char* name) {
+    std::vector<T> read(uint32_t accessor, uint32_t dracoId, const char* name,
+                        NonFinite nonFinite = NonFinite::BecomesZero) {
         std::vector<T> values;
         if (accessor == kNone || !mDiagnostics.ok()) return values;
         constexpr uint8_t kComponents = sizeof(T) / sizeof(float);
@@ -72,11 +73,11 @@ public:
                 mDiagnostics.refuse(ErrorCode::Corrupt, "{}: the Draco stream lacks {}", mPath, name);
             } else {
                 mDraco->read(dracoId, kComponents, numbers);
-                if (replaceNonFinite(numbers) > 0)
+                if (nonFinite == NonFinite::BecomesZero && replaceNonFinite(numbers) > 0)
                     mDiagnostics.warn("{}: {} has values that are not finite; they became 0", mPath, name);
             }
         } else {
-            values = readVectors<T>(mDocument, accessor, name, mDiagnostics);
+            values = readVectors<T>(mDocument, accessor, name, mDiagnostics, nonFinite);
         }
         if (!mVertexCount) mVertexCount = values.size();
         if (values.size() != *mVertexCount) {
@@ -123,9 +124,10 @@ private:
 
 void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes, GltfAttributes const& ids,
                       GltfGeometry& geometry) {
-    geometry.positions = source.read<float3>(attributes.position, ids.position, "POSITION");
-    geometry.normals = source.read<float3>(attributes.normal, ids.normal, "NORMAL");
-    geometry.tangents = source.read<float4>(attributes.tangent, ids.tangent, "TANGENT");
+    constexpr NonFinite kKept = NonFinite::IsKept; // GltfFinite.cpp repairs them
+    geometry.positions = source.read<float3>(attributes.position, ids.position, "POSITION", kKept);
+    geometry.normals = source.read<float3>(attributes.normal, ids.normal, "NORMAL", kKept);
+    geometry.tangents = source.read<float4>(attributes.tangent, ids.tangent, "TANGENT", kKept);
     geometry.colors = source.readColors(attributes.color, ids.color);
     for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
         geometry.uvs[set] =

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfGeometry: one primitive on its way from the file to the GPU, with one array of floats per attribute.
-///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack. Each is
-///   a function below and takes the primitive as the previous step left it. Morphing and skinning are applied here for
+///   The steps, in order: gather, make a list, repair directions, morph, drop unused vertices, skin, drop what is not
+///   finite, flat normals, tangents, pack. Each is a function below and takes the primitive as the previous step left
+///   it. Morphing and skinning are applied here for
 ///   the rest pose, or left to the device. Quantised attributes keep the format of the file: 8- and 16-bit integers
 ///   survive the conversion to floats exactly, and pack() writes them back.
 ///   Thread  one primitive on one thread; the document is only read.
@@ -13,6 +14,7 @@
 
 #include <glm/gtc/type_precision.hpp>
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +51,14 @@ struct GltfGeometry {
 /// without positions or vertices is returned empty, with a warning, since there is nothing to draw.
 GltfGeometry gatherGeometry(GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path,
                             Diagnostics& diagnostics);
+
+/// Of lists: a normal that is not finite becomes that of the triangles around its vertex. If a tangent is not finite,
+/// all are dropped, so that they are computed like missing ones. With one warning each.
+void repairDirections(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
+
+/// Drops the triangles, lines or points with a corner whose position is not finite, with one warning: at any other
+/// place it would be a spike. Their vertices move to a corner that is left, so that no bounds grow.
+void dropNonFinite(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
 
 /// Adds the morph targets with non-zero weight to positions, normals and tangents (section 3.7.2.2).
 void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primitive, std::span<const float> weights,
@@ -91,6 +101,8 @@ TangentBasis addTangents(GltfGeometry& geometry, TangentBasis const& basis);
 
 /// Interleaves everything into the form that goes to the GPU.
 PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage = {});
+
+inline bool allFinite(float3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Vertex i of the result is vertex sources[i]; indices do not change.
 void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources);

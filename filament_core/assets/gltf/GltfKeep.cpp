@@ -142,7 +142,8 @@ std::vector<float3> positionsAtRest(GltfGeometry const& geometry, std::span<cons
         Diagnostics ignored; // the joints were checked
         applySkin(worldFromBind, "", posed, ignored);
     }
-    replaceNonFinite({ &posed.positions[0].x, posed.positions.size() * 3 });
+    for (size_t i = 0; i < posed.positions.size(); ++i) // of bounds: a place in the mesh is better than none
+        if (!allFinite(posed.positions[i])) posed.positions[i] = geometry.positions[i];
     return std::move(posed.positions);
 }
 

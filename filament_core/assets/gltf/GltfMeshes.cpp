@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfMeshes.h"
 
-#include "filament_core/assets/gltf/Accessor.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
 
 #include <exception>
@@ -31,13 +30,6 @@ std::optional<TangentBasis> tangentBasis(GltfDocument const& document, GltfPrimi
     return basis;
 }
 
-void replaceOverflow(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
-    const std::span<float> numbers(&geometry.positions[0].x, geometry.positions.size() * 3);
-    const size_t broken = replaceNonFinite(numbers);
-    if (broken > 0)
-        diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
-}
-
 void morph(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
            std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
     if (request.keepsTargets && canKeepTargets(primitive, geometry, path, diagnostics))
@@ -51,6 +43,7 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
     makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
+    if (diagnostics.ok()) repairDirections(path, geometry, diagnostics);
     if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
     if (!diagnostics.ok() || geometry.indices.empty()) return {};
     dropUnusedVertices(geometry);
@@ -59,7 +52,8 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     else if (request.skin != kNone)
         applySkin(request.worldFromBind, path, geometry, diagnostics);
     if (!diagnostics.ok()) return {};
-    replaceOverflow(path, geometry, diagnostics);
+    dropNonFinite(path, geometry, diagnostics);
+    if (geometry.indices.empty()) return {};
     addFlatNormals(geometry);
     std::optional<TangentBasis> basis = tangentBasis(document, primitive);
     if (basis) basis = addTangents(geometry, *basis);

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/gltf/Accessor.h"
+#include "filament_core/assets/gltf/GltfGeometry.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <glm/gtc/quaternion.hpp>
@@ -52,12 +53,31 @@ std::vector<double4x4> worldTransforms(GltfDocument const& document, Diagnostics
     return worldFromNode;
 }
 
+/// One per joint, or none. A matrix that is not finite becomes the inverse of its joint's place in the rest pose, which
+/// leaves the vertices where the mesh has them.
+std::vector<float4x4> readInverseBind(GltfDocument const& document, uint32_t skinIndex,
+                                      std::vector<double4x4> const& worldFromNode, Diagnostics& diagnostics) {
+    GltfSkin const& skin = document.skins[skinIndex];
+    std::vector<float4x4> matrices = readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices",
+                                                           diagnostics, NonFinite::IsKept);
+    size_t broken = 0;
+    for (size_t i = 0; i < std::min(matrices.size(), skin.joints.size()); ++i) {
+        if (isFinite(double4x4(matrices[i]))) continue;
+        const float4x4 atRest(glm::inverse(worldFromNode[skin.joints[i]]));
+        matrices[i] = isFinite(double4x4(atRest)) ? atRest : float4x4(1.0f);
+        ++broken;
+    }
+    if (broken > 0)
+        diagnostics.warn("skins[{}]: {} of {} inverse bind matrices are not finite; they became those of the rest pose",
+                         skinIndex, broken, skin.joints.size());
+    return matrices;
+}
+
 /// Section 3.7.3.3: the transform of the mesh's node is ignored; only the joints count.
 std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t skinIndex,
                                       std::vector<double4x4> const& worldFromNode, Diagnostics& diagnostics) {
     GltfSkin const& skin = document.skins[skinIndex];
-    const std::vector<float4x4> inverseBind =
-            readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
+    const std::vector<float4x4> inverseBind = readInverseBind(document, skinIndex, worldFromNode, diagnostics);
     if (skin.joints.empty() || (!inverseBind.empty() && inverseBind.size() < skin.joints.size())) {
         diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not match",
                            skinIndex, skin.joints.size(), inverseBind.size());
@@ -123,12 +143,13 @@ double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
     return matrix;
 }
 
-/// EXT_mesh_gpu_instancing: the transforms of the instances.
+/// EXT_mesh_gpu_instancing: the transforms of the instances. Those that are not finite are left out, with a warning.
 std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocument const& document, uint32_t index,
                                           Diagnostics& diagnostics) {
-    const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics);
-    const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics);
-    const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics);
+    constexpr NonFinite kKept = NonFinite::IsKept;
+    const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics, kKept);
+    const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics, kKept);
+    const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics, kKept);
     const size_t count = std::max({ translations.size(), rotations.size(), scales.size() });
     const auto fits = [&](size_t size) { return size == 0 || size == count; };
     if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxNodes) {
@@ -139,10 +160,15 @@ std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocu
     }
     std::vector<double4x4> transforms;
     for (size_t i = 0; i < count; ++i) {
-        transforms.push_back(transformOf(translations.empty() ? float3(0.0f) : translations[i],
-                                         rotations.empty() ? float4(0, 0, 0, 1) : rotations[i],
-                                         scales.empty() ? float3(1.0f) : scales[i]));
+        const float3 translation = translations.empty() ? float3(0.0f) : translations[i];
+        const float4 rotation = rotations.empty() ? float4(0, 0, 0, 1) : rotations[i];
+        const float3 scale = scales.empty() ? float3(1.0f) : scales[i];
+        if (allFinite(translation) && allFinite(float3(rotation)) && std::isfinite(rotation.w) && allFinite(scale))
+            transforms.push_back(transformOf(translation, rotation, scale));
     }
+    if (transforms.size() < count)
+        diagnostics.warn("nodes[{}]: {} of {} instances are not drawn: their transforms are not finite", index,
+                         count - transforms.size(), count);
     return transforms;
 }
 
@@ -305,7 +331,8 @@ void collectLevels(GltfDocument const& document, GltfScene& scene, Diagnostics& 
 }
 
 /// Collects the skins that nodes keep, and gives those nodes the new indices.
-void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scene, Diagnostics& diagnostics) {
+void collectSkins(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, NodeList& nodes,
+                  GltfScene& scene, Diagnostics& diagnostics) {
     std::map<uint32_t, uint32_t> known; // index in the file -> index in the scene
     const std::vector<uint32_t> parents = parentsOf(document);
     const size_t shown = scene.nodes.size();
@@ -316,9 +343,7 @@ void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scen
         scene.nodes[i].skin = entry->second;
         if (!isNew) continue;
         GltfSkin const& skin = document.skins[source];
-        SkinData data{ skin.name,
-                       {},
-                       readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics) };
+        SkinData data{ skin.name, {}, readInverseBind(document, source, worldFromNode, diagnostics) };
         data.jointFromBind.resize(skin.joints.size(), float4x4(1.0f));
         for (uint32_t joint : skin.joints) {
             uint32_t top = joint;
@@ -375,7 +400,7 @@ GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, G
     NodeList nodes(document, worldFromNode, levels, scene, diagnostics);
     nodes.add(document.roots, &requests);
     if (levels == GltfLevels::All) collectLevels(document, scene, diagnostics);
-    collectSkins(document, nodes, scene, diagnostics);
+    collectSkins(document, worldFromNode, nodes, scene, diagnostics);
     checkPlacements(document, scene, diagnostics);
     return scene;
 }

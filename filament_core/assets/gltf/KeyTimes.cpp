@@ -12,13 +12,28 @@
 namespace filament_core::assets {
 namespace {
 
-/// What is wrong with the times as the file has them.
-KeyRepairs findFaults(std::vector<float> const& times) {
+/// By key: whether its values are finite, those of its tangents included.
+std::vector<bool> findFinite(AnimationSampler const& sampler) {
+    const size_t row = sampler.values.size() / sampler.times.size();
+    std::vector<bool> isFinite(sampler.times.size(), true);
+    for (size_t i = 0; i < sampler.values.size(); ++i) {
+        if (!std::isfinite(sampler.values[i])) isFinite[i / row] = false;
+    }
+    return isFinite;
+}
+
+/// What is wrong with the keys as the file has them.
+KeyRepairs findFaults(std::vector<float> const& times, std::vector<bool> const& hasFiniteValues) {
     KeyRepairs faults;
     float before = -std::numeric_limits<float>::infinity();
-    for (const float time : times) {
+    for (size_t i = 0; i < times.size(); ++i) {
+        const float time = times[i];
         if (!std::isfinite(time)) {
             ++faults.endless;
+            continue;
+        }
+        if (!hasFiniteValues[i]) {
+            ++faults.broken;
             continue;
         }
         faults.negative += time < 0;
@@ -34,11 +49,11 @@ size_t countRepeated(std::vector<float> const& times) {
     return count;
 }
 
-/// Keys with finite times, by time; of equal times in the order of the file.
-std::vector<size_t> orderOf(std::vector<float> const& times) {
+/// Keys with finite times and values, by time; of equal times in the order of the file.
+std::vector<size_t> orderOf(std::vector<float> const& times, std::vector<bool> const& hasFiniteValues) {
     std::vector<size_t> order(times.size());
     std::iota(order.begin(), order.end(), size_t{ 0 });
-    std::erase_if(order, [&](size_t key) { return !std::isfinite(times[key]); });
+    std::erase_if(order, [&](size_t key) { return !std::isfinite(times[key]) || !hasFiniteValues[key]; });
     std::ranges::stable_sort(order, {}, [&](size_t key) { return times[key]; });
     return order;
 }
@@ -60,13 +75,16 @@ void reorder(AnimationSampler& sampler, std::vector<size_t> const& order) {
 } // namespace
 
 KeyRepairs& KeyRepairs::operator+=(KeyRepairs const& other) {
-    endless += other.endless, earlier += other.earlier, repeated += other.repeated, negative += other.negative;
+    endless += other.endless, broken += other.broken, earlier += other.earlier, repeated += other.repeated,
+            negative += other.negative;
     return *this;
 }
 
 KeyRepairs mendKeys(AnimationSampler& sampler) {
-    KeyRepairs repairs = findFaults(sampler.times);
-    if (repairs.endless + repairs.earlier > 0) reorder(sampler, orderOf(sampler.times));
+    const std::vector<bool> hasFiniteValues = findFinite(sampler);
+    KeyRepairs repairs = findFaults(sampler.times, hasFiniteValues);
+    if (repairs.endless + repairs.broken + repairs.earlier > 0)
+        reorder(sampler, orderOf(sampler.times, hasFiniteValues));
     repairs.repeated = countRepeated(sampler.times);
     return repairs;
 }
@@ -80,6 +98,7 @@ std::string toString(KeyRepairs const& repairs) {
     add(repairs.earlier, "earlier than the one before (sorted)");
     add(repairs.negative, "before 0");
     add(repairs.endless, "without a finite time (left out)");
+    add(repairs.broken, "with values that are not finite (left out)");
     return text;
 }
 

@@ -251,7 +251,7 @@ TEST(GltfAnimation, WhatMakesNoSenseIsLeftOutByName) {
     };
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     expectLeftOut(movingTriangle({ kInfinity, NAN }, std::vector<float>(6)),
-                  "animations[0].channels[0]: no key has a finite time; the channel is left out");
+                  "animations[0].channels[0]: no key has a finite time and value; the channel is left out");
     expectLeftOut(movingTriangle({ 0, 1 }, std::vector<float>(9)), "9 values for 2 keys of 3 numbers");
     expectLeftOut(movingTriangle({}, {}), "0 values for 0 keys");
     TestFile cubic = movingTriangle({ 0, 1 }, std::vector<float>(6));
