@@ -99,6 +99,12 @@ std::string JsonNode::text() const {
     return {};
 }
 
+std::string JsonNode::label() const {
+    if (!mValue || mValue->is_string()) return text();
+    mDiagnostics->warn("{}: must be a string, found {}; it is ignored", mPath, mValue->type_name());
+    return {};
+}
+
 uint32_t JsonNode::index(size_t count, std::string_view what) const {
     if (!mValue) return kNone;
     const uint64_t value = integer(count);

@@ -31,6 +31,8 @@ public:
     bool exists() const { return mValue != nullptr; }
     std::string const& path() const { return mPath; }
     Diagnostics& diagnostics() const { return *mDiagnostics; }
+    /// The same value; what is wrong with it and below it goes to `diagnostics`.
+    JsonNode reportingTo(Diagnostics& diagnostics) const { return { mValue, mPath, diagnostics }; }
 
     /// The member of an object; an error if this is not an object.
     JsonNode operator[](const char* key) const;
@@ -49,6 +51,8 @@ public:
     uint64_t requiredInteger() const;
     bool boolean(bool fallback) const;
     std::string text() const;
+    /// A text that changes nothing, like a name: another kind of value is empty, with a warning.
+    std::string label() const;
 
     /// An index below `count`, or kNone when absent. `what` names the array: "accessors".
     uint32_t index(size_t count, std::string_view what) const;

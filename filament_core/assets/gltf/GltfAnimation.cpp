@@ -146,9 +146,15 @@ private:
     std::optional<uint32_t> samplerFor(GltfAnimationChannel const& channel, uint32_t width, std::string const& path) {
         const auto [known, isNew] = mKnown.try_emplace({ channel.sampler, channel.path, width }, std::nullopt);
         if (!isNew) return known->second;
-        AnimationSampler sampler = readSampler(mSource.samplers[channel.sampler], width);
+        Diagnostics found;
+        AnimationSampler sampler = readSampler(mSource.samplers[channel.sampler], width, found);
+        if (!found.ok()) {
+            mKnown.erase(known); // the next channel may move something of the scene
+            settle(std::move(found), channel.isReached, mDiagnostics);
+            return std::nullopt;
+        }
         sampler.isRotation = channel.path == AnimationPath::Rotation;
-        if (!mDiagnostics.ok() || !hasItsValues(sampler, path)) return std::nullopt;
+        if (!hasItsValues(sampler, path)) return std::nullopt;
         const KeyRepairs repairs = mendKeys(sampler);
         if (sampler.times.empty()) {
             mDiagnostics.warn("{}: no key has a finite time and value; the channel is left out", path);
@@ -160,24 +166,22 @@ private:
         return known->second;
     }
 
-    AnimationSampler readSampler(GltfAnimationSampler const& source, uint32_t width) {
+    AnimationSampler readSampler(GltfAnimationSampler const& source, uint32_t width, Diagnostics& found) {
         AnimationSampler sampler{ .interpolation = source.interpolation, .width = width };
         const uint64_t keys = mDocument.accessors[source.input].count;
         GltfAccessor const& output = mDocument.accessors[source.output];
         const uint64_t numbers = keys + output.count * output.components;
         if (numbers > mShared.numbersLeft) {
-            mDiagnostics.refuse(ErrorCode::Unsupported, "{}: the animations have more than {} numbers", mPath,
-                                kMaxNumbers);
+            found.refuse(ErrorCode::Unsupported, "{}: the animations have more than {} numbers", mPath, kMaxNumbers);
             return sampler;
         }
         mShared.numbersLeft -= numbers;
         const uint8_t one = 1;
-        if (!checkAccessor(mDocument, source.input, { &one, 1 }, "the times of an animation", mDiagnostics))
-            return sampler;
+        if (!checkAccessor(mDocument, source.input, { &one, 1 }, "the times of an animation", found)) return sampler;
         sampler.times.resize(keys);
         readFloatsAsStored(mDocument, source.input, sampler.times); // mendKeys() drops keys that are not finite
         const uint8_t components = output.components;
-        if (!checkAccessor(mDocument, source.output, { &components, 1 }, "the values of an animation", mDiagnostics))
+        if (!checkAccessor(mDocument, source.output, { &components, 1 }, "the values of an animation", found))
             return sampler;
         sampler.values.resize(output.count * output.components);
         readFloatsAsStored(mDocument, source.output, sampler.values);

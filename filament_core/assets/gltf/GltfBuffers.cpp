@@ -66,7 +66,8 @@ void decompressViews(GltfDocument& document, std::vector<CompressedView>& compre
         }
     });
     for (CompressedView& item : compressed) {
-        diagnostics.merge(std::move(item.diagnostics));
+        settle(std::move(item.diagnostics), document.use.has(GltfArray::Views, static_cast<uint32_t>(item.view)),
+               diagnostics);
         document.ownedBytes.push_back(std::move(item.bytes));
         document.viewBytes[item.view] = document.ownedBytes.back();
     }
@@ -77,24 +78,26 @@ void decompressViews(GltfDocument& document, std::vector<CompressedView>& compre
 void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, GltfFolder const& folder,
                      jobs::JobSystem& jobs, Diagnostics& diagnostics) {
     std::vector<Bytes> buffers(document.buffers.size());
-    for (size_t i = 0; i < buffers.size() && diagnostics.ok(); ++i) {
-        buffers[i] = bufferBytes(document, i, container, folder, diagnostics);
+    for (uint32_t i = 0; i < buffers.size() && diagnostics.ok(); ++i) {
+        Diagnostics found;
+        buffers[i] = bufferBytes(document, i, container, folder, found);
+        settle(std::move(found), document.use.has(GltfArray::Buffers, i), diagnostics);
     }
     std::vector<CompressedView> compressed;
     document.viewBytes.resize(document.views.size());
-    for (size_t i = 0; i < document.views.size() && diagnostics.ok(); ++i) {
+    for (uint32_t i = 0; i < document.views.size() && diagnostics.ok(); ++i) {
         GltfBufferView const& view = document.views[i];
+        if (view.buffer == kNone) continue; // left out
         const std::string path = fmt::format("bufferViews[{}]", i);
-        if (view.meshopt) {
-            MeshoptSource const& source = *view.meshopt;
-            compressed.push_back(
-                    { i,
-                      rangeOf(buffers, source.buffer, source.byteOffset, source.byteLength, path, diagnostics),
-                      {},
-                      {} });
-        } else {
-            document.viewBytes[i] = rangeOf(buffers, view.buffer, view.byteOffset, view.byteLength, path, diagnostics);
-        }
+        Diagnostics found;
+        const Bytes bytes = view.meshopt ? rangeOf(buffers, view.meshopt->buffer, view.meshopt->byteOffset,
+                                                   view.meshopt->byteLength, path, found)
+                                         : rangeOf(buffers, view.buffer, view.byteOffset, view.byteLength, path, found);
+        if (!view.meshopt)
+            document.viewBytes[i] = bytes;
+        else if (found.ok())
+            compressed.push_back({ i, bytes, {}, {} });
+        settle(std::move(found), document.use.has(GltfArray::Views, i), diagnostics);
     }
     if (diagnostics.ok()) decompressViews(document, compressed, jobs, diagnostics);
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfDocument: the JSON of a glTF 2.0 file as plain structs, before any geometry or image is touched.
-///   The parser has range-checked every index between elements: it is valid or kNone. Byte ranges are not yet checked:
+///   The parser has range-checked every index between elements: it is valid or kNone. Elements that are broken and that
+///   the default scene does not reach (GltfUse.h) are empty. Byte ranges are not yet checked:
 ///   a view is checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
 ///   Section numbers in comments are those of the glTF 2.0.1 specification.
 #pragma once
 
 #include "filament_core/assets/gltf/AnimatedProperty.h"
 #include "filament_core/assets/gltf/DracoPatience.h"
+#include "filament_core/assets/gltf/GltfUse.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
 
@@ -162,6 +164,7 @@ struct GltfAnimationChannel {
     uint32_t sampler = 0;  ///< of its animation
     uint32_t node = kNone; ///< kNone: given by an extension
     AnimationPath path = AnimationPath::Translation;
+    bool isReached = false; ///< the scene has what it moves (GltfUse.h)
 
     // KHR_animation_pointer
     uint32_t mesh = kNone;       ///< whose weights it moves, where nodes have none of their own
@@ -233,6 +236,7 @@ struct GltfDocument {
     std::vector<GltfImageBasedLight> imageBasedLights;
     uint32_t imageBasedLight = kNone; ///< of the default scene
     std::vector<GltfAnimation> animations;
+    GltfUse use; ///< of all arrays above
 
     /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.
     std::vector<std::span<const std::byte>> viewBytes;

@@ -31,12 +31,18 @@ struct Counts {
 };
 
 template <class Enum, size_t N>
-Enum enumFromText(JsonNode const& node, std::array<const char*, N> const& names, Enum fallback) {
-    if (!node.exists()) return fallback;
-    const std::string text = node.text();
+std::optional<Enum> knownEnum(std::string_view text, std::array<const char*, N> const& names) {
     for (size_t i = 0; i < N; ++i) {
         if (text == names[i]) return static_cast<Enum>(i);
     }
+    return std::nullopt;
+}
+
+template <class Enum, size_t N>
+Enum enumFromText(JsonNode const& node, std::array<const char*, N> const& names, Enum fallback) {
+    if (!node.exists()) return fallback;
+    const std::string text = node.text();
+    if (const std::optional<Enum> known = knownEnum<Enum>(text, names)) return *known;
     node.diagnostics().refuse(ErrorCode::Corrupt, "{}: '{}' is not a value that the format knows", node.path(), text);
     return fallback;
 }
@@ -170,7 +176,7 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
 }
 
 GltfMesh parseMesh(JsonNode const& node, Counts const& counts) {
-    GltfMesh mesh{ .name = node["name"].text(),
+    GltfMesh mesh{ .name = node["name"].label(),
                    .primitives = {},
                    .weights = node["weights"].numberList(),
                    .targetNames = node["extras"].textsOf("targetNames") };
@@ -213,7 +219,7 @@ void parseTransform(JsonNode const& node, GltfNode& parsed) {
 }
 
 GltfNode parseNode(JsonNode const& node, Counts const& counts) {
-    GltfNode parsed{ .name = node["name"].text(),
+    GltfNode parsed{ .name = node["name"].label(),
                      .children = {},
                      .mesh = node["mesh"].index(counts.meshes, "meshes"),
                      .skin = node["skin"].index(counts.skins, "skins"),
@@ -239,8 +245,7 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
 }
 
 GltfSkin parseSkin(JsonNode const& node, Counts const& counts) {
-    GltfSkin skin{ node["name"].text(), node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
-    node["skeleton"].index(counts.nodes, "nodes"); // only a hint for editors
+    GltfSkin skin{ node["name"].label(), node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
     for (JsonNode const& joint : node["joints"].elements()) {
         skin.joints.push_back(joint.requiredIndex(counts.nodes, "nodes"));
     }
@@ -268,19 +273,32 @@ GltfAnimationChannel parseChannel(JsonNode const& channel, size_t samplers, Coun
                                  .node = target["node"].index(counts.nodes, "nodes") };
     if (target.extension("KHR_animation_pointer").exists()) return parsePointer(target, parsed.sampler, pointers);
     if (parsed.node == kNone) return parsed;
-    parsed.path = enumFromText(target["path"], std::array{ "translation", "rotation", "scale", "weights" },
-                               AnimationPath::Translation);
-    return parsed;
+    const std::string path = target["path"].text();
+    const auto known = knownEnum<AnimationPath>(path, std::array{ "translation", "rotation", "scale", "weights" });
+    if (known) {
+        parsed.path = *known;
+        return parsed;
+    }
+    target.diagnostics().warn("{}.path: '{}' is not a value that the format knows; the channel is left out",
+                              target.path(), path);
+    return { .sampler = parsed.sampler };
+}
+
+Interpolation parseInterpolation(JsonNode const& node) {
+    if (!node.exists()) return Interpolation::Linear;
+    const std::string text = node.text();
+    const auto known = knownEnum<Interpolation>(text, std::array{ "STEP", "LINEAR", "CUBICSPLINE" });
+    if (!known)
+        node.diagnostics().warn("{}: '{}' is not a value that the format knows; LINEAR is used", node.path(), text);
+    return known.value_or(Interpolation::Linear);
 }
 
 GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts, GltfPointers& pointers) {
-    GltfAnimation animation{ .name = node["name"].text(), .samplers = {}, .channels = {} };
+    GltfAnimation animation{ .name = node["name"].label(), .samplers = {}, .channels = {} };
     for (JsonNode const& sampler : node["samplers"].elements()) {
-        animation.samplers.push_back(
-                { sampler["input"].requiredIndex(counts.accessors, "accessors"),
-                  sampler["output"].requiredIndex(counts.accessors, "accessors"),
-                  enumFromText(sampler["interpolation"], std::array{ "STEP", "LINEAR", "CUBICSPLINE" },
-                               Interpolation::Linear) });
+        animation.samplers.push_back({ sampler["input"].requiredIndex(counts.accessors, "accessors"),
+                                       sampler["output"].requiredIndex(counts.accessors, "accessors"),
+                                       parseInterpolation(sampler["interpolation"]) });
     }
     for (JsonNode const& channel : node["channels"].elements()) {
         animation.channels.push_back(parseChannel(channel, animation.samplers.size(), counts, pointers));
@@ -308,67 +326,104 @@ GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
     return texture;
 }
 
-/// A node has at most one parent, and nodes in a cycle cannot be reached from a root (section 3.5.2).
-void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
-    std::vector<uint32_t> parents(nodes.size(), kNone);
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-        for (const uint32_t child : nodes[i].children) {
-            if (child == kNone) continue; // already reported
-            if (parents[child] != kNone || child == i) {
-                return diagnostics.refuse(ErrorCode::Corrupt,
-                                          "nodes[{}].children: nodes[{}] has another parent already", i, child);
+/// A node has at most one parent, and nodes in a cycle cannot be reached from a root (section 3.5.2). Links of nodes
+/// that the scene does not reach give way, with a warning.
+class ForestCheck {
+public:
+    ForestCheck(GltfDocument& document, Diagnostics& diagnostics)
+            : mDocument(document), mDiagnostics(diagnostics), mParents(document.nodes.size(), kNone) {}
+
+    void check() {
+        for (const bool isReached : { true, false }) {
+            for (uint32_t i = 0; i < mDocument.nodes.size() && mDiagnostics.ok(); ++i) {
+                if (isUsed(i) == isReached) claimChildren(i);
             }
-            parents[child] = i;
+        }
+        if (mDiagnostics.ok()) checkCycles();
+    }
+
+private:
+    bool isUsed(uint32_t node) const { return mDocument.use.has(GltfArray::Nodes, node); }
+
+    void claimChildren(uint32_t index) {
+        std::erase_if(mDocument.nodes[index].children, [&](uint32_t child) {
+            if (mParents[child] == kNone && child != index) {
+                mParents[child] = index;
+                return false;
+            }
+            Diagnostics found;
+            found.refuse(ErrorCode::Corrupt, "nodes[{}].children: nodes[{}] has another parent already", index, child);
+            settle(std::move(found), isUsed(index), mDiagnostics);
+            return true;
+        });
+    }
+
+    /// Nodes that cannot be reached from a parentless node are part of a cycle.
+    void checkCycles() {
+        std::vector<bool> isBelowRoot(mDocument.nodes.size(), false);
+        std::vector<uint32_t> open;
+        for (uint32_t i = 0; i < mParents.size(); ++i) {
+            if (mParents[i] == kNone) open.push_back(i);
+        }
+        while (!open.empty()) {
+            const uint32_t node = open.back();
+            open.pop_back();
+            isBelowRoot[node] = true;
+            std::vector<uint32_t> const& children = mDocument.nodes[node].children;
+            open.insert(open.end(), children.begin(), children.end());
+        }
+        for (uint32_t i = 0; i < mParents.size(); ++i) {
+            if (isBelowRoot[i]) continue;
+            Diagnostics found;
+            found.refuse(ErrorCode::Corrupt, "nodes: the children links form a cycle");
+            settle(std::move(found), isUsed(i), mDiagnostics);
+            mDocument.nodes[i].children.clear();
         }
     }
-    // Nodes that cannot be reached from a parentless node are part of a cycle.
-    std::vector<uint32_t> open;
-    size_t reached = 0;
-    for (uint32_t i = 0; i < nodes.size(); ++i) {
-        if (parents[i] == kNone) open.push_back(i);
-    }
-    while (!open.empty()) {
-        const uint32_t node = open.back();
-        open.pop_back();
-        ++reached;
-        open.insert(open.end(), nodes[node].children.begin(), nodes[node].children.end());
-    }
-    if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links form a cycle");
+
+    GltfDocument& mDocument;
+    Diagnostics& mDiagnostics;
+    std::vector<uint32_t> mParents;
+};
+
+/// The default scene: the first unless the file says otherwise; a node that does not exist if the file has none.
+JsonNode findDefaultScene(JsonNode const& root) {
+    const std::vector<JsonNode> scenes = root["scenes"].elements();
+    const uint32_t scene = root["scene"].index(scenes.size(), "scenes");
+    if (scenes.empty()) return JsonNode(nullptr, "scenes[0]", root.diagnostics());
+    return scenes[scene == kNone ? 0 : scene];
 }
 
-/// The index of the default scene: 0 unless the file says otherwise.
-uint32_t parseDefaultScene(JsonNode const& root) {
-    const uint32_t scene = root["scene"].index(root["scenes"].elementCount(), "scenes");
-    return scene == kNone ? 0 : scene;
+std::vector<bool> findChildren(std::vector<GltfNode> const& nodes) {
+    std::vector<bool> isChild(nodes.size(), false);
+    for (GltfNode const& node : nodes) {
+        for (const uint32_t child : node.children) {
+            if (child != kNone) isChild[child] = true;
+        }
+    }
+    return isChild;
 }
 
 /// The roots of the default scene; a file without scenes shows all parentless nodes.
-std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> const& nodes) {
-    const std::vector<JsonNode> scenes = root["scenes"].elements();
+std::vector<uint32_t> parseRoots(JsonNode const& scene, std::vector<GltfNode> const& nodes) {
     std::vector<uint32_t> roots;
-    const uint32_t scene = parseDefaultScene(root);
-    if (!scenes.empty()) {
-        for (JsonNode const& node : scenes[scene]["nodes"].elements()) {
-            roots.push_back(node.requiredIndex(nodes.size(), "nodes"));
-        }
-    }
-    std::vector<bool> hasParent(nodes.size(), false), isListed(nodes.size(), false);
-    for (GltfNode const& node : nodes) {
-        for (const uint32_t child : node.children) hasParent[child] = true;
-    }
-    if (scenes.empty()) {
-        for (uint32_t i = 0; i < nodes.size(); ++i) {
-            if (!hasParent[i]) roots.push_back(i);
-        }
-    }
-    for (const uint32_t i : roots) {
-        if (i == kNone) continue; // already reported
-        if (hasParent[i] || isListed[i]) {
-            root.diagnostics().refuse(ErrorCode::Corrupt, "scenes: nodes[{}] is not a root, or is listed twice", i);
-        }
-        isListed[i] = true;
+    for (JsonNode const& node : scene["nodes"].elements()) roots.push_back(node.requiredIndex(nodes.size(), "nodes"));
+    if (scene.exists()) return roots;
+    const std::vector<bool> isChild = findChildren(nodes);
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (!isChild[i]) roots.push_back(i);
     }
     return roots;
+}
+
+void checkRoots(GltfDocument const& document, Diagnostics& diagnostics) {
+    const std::vector<bool> isChild = findChildren(document.nodes);
+    std::vector<bool> isListed(document.nodes.size(), false);
+    for (const uint32_t i : document.roots) {
+        if (isChild[i] || isListed[i])
+            diagnostics.refuse(ErrorCode::Corrupt, "scenes: nodes[{}] is not a root, or is listed twice", i);
+        isListed[i] = true;
+    }
 }
 
 /// Section 3.2: later minor versions may be read as 2.0 unless minVersion forbids it.
@@ -393,47 +448,90 @@ void checkWeights(std::vector<GltfMesh> const& meshes, std::vector<GltfNode> con
     }
 }
 
-template <class T, class Parse>
-std::vector<T> parseAll(JsonNode const& array, Parse const& parse) {
-    std::vector<T> parsed;
-    for (JsonNode const& node : array.elements()) {
-        parsed.push_back(parse(node));
-        if (!node.diagnostics().ok()) break;
-    }
-    return parsed;
-}
+/// Parses all elements of the file, and collects those that are broken: their use decides what that means.
+class ElementParser {
+public:
+    ElementParser(JsonNode const& root, GltfDocument& document, Diagnostics& diagnostics)
+            : mRoot(root.reportingTo(mArrays)), mDocument(document), mDiagnostics(diagnostics), mCounts(mRoot) {}
 
-void parseElements(JsonNode const& root, GltfDocument& document) {
-    const Counts counts(root);
-    const auto with = [&](auto parse) {
-        return [&counts, parse](JsonNode const& node) { return parse(node, counts); };
-    };
-    document.buffers = parseAll<GltfBuffer>(root["buffers"], parseBuffer);
-    document.views = parseAll<GltfBufferView>(root["bufferViews"], with(parseView));
-    document.accessors = parseAll<GltfAccessor>(root["accessors"], with(parseAccessor));
-    document.meshes = parseAll<GltfMesh>(root["meshes"], with(parseMesh));
-    document.nodes = parseAll<GltfNode>(root["nodes"], with(parseNode));
-    document.skins = parseAll<GltfSkin>(root["skins"], with(parseSkin));
-    document.images = parseAll<GltfImage>(root["images"], with(parseImage));
-    document.samplers = parseAll<Sampler>(root["samplers"], parseGltfSampler);
-    document.materials = parseAll<GltfMaterial>(
-            root["materials"], [&](JsonNode const& node) { return parseGltfMaterial(node, counts.textures); });
-    document.textures =
-            parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) { return parseTexture(node, counts); });
-    document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
-    document.cameras = parseAll<CameraData>(root["cameras"], parseGltfCamera);
-    document.profiles = parseAll<GltfProfile>(root.extension("EXT_lights_ies")["lights"], [&](JsonNode const& node) {
-        return parseGltfProfile(node, counts.views);
-    });
-    const JsonNode imageBased = root.extension("EXT_lights_image_based");
-    document.imageBasedLights = parseAll<GltfImageBasedLight>(
-            imageBased["lights"], [&](JsonNode const& node) { return parseGltfImageBasedLight(node, counts.images); });
-    document.variants = parseAll<std::string>(root.extension("KHR_materials_variants")["variants"],
-                                              [](JsonNode const& node) { return node["name"].text(); });
-    GltfPointers pointers(root);
-    document.animations = parseAll<GltfAnimation>(
-            root["animations"], [&](JsonNode const& node) { return parseAnimation(node, counts, pointers); });
-}
+    std::vector<GltfFault> parseFile() {
+        parseGeometry();
+        parseMaterials();
+        parseSurroundings();
+        if (!mArrays.ok()) mDiagnostics.warn("{}; it counts as empty", mArrays.error().message);
+        dropUnknownLights();
+        return std::move(mFaults);
+    }
+
+private:
+    template <class T, class Parse>
+    void parseAll(GltfArray kind, JsonNode const& array, std::vector<T>& elements, Parse const& parse) {
+        for (JsonNode const& node : array.elements()) {
+            Diagnostics own;
+            elements.push_back(parse(node.reportingTo(own)));
+            if (!own.ok())
+                mFaults.push_back({ kind, static_cast<uint32_t>(elements.size() - 1), own.error() });
+            else
+                mDiagnostics.merge(std::move(own));
+        }
+    }
+
+    auto with(auto parse) const {
+        return [this, parse](JsonNode const& node) { return parse(node, mCounts); };
+    }
+
+    void parseGeometry() {
+        parseAll(GltfArray::Buffers, mRoot["buffers"], mDocument.buffers, parseBuffer);
+        parseAll(GltfArray::Views, mRoot["bufferViews"], mDocument.views, with(parseView));
+        parseAll(GltfArray::Accessors, mRoot["accessors"], mDocument.accessors, with(parseAccessor));
+        parseAll(GltfArray::Meshes, mRoot["meshes"], mDocument.meshes, with(parseMesh));
+        parseAll(GltfArray::Nodes, mRoot["nodes"], mDocument.nodes, with(parseNode));
+        parseAll(GltfArray::Skins, mRoot["skins"], mDocument.skins, with(parseSkin));
+    }
+
+    void parseMaterials() {
+        parseAll(GltfArray::Images, mRoot["images"], mDocument.images, with(parseImage));
+        parseAll(GltfArray::Samplers, mRoot["samplers"], mDocument.samplers, parseGltfSampler);
+        parseAll(GltfArray::Materials, mRoot["materials"], mDocument.materials,
+                 [&](JsonNode const& node) { return parseGltfMaterial(node, mCounts.textures); });
+        parseAll(GltfArray::Textures, mRoot["textures"], mDocument.textures, with(parseTexture));
+        parseAll(GltfArray::Variants, mRoot.extension("KHR_materials_variants")["variants"], mDocument.variants,
+                 [](JsonNode const& node) { return node["name"].label(); });
+    }
+
+    void parseSurroundings() {
+        parseAll(GltfArray::Lights, mRoot.extension("KHR_lights_punctual")["lights"], mDocument.lights,
+                 [&](JsonNode const& node) {
+                     const std::optional<LightData> light = parseGltfLight(node);
+                     mHasType.push_back(light || !node.diagnostics().ok()); // a broken one is a fault
+                     return light.value_or(LightData{});
+                 });
+        parseAll(GltfArray::Cameras, mRoot["cameras"], mDocument.cameras, parseGltfCamera);
+        parseAll(GltfArray::Profiles, mRoot.extension("EXT_lights_ies")["lights"], mDocument.profiles,
+                 [&](JsonNode const& node) { return parseGltfProfile(node, mCounts.views); });
+        parseAll(GltfArray::ImageBasedLights, mRoot.extension("EXT_lights_image_based")["lights"],
+                 mDocument.imageBasedLights,
+                 [&](JsonNode const& node) { return parseGltfImageBasedLight(node, mCounts.images); });
+        Diagnostics ofPointers; // what is wrong with the objects on a path is their own fault
+        GltfPointers pointers(mRoot.reportingTo(ofPointers));
+        parseAll(GltfArray::Animations, mRoot["animations"], mDocument.animations,
+                 [&](JsonNode const& node) { return parseAnimation(node, mCounts, pointers); });
+    }
+
+    void dropUnknownLights() {
+        for (GltfNode& node : mDocument.nodes) {
+            if (node.light != kNone && !mHasType[node.light]) node.light = kNone;
+        }
+    }
+
+    Diagnostics mArrays; ///< what is wrong with whole arrays
+    JsonNode mRoot;
+    GltfDocument& mDocument;
+    Diagnostics& mDiagnostics;
+    Counts mCounts;
+    std::vector<GltfFault> mFaults;
+    std::vector<bool> mHasType; ///< by light
+};
 
 } // namespace
 
@@ -444,15 +542,16 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     const JsonNode root = tree.root(diagnostics);
     checkVersion(root);
     checkExtensions(root, diagnostics);
-    parseElements(root, document);
-    if (diagnostics.ok()) checkForest(document.nodes, diagnostics);
+    const std::vector<GltfFault> faults = ElementParser(root, document, diagnostics).parseFile();
+    const JsonNode scene = findDefaultScene(root);
+    document.roots = parseRoots(scene, document.nodes);
+    document.imageBasedLight = parseGltfSceneLight(scene, document.imageBasedLights.size());
+    findUse(document);
+    settleFaults(faults, document, diagnostics);
+    if (diagnostics.ok()) ForestCheck(document, diagnostics).check();
     if (diagnostics.ok()) markCoarserLevels(document.nodes, diagnostics);
     if (diagnostics.ok()) checkWeights(document.meshes, document.nodes, diagnostics);
-    if (diagnostics.ok()) document.roots = parseRoots(root, document.nodes);
-    if (!diagnostics.ok()) return document;
-    const std::vector<uint32_t> lights =
-            parseGltfSceneLights(root["scenes"].elements(), document.imageBasedLights.size());
-    if (diagnostics.ok() && !lights.empty()) document.imageBasedLight = lights[parseDefaultScene(root)];
+    if (diagnostics.ok()) checkRoots(document, diagnostics);
     return document;
 }
 

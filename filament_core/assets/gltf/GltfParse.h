@@ -2,9 +2,10 @@
 /// GltfParse: JSON text -> GltfDocument.
 ///   In       the text of a .gltf file, or the JSON chunk of a .glb.
 ///   Out      every element, with all indices between elements checked and the node links verified to form a forest.
-///   Warns    once about each unknown extension that the file names, and about clamped factors.
-///   Fails    Corrupt, naming the element ("meshes[2].primitives[0].mode: ..."); Unsupported for another major version.
-///            After a failure the document is incomplete and must not be used.
+///   Warns    once about each unknown extension that the file names, about clamped factors, and about elements that are
+///            broken and not used.
+///   Fails    by use (GltfUse.h): Corrupt, naming the element ("meshes[2].primitives[0].mode: ..."); Unsupported for
+///            another major version. After a failure the document is incomplete and must not be used.
 ///   Limits   2^28 elements per accessor, 4096 B strides; recursion-free, so depth is limited by memory only.
 #pragma once
 
@@ -25,7 +26,8 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount);
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,
                                                    size_t variantCount);
 Sampler parseGltfSampler(JsonNode const& node);
-LightData parseGltfLight(JsonNode const& node);
+/// Nothing for a light of a type that is unknown, with a warning.
+std::optional<LightData> parseGltfLight(JsonNode const& node);
 /// Cameras outside of the specification are repaired, with a warning.
 CameraData parseGltfCamera(JsonNode const& node);
 GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount);
@@ -39,8 +41,8 @@ std::vector<double> parseGltfCoverage(JsonNode const& node);
 /// levels.
 void markCoarserLevels(std::vector<GltfNode>& nodes, Diagnostics& diagnostics);
 GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageCount);
-/// The light that each scene names, if any.
-std::vector<uint32_t> parseGltfSceneLights(std::vector<JsonNode> const& scenes, size_t lightCount);
+/// The light that a scene names, or kNone.
+uint32_t parseGltfSceneLight(JsonNode const& scene, size_t lightCount);
 void checkExtensions(JsonNode const& root, Diagnostics& diagnostics);
 
 } // namespace filament_core::assets

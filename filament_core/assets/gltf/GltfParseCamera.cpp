@@ -54,7 +54,7 @@ void parseParallel(JsonNode const& node, CameraData& camera) {
 } // namespace
 
 CameraData parseGltfCamera(JsonNode const& node) {
-    CameraData camera{ .name = node["name"].text() };
+    CameraData camera{ .name = node["name"].label() };
     const std::string type = node["type"].text();
     if (type == "orthographic")
         parseParallel(node["orthographic"], camera);

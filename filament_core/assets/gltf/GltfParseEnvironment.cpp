@@ -92,7 +92,7 @@ std::vector<std::array<uint32_t, 6>> parseLevels(JsonNode const& node, uint32_t 
 
 GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageCount) {
     GltfImageBasedLight light;
-    light.name = node["name"].text();
+    light.name = node["name"].label();
     light.rotation = parseRotation(node["rotation"]);
     light.intensity = node["intensity"].numberInRange(1, 0, kMaxImageIntensity);
     light.irradiance = parseIrradiance(node["irradianceCoefficients"]);
@@ -101,14 +101,9 @@ GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageC
     return light;
 }
 
-std::vector<uint32_t> parseGltfSceneLights(std::vector<JsonNode> const& scenes, size_t lightCount) {
-    std::vector<uint32_t> lights;
-    for (JsonNode const& scene : scenes) {
-        const JsonNode light = scene.extension("EXT_lights_image_based");
-        lights.push_back(light.exists() ? light["light"].requiredIndex(lightCount, "EXT_lights_image_based.lights")
-                                        : kNone);
-    }
-    return lights;
+uint32_t parseGltfSceneLight(JsonNode const& scene, size_t lightCount) {
+    const JsonNode light = scene.extension("EXT_lights_image_based");
+    return light.exists() ? light["light"].requiredIndex(lightCount, "EXT_lights_image_based.lights") : kNone;
 }
 
 } // namespace filament_core::assets

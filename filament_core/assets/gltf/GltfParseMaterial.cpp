@@ -86,7 +86,7 @@ GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
 GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
     GltfMaterial material;
     MaterialData& values = material.values;
-    values.name = node["name"].text();
+    values.name = node["name"].label();
     const JsonNode core = node["pbrMetallicRoughness"];
     const auto base = parseFactors<4>(core["baseColorFactor"], 1, 0, 1);
     values.baseColorFactor = { base[0], base[1], base[2], base[3] };
@@ -136,17 +136,18 @@ Sampler parseGltfSampler(JsonNode const& node) {
     return sampler;
 }
 
-LightData parseGltfLight(JsonNode const& node) {
+std::optional<LightData> parseGltfLight(JsonNode const& node) {
     LightData light;
-    light.name = node["name"].text();
+    light.name = node["name"].label();
     const std::string type = node["type"].text();
     if (type == "directional") {
         light.type = LightType::Directional;
     } else if (type == "spot") {
         light.type = LightType::Spot;
     } else if (type != "point") {
-        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.type: '{}' must be directional, point or spot", node.path(),
-                                  type);
+        node.diagnostics().warn("{}.type: '{}' is none of directional, point and spot; the light is left out",
+                                node.path(), type);
+        return std::nullopt;
     }
     const auto color = parseFactors<3>(node["color"], 1, 0, kMaxFloat);
     light.color = { color[0], color[1], color[2] };
@@ -157,7 +158,7 @@ LightData parseGltfLight(JsonNode const& node) {
 }
 
 GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount) {
-    GltfProfile profile{ node["name"].text(), node["uri"].text(), node["bufferView"].index(viewCount, "bufferViews") };
+    GltfProfile profile{ node["name"].label(), node["uri"].text(), node["bufferView"].index(viewCount, "bufferViews") };
     if (profile.uri.empty() == (profile.view == kNone)) {
         node.diagnostics().refuse(ErrorCode::Corrupt, "{}: needs a uri or a bufferView, and not both", node.path());
     }

@@ -43,7 +43,9 @@ std::vector<double4x4> worldTransforms(GltfDocument const& document, Diagnostics
         const uint32_t parent = open.back();
         open.pop_back();
         if (!isFinite(worldFromNode[parent])) {
-            diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}]: its transform is not finite", parent);
+            Diagnostics found;
+            found.refuse(ErrorCode::Corrupt, "nodes[{}]: its transform is not finite", parent);
+            settle(std::move(found), document.use.has(GltfArray::Nodes, parent), diagnostics);
         }
         for (const uint32_t child : document.nodes[parent].children) {
             worldFromNode[child] = worldFromNode[parent] * document.nodes[child].parentFromNode;

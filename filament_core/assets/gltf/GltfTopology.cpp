@@ -99,7 +99,7 @@ void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Di
                                                                          : 1;
     if (indices.size() % corners != 0) {
         diagnostics.warn("{}: {} indices are left over and are not drawn", path, indices.size() % corners);
-        indices.resize(indices.size() - indices.size() % corners);
+        while (indices.size() % corners != 0) indices.pop_back();
     }
     if (indices.empty()) diagnostics.warn("{}: has too few vertices for anything to be drawn", path);
 }

@@ -101,10 +101,13 @@ TEST(GltfBrokenFile, SparseIndicesOutOfRangeAreRefused) {
 TEST(GltfBrokenFile, NodesMustFormAForest) {
     TestFile file = TestFile::triangle();
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0 }, { "children": [ 2 ] }, { "children": [ 1 ] } ])");
+    file.root["scenes"][0]["nodes"] = { 1 };
     EXPECT_THAT(refusal(file), HasSubstr("cycle"));
+    file.root["scenes"][0]["nodes"] = { 0 };
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0, "children": [ 0 ] } ])");
     EXPECT_THAT(refusal(file), HasSubstr("nodes[0].children: nodes[0]"));
     file.root["nodes"] = Json::parse(R"([ { "children": [ 2 ] }, { "children": [ 2 ] }, {} ])");
+    file.root["scenes"][0]["nodes"] = { 0, 1 };
     EXPECT_THAT(refusal(file), HasSubstr("nodes[2] has another parent"));
 }
 

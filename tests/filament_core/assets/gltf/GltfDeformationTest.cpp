@@ -288,17 +288,22 @@ TEST(GltfAnimation, WhatPointsNowhereIsRefusedByName) {
     file.root["animations"][0]["channels"][0]["sampler"] = 1;
     EXPECT_THAT(errorOf(file), HasSubstr("animations[0].channels[0].sampler"));
     file = movingTriangle({ 0, 1 }, std::vector<float>(6));
-    file.root["animations"][0]["channels"][0]["target"]["node"] = 1;
-    EXPECT_THAT(errorOf(file), HasSubstr("animations[0].channels[0].target.node"));
-    file = movingTriangle({ 0, 1 }, std::vector<float>(6));
-    file.root["animations"][0]["channels"][0]["target"]["path"] = "colour";
-    EXPECT_THAT(errorOf(file), HasSubstr("animations[0].channels[0].target.path: 'colour'"));
-    file = movingTriangle({ 0, 1 }, std::vector<float>(6));
-    file.root["animations"][0]["samplers"][0]["interpolation"] = "SMOOTH";
-    EXPECT_THAT(errorOf(file), HasSubstr("animations[0].samplers[0].interpolation: 'SMOOTH'"));
+    file.root["animations"][0]["channels"].push_back({ { "sampler", 0 }, { "target", { { "node", 1 } } } });
+    EXPECT_THAT(errorOf(file), HasSubstr("animations[0].channels[1].target.node"));
     file = movingTriangle({ 0, 1 }, std::vector<float>(6));
     file.root["accessors"][1]["count"] = 1000;
     EXPECT_THAT(errorOf(file), HasSubstr("accessors[1]: 1000 elements end at byte"));
+}
+
+TEST(GltfAnimation, UnknownPathsAndInterpolationsAreNamed) {
+    TestFile file = movingTriangle({ 0, 1 }, std::vector<float>(6));
+    file.root["animations"][0]["channels"][0]["target"]["path"] = "colour";
+    EXPECT_THAT(kept(file).animations[0].channels, IsEmpty());
+    EXPECT_THAT(kept(file).warnings, ElementsAre(HasSubstr("animations[0].channels[0].target.path: 'colour'")));
+    file = movingTriangle({ 0, 1 }, std::vector<float>(6));
+    file.root["animations"][0]["samplers"][0]["interpolation"] = "SMOOTH";
+    EXPECT_EQ(kept(file).animations[0].samplers[0].interpolation, Interpolation::Linear);
+    EXPECT_THAT(kept(file).warnings, ElementsAre(HasSubstr("animations[0].samplers[0].interpolation: 'SMOOTH'")));
 }
 
 TEST(GltfAnimation, TargetsOfExtensionsAreNotNodes) {

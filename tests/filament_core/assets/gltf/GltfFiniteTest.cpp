@@ -13,13 +13,13 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::array kBroken{ NAN, INFINITY, -INFINITY };
-constexpr size_t kVertices = 7;
+constexpr std::array kNotFinite{ NAN, INFINITY, -INFINITY };
+constexpr size_t kBandPoints = 7;
 
 /// Seven points of a band; `at` names the number that is replaced.
 std::vector<float> band(size_t at = ~size_t{ 0 }, float value = 0) {
     std::vector<float> positions;
-    for (size_t i = 0; i < kVertices; ++i) {
+    for (size_t i = 0; i < kBandPoints; ++i) {
         const auto x = static_cast<float>(i);
         positions.insert(positions.end(), { 1 + x, 1 + static_cast<float>(i % 2), 2 + 0.25f * x * x });
     }
@@ -27,7 +27,7 @@ std::vector<float> band(size_t at = ~size_t{ 0 }, float value = 0) {
     return positions;
 }
 
-ModelData loadedAs(TestFile const& file, GltfDeformation deformation) {
+ModelData loadedWith(TestFile const& file, GltfDeformation deformation) {
     Result<ModelData> model = file.load({ .deformation = deformation });
     if (!model) {
         ADD_FAILURE() << model.error().message;
@@ -55,9 +55,9 @@ TEST(GltfFinite, WhatUsesABrokenPositionIsNotDrawn) {
         TestFile whole;
         whole.positions(band());
         whole.primitive()["mode"] = mode;
-        for (size_t at = 0; at < 3 * kVertices; ++at) {
+        for (size_t at = 0; at < 3 * kBandPoints; ++at) {
             TestFile file;
-            file.positions(band(at, kBroken[at % 3]));
+            file.positions(band(at, kNotFinite[at % 3]));
             file.primitive()["mode"] = mode;
             const ModelData model = loaded(file);
             const size_t vertex = at / 3 * 3;
@@ -90,7 +90,7 @@ TEST(GltfFinite, TheWarningCountsWhatIsLeftOut) {
 TEST(GltfFinite, PositionsThatOverflowAtRestAreNotDrawnEither) {
     TestFile file;
     file.positions(band());
-    std::vector<float> deltas(3 * kVertices, 0.0f);
+    std::vector<float> deltas(3 * kBandPoints, 0.0f);
     deltas[12] = 3e38f;
     file.primitive()["targets"] = { { { "POSITION", file.add(deltas, kFloat, "VEC3", 3) } } };
     file.primitive()["mode"] = 0;
@@ -101,7 +101,7 @@ TEST(GltfFinite, PositionsThatOverflowAtRestAreNotDrawnEither) {
 }
 
 TEST(GltfFinite, BrokenNormalsBecomeThoseOfTheirTriangles) {
-    for (const float value : kBroken) {
+    for (const float value : kNotFinite) {
         TestFile file = TestFile::triangle();
         file.normals({ 0, 0, 1, value, 0, 0, 0, value, 1 });
         const ModelData model = loaded(file);
@@ -127,7 +127,7 @@ TEST(GltfFinite, BrokenTangentsAreComputed) {
         return loaded(file);
     };
     const ModelData without = withTangents(false, 0);
-    for (const float value : kBroken) {
+    for (const float value : kNotFinite) {
         const ModelData broken = withTangents(true, value);
         EXPECT_EQ(broken.meshes[0].primitives[0].vertices, without.meshes[0].primitives[0].vertices);
         EXPECT_THAT(broken.warnings, ElementsAre(HasSubstr("1 of 3 tangents are not finite")));
@@ -151,10 +151,10 @@ TEST(GltfFinite, ABrokenBindMatrixLeavesVerticesInTheirPlace) {
     const TestFile whole = skinnedFile(weights, bind);
     for (size_t at = 0; at < bind.size(); ++at) {
         std::vector<float> broken = bind;
-        broken[at] = kBroken[at % 3];
+        broken[at] = kNotFinite[at % 3];
         const TestFile file = skinnedFile(weights, broken);
         for (const GltfDeformation deformation : { GltfDeformation::AtRest, GltfDeformation::Kept }) {
-            const ModelData model = loadedAs(file, deformation), expected = loadedAs(whole, deformation);
+            const ModelData model = loadedWith(file, deformation), expected = loadedWith(whole, deformation);
             EXPECT_EQ(model.meshes[0].primitives[0].vertices, expected.meshes[0].primitives[0].vertices) << at;
             EXPECT_THAT(model.warnings,
                         ElementsAre(HasSubstr("skins[0]: 1 of 1 inverse bind matrices are not finite")));
@@ -167,10 +167,10 @@ TEST(GltfFinite, ABrokenBindMatrixLeavesVerticesInTheirPlace) {
 
 TEST(GltfFinite, WeightsOfJointsThatAreBrokenCountAsZero) {
     const std::vector<float> bind{ 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -5, 0, 1 };
-    for (const float value : kBroken) {
+    for (const float value : kNotFinite) {
         const TestFile file = skinnedFile({ 1, 0, 0, 0, 1, value, 0, 0, value, 0, 0, 0 }, bind);
         EXPECT_EQ(cornersOf(onlyPrimitive(file)), cornersOf(onlyPrimitive(TestFile::triangle())));
-        const ModelData kept = loadedAs(file, GltfDeformation::Kept);
+        const ModelData kept = loadedWith(file, GltfDeformation::Kept);
         PrimitiveData const& primitive = kept.meshes[0].primitives[0];
         for (uint32_t i = 0; i < 3; ++i) {
             EXPECT_EQ(vertexValue(primitive, shader::kAttributeWeights, i), float4(1, 0, 0, 0));
@@ -179,7 +179,7 @@ TEST(GltfFinite, WeightsOfJointsThatAreBrokenCountAsZero) {
 }
 
 TEST(GltfFinite, CoordinatesAndColoursAreFinite) {
-    for (const float value : kBroken) {
+    for (const float value : kNotFinite) {
         TestFile file = TestFile::triangle();
         file.attribute("TEXCOORD_0", std::vector<float>{ 0, value, 1, 0, 0, 1 }, kFloat, "VEC2", 2);
         file.attribute("COLOR_0", std::vector<float>{ 1, 1, value, 1, 1, 1, 1, 1, 1 }, kFloat, "VEC3", 3);
@@ -196,14 +196,14 @@ TEST(GltfFinite, CoordinatesAndColoursAreFinite) {
 }
 
 TEST(GltfFinite, BrokenDisplacementsDoNotMoveTheirVertex) {
-    for (const float value : kBroken) {
+    for (const float value : kNotFinite) {
         TestFile file = TestFile::triangle();
         std::vector<float> deltas(9, 0.0f);
         deltas[4] = value;
         file.primitive()["targets"] = { { { "POSITION", file.add(deltas, kFloat, "VEC3", 3) } } };
         file.root["meshes"][0]["weights"] = { 1 };
         EXPECT_EQ(cornersOf(onlyPrimitive(file)), cornersOf(onlyPrimitive(TestFile::triangle())));
-        EXPECT_EQ(loadedAs(file, GltfDeformation::Kept).meshes[0].primitives[0].morphTargets[0].positions[1],
+        EXPECT_EQ(loadedWith(file, GltfDeformation::Kept).meshes[0].primitives[0].morphTargets[0].positions[1],
                   float3(0.0f));
     }
 }
@@ -214,7 +214,7 @@ TEST(GltfFinite, InstancesWithoutAFinitePlaceAreNotDrawn) {
         for (size_t at = 0; at < 3 * width; ++at) {
             TestFile file = TestFile::triangle();
             std::vector<float> values(3 * width, 0.5f);
-            values[at] = kBroken[at % 3];
+            values[at] = kNotFinite[at % 3];
             file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"][name] =
                     file.add(values, kFloat, width == 4 ? "VEC4" : "VEC3", width);
             const ModelData model = loaded(file);
@@ -228,7 +228,7 @@ TEST(GltfFinite, WeightsAndTransformsBeyondFloatsAreFinite) {
     TestFile file = TestFile::triangle();
     file.primitive()["targets"] = { { { "POSITION", file.add(std::vector<float>(9, 0.0f), kFloat, "VEC3", 3) } } };
     file.root["nodes"][0]["weights"] = { 1e300 };
-    const ModelData model = loadedAs(file, GltfDeformation::Kept);
+    const ModelData model = loadedWith(file, GltfDeformation::Kept);
     EXPECT_TRUE(std::isfinite(model.nodes[0].morphWeights[0]));
     EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("nodes[0].weights[0]")));
 }
@@ -239,14 +239,14 @@ TEST(GltfFinite, KeysWithBrokenValuesAreLeftOut) {
         for (size_t at = 0; at < 9 * rows; ++at) {
             TestFile file = TestFile::triangle();
             std::vector<float> values(9 * rows, 2.0f);
-            values[at] = kBroken[at % 3];
+            values[at] = kNotFinite[at % 3];
             const size_t times = file.add(std::vector<float>{ 0, 1, 2 }, kFloat, "SCALAR", 1);
             const size_t output = file.add(values, kFloat, "VEC3", 3);
             file.root["animations"] = {
                 { { "samplers", { { { "input", times }, { "output", output }, { "interpolation", interpolation } } } },
                   { "channels", { { { "sampler", 0 }, { "target", { { "node", 0 }, { "path", "scale" } } } } } } }
             };
-            const ModelData model = loadedAs(file, GltfDeformation::Kept);
+            const ModelData model = loadedWith(file, GltfDeformation::Kept);
             AnimationSampler const& sampler = model.animations[0].samplers[0];
             EXPECT_EQ(sampler.times.size(), 2u);
             EXPECT_EQ(sampler.values, std::vector<float>(6 * rows, 2.0f));

@@ -336,6 +336,8 @@ TEST(GltfImageBasedLight, ASceneThatNamesNoSuchLightIsRefused) {
     EXPECT_THAT(refusalOfLight(file), HasSubstr("scenes[0].extensions.EXT_lights_image_based.light: missing"));
     scene["light"] = 0;
     file.root["scenes"].push_back({ { "extensions", { { "EXT_lights_image_based", { { "light", 7 } } } } } });
+    EXPECT_TRUE(file.load()) << "another scene than the one that is shown";
+    file.root["scene"] = 1;
     EXPECT_THAT(refusalOfLight(file), HasSubstr("scenes[1].extensions.EXT_lights_image_based.light: index 7"));
     file = fileWithLight(1, 1, countedPixel);
     file.root.erase("extensions");
