@@ -290,7 +290,7 @@ constexpr std::array kProperties{
             "vertexDomainDeviceJittered", "positions in clip space follow the jitter of temporal anti-aliasing"),
     property<&MaterialPackage::vertexDomain>("vertexDomain", "the space of the positions in the mesh"),
     property<&MaterialPackage::interpolation>("interpolation",
-                                              "of variables across a triangle; `flat`: those of its first vertex"),
+                                              "of variables across a triangle; `flat`: those of its last vertex"),
     property<&MaterialDefinition::fullScreenTriangle>(
             "fullScreenTriangle", "one triangle over the view, without vertices; needs `vertexDomain : device`"),
     property<&MaterialDefinition::wideLines>(

@@ -8,6 +8,7 @@
 #include <filament_core/View.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace filament_core::tools {
@@ -54,10 +55,16 @@ std::string choiceTable() {
     return text;
 }
 
+std::string_view nameOf(assets::GltfExtensionState state) {
+    constexpr std::array kNames{ "ratified", "release candidate", "vendor", "draft", "archived" };
+    return kNames[static_cast<size_t>(state)];
+}
+
 std::string extensionTable() {
-    std::string text = "| extension | what the engine makes of it |\n|---|---|\n";
+    std::string text = "| extension | state, November 2026 | what the engine makes of it |\n|---|---|---|\n";
     for (assets::GltfExtension const& extension : assets::gltfExtensions())
-        fmt::format_to(std::back_inserter(text), "| `{}` | {} |\n", extension.name, extension.effect);
+        fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} |\n", extension.name, nameOf(extension.state),
+                       extension.effect);
     return text;
 }
 

@@ -4,13 +4,24 @@
 ///   Thread  any; constant data.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
 namespace filament_core::assets {
 
+/// In the registry of glTF extensions (github.com/KhronosGroup/glTF, extensions/README.md), read in November 2026.
+enum class GltfExtensionState : uint8_t {
+    Ratified,         ///< by the Khronos Group
+    ReleaseCandidate, ///< of the Khronos Group
+    Vendor,           ///< of one vendor or several
+    Draft,            ///< not in the registry yet
+    Archived,         ///< replaced by others
+};
+
 struct GltfExtension {
-    std::string_view name;   ///< as files spell it
+    std::string_view name; ///< as files spell it
+    GltfExtensionState state;
     std::string_view effect; ///< for documents: one phrase of Markdown
 };
 
