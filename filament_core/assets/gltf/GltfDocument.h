@@ -77,7 +77,9 @@ struct GltfAccessor {
 struct GltfAttributes {
     static constexpr uint32_t kUvSets = 2, kJointSets = 2;
     uint32_t position = kNone, normal = kNone, tangent = kNone, color = kNone;
-    std::array<uint32_t, kUvSets> uv{ kNone, kNone };
+    std::array<uint32_t, kUvSets> uv{ kNone, kNone }; ///< those of `uvSets` that are kept (GltfUvSets.h)
+    std::array<uint32_t, kUvSets> keptSets{ 0, 1 };   ///< which those are
+    std::vector<uint32_t> uvSets;                     ///< TEXCOORD_n of the file, by n
     std::array<uint32_t, kJointSets> joints{ kNone, kNone };
     std::array<uint32_t, kJointSets> weights{ kNone, kNone };
 };
@@ -186,7 +188,8 @@ struct GltfSkin {
 
 struct GltfTextureInfo {
     uint32_t texture = kNone;
-    uint32_t uvSet = 0;
+    uint32_t uvSet = 0;       ///< of the file, until chooseUvSets() has made it 0 or 1
+    uint32_t leftSet = kNone; ///< the set of the file, if it is not kept and another one takes its place
     float3x3 uvTransform{ 1.0f };
     bool hasTransform = false;
     UvPlacement placement{};

@@ -130,8 +130,8 @@ void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes,
     geometry.tangents = source.read<float4>(attributes.tangent, ids.tangent, "TANGENT", kKept);
     geometry.colors = source.readColors(attributes.color, ids.color);
     for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
-        geometry.uvs[set] =
-                source.read<float2>(attributes.uv[set], ids.uv[set], set == 0 ? "TEXCOORD_0" : "TEXCOORD_1");
+        const std::string name = fmt::format("TEXCOORD_{}", attributes.keptSets[set]);
+        geometry.uvs[set] = source.read<float2>(attributes.uv[set], ids.uv[set], name.c_str());
     }
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
         geometry.joints[set] =

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfParse.h"
 
+#include "base/NumberText.h"
 #include "filament_core/assets/files/JsonTree.h"
 #include "filament_core/assets/gltf/GltfPointer.h"
+#include "filament_core/assets/gltf/GltfUvSets.h"
 
 #include <cmath>
 #include <cstring>
@@ -141,6 +143,26 @@ GltfAccessor parseAccessor(JsonNode const& node, Counts const& counts) {
     return accessor;
 }
 
+/// Sets beyond the first two may be broken: most of them are not used.
+std::vector<uint32_t> parseUvSets(JsonNode const& node, size_t count, const char* what) {
+    constexpr std::string_view kPrefix = "TEXCOORD_";
+    constexpr uint32_t kMaxSets = 256;
+    std::vector<uint32_t> sets;
+    node.forEachMember([&](std::string const& name, JsonNode const& value) {
+        if (!name.starts_with(kPrefix)) return;
+        const uint32_t set = numberOf<uint32_t>(std::string_view(name).substr(kPrefix.size())).value_or(kMaxSets);
+        if (set >= kMaxSets) return;
+        Diagnostics found;
+        if (sets.size() <= set) sets.resize(set + 1, kNone);
+        sets[set] = value.reportingTo(found).index(count, what);
+        if (set < GltfAttributes::kUvSets)
+            node.diagnostics().merge(std::move(found));
+        else if (!found.ok())
+            node.diagnostics().warn("{}; the set is left out", found.error().message);
+    });
+    return sets;
+}
+
 GltfAttributes parseAttributes(JsonNode const& node, size_t count, const char* what) {
     GltfAttributes attributes;
     const auto read = [&](const char* name) { return node[name].index(count, what); };
@@ -148,7 +170,7 @@ GltfAttributes parseAttributes(JsonNode const& node, size_t count, const char* w
     attributes.normal = read("NORMAL");
     attributes.tangent = read("TANGENT");
     attributes.color = read("COLOR_0");
-    attributes.uv = { read("TEXCOORD_0"), read("TEXCOORD_1") };
+    attributes.uvSets = parseUvSets(node, count, what);
     attributes.joints = { read("JOINTS_0"), read("JOINTS_1") };
     attributes.weights = { read("WEIGHTS_0"), read("WEIGHTS_1") };
     return attributes;
@@ -546,8 +568,10 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     const JsonNode scene = findDefaultScene(root);
     document.roots = parseRoots(scene, document.nodes);
     document.imageBasedLight = parseGltfSceneLight(scene, document.imageBasedLights.size());
+    chooseUvSets(document);
     findUse(document);
     settleFaults(faults, document, diagnostics);
+    warnAboutUvSets(document, diagnostics);
     if (diagnostics.ok()) ForestCheck(document, diagnostics).check();
     if (diagnostics.ok()) markCoarserLevels(document.nodes, diagnostics);
     if (diagnostics.ok()) checkWeights(document.meshes, document.nodes, diagnostics);

@@ -75,11 +75,7 @@ GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
         info.hasTransform = info.uvTransform != float3x3(1.0f);
         uvSet = transform["texCoord"].integer(uvSet);
     }
-    if (uvSet >= GltfAttributes::kUvSets) {
-        node.diagnostics().warn("{}.texCoord: set {} is not read, set 0 is used instead", node.path(), uvSet);
-        uvSet = 0;
-    }
-    info.uvSet = static_cast<uint32_t>(uvSet);
+    info.uvSet = static_cast<uint32_t>(std::min<uint64_t>(uvSet, kNone - 1)); // GltfUvSets.h chooses among them
     return info;
 }
 

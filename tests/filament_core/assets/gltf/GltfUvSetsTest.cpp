@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any set of texture coordinates serves any map: a model is generated for each set and map, and for pairs of sets, and
+// must have what the same model has with the sets moved to 0 and 1.
+#include "filament_core/assets/gltf/AnimatedProperty.h"
+#include "tests/filament_core/assets/gltf/GltfTestFile.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace filament_core::assets::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr int kSets = 8;
+
+/// The coordinates of a set of the file: those of different sets are turned and scaled, so that tangents differ too.
+std::vector<float> setOfCoordinates(int set) {
+    const float s = 1 + static_cast<float>(set);
+    return set % 2 == 0 ? std::vector<float>{ 0, 0, s, 0, 0, s, s, s } : std::vector<float>{ 0, s, 0, 0, s, s, s, 0 };
+}
+
+/// A square with eight sets; `order[n]` is the content of TEXCOORD_n.
+TestFile fileWithSets(std::vector<int> const& order) {
+    TestFile file;
+    file.positions({ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 });
+    file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 });
+    for (size_t n = 0; n < order.size(); ++n) {
+        const std::string name = "TEXCOORD_" + std::to_string(n);
+        file.attribute(name.c_str(), setOfCoordinates(order[n]), kFloat, "VEC2", 2);
+    }
+    file.indices({ 0, 1, 2, 2, 1, 3 });
+    file.primitive()["material"] = 0;
+    file.root["textures"] = { { { "source", 0 } } };
+    file.root["images"] = { { { "uri",
+                                "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8B"
+                                "QDwAEhQGAhKmMIQAAAABJRU5ErkJggg==" } } };
+    file.root["materials"] = { Json::parse(R"({ "extensions": {
+        "KHR_materials_clearcoat": { "clearcoatFactor": 1 }, "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ] },
+        "KHR_materials_anisotropy": { "anisotropyStrength": 0.5 }, "KHR_materials_specular": {},
+        "KHR_materials_iridescence": { "iridescenceFactor": 1 }, "KHR_materials_volume": { "thicknessFactor": 1 },
+        "KHR_materials_transmission": { "transmissionFactor": 1 } } })") };
+    return file;
+}
+
+std::vector<int> inOrder() {
+    std::vector<int> order(kSets);
+    for (int i = 0; i < kSets; ++i) order[static_cast<size_t>(i)] = i;
+    return order;
+}
+
+void addMap(TestFile& file, std::string const& path, int set) {
+    file.root["materials"][0][Json::json_pointer("/" + path)] = { { "index", 0 }, { "texCoord", set } };
+}
+
+/// The coordinates of a map at the corners of the triangles.
+std::vector<float2> coordinatesOf(ModelData const& model, MapName map) {
+    MaterialData material = model.materials[0];
+    const bool isFirst = mapOf(material, map).uvSet == 0;
+    PrimitiveData const& primitive = model.meshes[0].primitives[0];
+    std::vector<float2> coordinates;
+    for (const uint32_t index : indicesOf(primitive))
+        coordinates.emplace_back(
+                vertexValue(primitive, isFirst ? shader::kAttributeUv0 : shader::kAttributeUv1, index));
+    return coordinates;
+}
+
+std::vector<float2> cornersOfSet(int set) {
+    const std::vector<float> values = setOfCoordinates(set);
+    std::vector<float2> corners;
+    for (const size_t i : { 0u, 1u, 2u, 2u, 1u, 3u }) corners.emplace_back(values[2 * i], values[2 * i + 1]);
+    return corners;
+}
+
+std::vector<float4> framesAtCorners(ModelData const& model) {
+    PrimitiveData const& primitive = model.meshes[0].primitives[0];
+    std::vector<float4> frames;
+    for (const uint32_t index : indicesOf(primitive))
+        frames.push_back(vertexValue(primitive, shader::kAttributeTangents, index));
+    return frames;
+}
+
+std::vector<TexturePath> mapsOfLayers() {
+    std::vector<TexturePath> maps;
+    for (TexturePath const& path : texturePaths()) {
+        // Transmission takes the place of the textures of diffuse transmission.
+        if (path.map != MapName::DiffuseTransmission) maps.push_back(path);
+    }
+    return maps;
+}
+
+TEST(GltfUvSets, AnySetServesAnyMap) {
+    for (TexturePath const& path : mapsOfLayers()) {
+        for (int set = 0; set < kSets; ++set) {
+            TestFile file = fileWithSets(inOrder());
+            addMap(file, path.path, set);
+            const ModelData model = loaded(file);
+            EXPECT_EQ(coordinatesOf(model, path.map), cornersOfSet(set)) << path.path << " " << set;
+            EXPECT_THAT(model.warnings, IsEmpty()) << path.path << " " << set;
+            if (set == 1) continue; // it has a place of its own
+
+            std::vector<int> swapped = inOrder();
+            std::swap(swapped[0], swapped[static_cast<size_t>(set)]);
+            TestFile other = fileWithSets(swapped);
+            addMap(other, path.path, 0);
+            const ModelData expected = loaded(other);
+            EXPECT_EQ(model.meshes[0].primitives[0].vertices, expected.meshes[0].primitives[0].vertices)
+                    << path.path << " " << set;
+            EXPECT_EQ(model.meshes[0].primitives[0].indices, expected.meshes[0].primitives[0].indices);
+        }
+    }
+}
+
+TEST(GltfUvSets, AnyPairOfSetsServesAPairOfMaps) {
+    for (int first = 0; first < kSets; ++first) {
+        for (int second = 0; second < kSets; ++second) {
+            if (first == second) continue;
+            TestFile file = fileWithSets(inOrder());
+            addMap(file, "pbrMetallicRoughness/baseColorTexture", first);
+            addMap(file, "normalTexture", second);
+            const ModelData model = loaded(file);
+            EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(first)) << first << " " << second;
+            EXPECT_EQ(coordinatesOf(model, MapName::Normal), cornersOfSet(second)) << first << " " << second;
+            EXPECT_THAT(model.warnings, IsEmpty());
+
+            TestFile other = fileWithSets({ first, second });
+            addMap(other, "pbrMetallicRoughness/baseColorTexture", 0);
+            addMap(other, "normalTexture", 1);
+            EXPECT_EQ(framesAtCorners(model), framesAtCorners(loaded(other))) << first << " " << second;
+        }
+    }
+}
+
+TEST(GltfUvSets, TheTransformOfATextureNamesItsSetToo) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "emissiveTexture", 1);
+    file.root["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"]["texCoord"] = 6;
+    EXPECT_EQ(coordinatesOf(loaded(file), MapName::Emissive), cornersOfSet(6));
+}
+
+TEST(GltfUvSets, MapsOfAThirdSetAreNamed) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 4);
+    addMap(file, "occlusionTexture", 2);
+    addMap(file, "emissiveTexture", 5);
+    const ModelData model = loaded(file);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(4));
+    EXPECT_EQ(coordinatesOf(model, MapName::Occlusion), cornersOfSet(2));
+    EXPECT_EQ(coordinatesOf(model, MapName::Emissive), cornersOfSet(4)) << "the first of the two";
+    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("materials[0]/emissiveTexture"), HasSubstr("TEXCOORD_5"))));
+}
+
+TEST(GltfUvSets, MapsThatAreNotDrawnTakeNoPlace) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "normalTexture", 2);
+    addMap(file, "occlusionTexture", 3);
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 7);
+    file.root["materials"][0]["extensions"] = { { "KHR_materials_unlit", Json::object() } };
+    const ModelData model = loaded(file);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(7));
+    EXPECT_THAT(model.warnings, IsEmpty());
+}
+
+TEST(GltfUvSets, MaterialsOfOnePrimitiveAgree) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 5);
+    file.root["materials"].push_back({ { "emissiveTexture", { { "index", 0 }, { "texCoord", 3 } } } });
+    file.root["extensions"]["KHR_materials_variants"]["variants"] = { { { "name", "a" } } };
+    file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] = { { { "material", 1 },
+                                                                               { "variants", { 0 } } } };
+    ModelData model = loaded(file);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(5));
+    std::swap(model.materials[0], model.materials[1]);
+    EXPECT_EQ(coordinatesOf(model, MapName::Emissive), cornersOfSet(3));
+}
+
+TEST(GltfUvSets, ASetThatAPrimitiveLacksIsItsFirst) {
+    TestFile file = fileWithSets({ 0, 1 });
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 4);
+    EXPECT_EQ(coordinatesOf(loaded(file), MapName::BaseColor), cornersOfSet(0));
+}
+
+TEST(GltfUvSets, UnusedSetsMayBeBroken) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 3);
+    file.primitive()["attributes"]["TEXCOORD_6"] = 99;
+    const ModelData model = loaded(file);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(3));
+    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("TEXCOORD_6: index 99"), HasSubstr("is left out"))));
+}
+
+} // namespace
+} // namespace filament_core::assets::test
