@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-view [MODEL] [options]: shows a model or a material in a window.
-// Exit status 0: the window was closed, or the frames of --frames were drawn, without an error.
+// Exit status 0: the window was closed, or all files of the scene were loaded and the frames of --frames or --frames-to
+// drawn, without an error.
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/view/app/RunViewer.h"

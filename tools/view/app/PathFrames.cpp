@@ -82,8 +82,9 @@ Document documentAt(PathRequest const& request, Stage const& stage, double secon
     return document;
 }
 
-/// The first thing that was said of a model or an environment that is not there.
+/// The first thing that was said of a file that is not there.
 Result<void> checkLoaded(Document const& document, Stage const& stage, std::vector<std::string> const& messages) {
+    if (stage.loadError()) return *stage.loadError();
     const bool isThere = document.model.file.empty() || stage.shownFile() == document.model.file;
     if (isThere) return {};
     return fail(ErrorCode::NotFound, "{}", messages.empty() ? "the model could not be loaded" : messages.front());

@@ -83,6 +83,12 @@ int drawFrames(ViewerOptions const& options) {
     return 0;
 }
 
+/// Of a run that ends by itself: whether its files could be loaded. At a window people see the message and go on.
+Result<void> checkLoaded(ViewerOptions const& options, Viewer& viewer) {
+    if (options.frames == 0 || viewer.isClosed() || !viewer.stage().loadError()) return {};
+    return *viewer.stage().loadError();
+}
+
 /// Tells of frames, and prints what happened.
 class Loop {
 public:
@@ -140,8 +146,11 @@ private:
         mWindow.setFullScreen(mIsFullScreen);
     }
 
+    /// The error of a load is the last line of a run that ends by itself.
     void printMessages() {
-        for (std::string const& message : mViewer.takeMessages()) tools::printWarning(message);
+        const Result<void> loaded = checkLoaded(mOptions, mViewer);
+        for (std::string const& message : mViewer.takeMessages())
+            if (loaded || message != loaded.error().message) tools::printWarning(message);
     }
 
     /// When a frame came into the window, at most a step late.
@@ -191,6 +200,7 @@ Result<void> show(ViewerOptions const& options) {
         (*viewer)->panels().state.path.path = (*viewer)->document().paths.size() - 1;
     const tools::StopOnInterrupt tidily;
     Loop(options, **window, **viewer, begin).run();
+    if (Result<void> loaded = checkLoaded(options, **viewer); !loaded) return loaded;
     if (options.screenshot.empty()) return {};
     const Result<Image> image = (*viewer)->screenshot();
     if (!image) return image.error();

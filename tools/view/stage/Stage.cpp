@@ -91,6 +91,7 @@ struct Stage::Impl {
 
     StageOptions options;
     Messages messages;
+    std::optional<Error> loadError; ///< the first one
     Abandoned abandoned;
     std::optional<Engine> own;
     Engine& engine;
@@ -139,10 +140,12 @@ void Stage::Impl::startLoads(bool again) {
 /// A finished load takes the place of what was there, or says why it does not.
 template <class SlotType>
 void Stage::Impl::finish(SlotType& slot, Result<typename std::remove_reference_t<decltype(*slot.value())>>&& result) {
-    if (result)
+    if (result) {
         slot.value() = std::move(*result);
-    else if (result.error().code != ErrorCode::Cancelled)
+    } else if (result.error().code != ErrorCode::Cancelled) {
+        if (!loadError) loadError = result.error();
         messages.add(result.error().message);
+    }
 }
 
 void Stage::Impl::pollModel() {
@@ -400,6 +403,8 @@ std::vector<std::string> Stage::takeMessages() {
     for (std::string& error : mImpl->engine.takeErrors()) lines.push_back(std::move(error));
     return lines;
 }
+
+std::optional<Error> const& Stage::loadError() const { return mImpl->loadError; }
 
 uint64_t Stage::generation() const { return mImpl->generation; }
 Engine& Stage::engine() { return mImpl->engine; }

@@ -88,6 +88,8 @@ public:
     /// What went wrong or needs to be known since the last call: failed loads with file and reason, edits that name
     /// what the file does not have, warnings of a loaded model, errors of the device.
     std::vector<std::string> takeMessages();
+    /// Of the first model, environment, look or dirt that could not be loaded, also in takeMessages().
+    std::optional<Error> const& loadError() const;
 
     // ---- what is drawn now, for panels and picking
 

@@ -11,6 +11,9 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <utility>
+
 namespace filament_core::view {
 namespace {
 
@@ -95,6 +98,28 @@ TEST_F(RunViewer, OpensPanelsAndRemembersItsModel) {
     EXPECT_TRUE(loadImage(picture).ok());
     EXPECT_THAT(RecentFiles(recentFilesPath()).files(), testing::ElementsAre(showcaseFiles().model));
     EXPECT_FALSE(fs::exists(recentFilesPath().replace_filename("last.json"))) << "nothing was edited";
+}
+
+TEST_F(RunViewer, FilesThatCannotBeLoadedAreAStatus) {
+    const auto write = [&](const char* name) {
+        std::ofstream(folder / name) << "nothing";
+        return (folder / name).string();
+    };
+    const std::string model = write("broken.glb"), sky = write("broken.hdr");
+    const auto server = test::VirtualDisplay::start();
+    const test::ScopedVariable display("DISPLAY", server ? server->name() : "");
+    const test::ScopedVariable stateHome("XDG_STATE_HOME", (folder / "state").string());
+    for (size_t word : { 0u, 2u }) {
+        const std::string whole = std::exchange(words[word], word == 0 ? model : sky);
+        const char* name = word == 0 ? "broken.glb" : "broken.hdr";
+        EXPECT_EQ(statusOf(with({ "--size", "64x36", "--frames-to", (folder / "frames").string() }), error), 1) << name;
+        EXPECT_THAT(error, testing::HasSubstr(name));
+        if (server) {
+            EXPECT_EQ(statusOf(with({ "--size", "320x200", "--frames", "2" }), error), 1) << name;
+            EXPECT_THAT(error, testing::HasSubstr(name));
+        }
+        words[word] = whole;
+    }
 }
 
 TEST_F(RunViewer, FailuresAreOneLineAndAStatus) {
