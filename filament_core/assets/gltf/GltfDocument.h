@@ -38,15 +38,16 @@ struct GltfBuffer {
 };
 
 enum class MeshoptMode : uint8_t { Attributes, Triangles, Indices };
-enum class MeshoptFilter : uint8_t { None, Octahedral, Quaternion, Exponential };
+enum class MeshoptFilter : uint8_t { None, Octahedral, Quaternion, Exponential, Color };
 
-/// EXT_meshopt_compression: the actual location of a view's bytes.
+/// EXT_meshopt_compression or KHR_meshopt_compression: the actual location of a view's bytes.
 struct MeshoptSource {
     uint32_t buffer = kNone;
     uint64_t byteOffset = 0, byteLength = 0;
     uint64_t byteStride = 0, count = 0;
     MeshoptMode mode = MeshoptMode::Attributes;
     MeshoptFilter filter = MeshoptFilter::None;
+    bool isKhr = false; ///< which of the two extensions
 };
 
 struct GltfBufferView {

@@ -13,8 +13,9 @@ constexpr auto kRatified = GltfExtensionState::Ratified, kReleaseCandidate = Glt
 
 constexpr std::array kExtensions{
     GltfExtension{ "KHR_draco_mesh_compression", kRatified, "meshes compressed by Draco" },
-    GltfExtension{ "EXT_meshopt_compression", kRatified, "buffers compressed by meshoptimizer" },
-    GltfExtension{ "KHR_meshopt_compression", kReleaseCandidate, "the same, as Khronos standardised it" },
+    GltfExtension{ "EXT_meshopt_compression", kRatified, "buffers compressed by meshoptimizer, codec version 0" },
+    GltfExtension{ "KHR_meshopt_compression", kReleaseCandidate,
+                   "buffers compressed by meshoptimizer, codec versions 0 and 1, with filtered colours" },
     GltfExtension{ "KHR_mesh_quantization", kRatified,
                    "positions, normals and texture coordinates as 8- and 16-bit integers" },
     GltfExtension{ "KHR_texture_transform", kRatified, "textures are moved, turned and scaled, each on its own" },

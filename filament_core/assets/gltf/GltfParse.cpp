@@ -89,8 +89,11 @@ GltfBuffer parseBuffer(JsonNode const& node) {
 }
 
 std::optional<MeshoptSource> parseMeshopt(JsonNode const& view, Counts const& counts) {
-    JsonNode node = view.extension("EXT_meshopt_compression");
-    if (!node.exists()) node = view.extension("KHR_meshopt_compression"); // the same stream format
+    const JsonNode khr = view.extension("KHR_meshopt_compression"), ext = view.extension("EXT_meshopt_compression");
+    if (khr.exists() && ext.exists()) {
+        view.diagnostics().warn("{}: EXT_meshopt_compression is ignored beside KHR_meshopt_compression", view.path());
+    }
+    JsonNode const& node = khr.exists() ? khr : ext;
     if (!node.exists()) return std::nullopt;
     return MeshoptSource{
         .buffer = node["buffer"].requiredIndex(counts.buffers, "buffers"),
@@ -99,8 +102,9 @@ std::optional<MeshoptSource> parseMeshopt(JsonNode const& view, Counts const& co
         .byteStride = node["byteStride"].requiredInteger(),
         .count = node["count"].requiredInteger(),
         .mode = enumFromText(node["mode"], std::array{ "ATTRIBUTES", "TRIANGLES", "INDICES" }, MeshoptMode::Attributes),
-        .filter = enumFromText(node["filter"], std::array{ "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" },
+        .filter = enumFromText(node["filter"], std::array{ "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR" },
                                MeshoptFilter::None),
+        .isKhr = khr.exists(),
     };
 }
 

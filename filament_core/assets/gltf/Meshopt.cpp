@@ -1,58 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/Meshopt.h"
 
-#include <meshoptimizer.h>
+#include "filament_core/assets/gltf/MeshoptStreams.h"
 
 namespace filament_core::assets {
 namespace {
 
-/// The rules of the extension's section "Specifying compressed views".
-bool isAllowed(MeshoptSource const& source) {
+/// Which rule of the extension's section "JSON schema updates" the description breaks; empty if none.
+std::string brokenRule(MeshoptSource const& source) {
     const uint64_t stride = source.byteStride;
-    switch (source.mode) {
-    case MeshoptMode::Attributes:
-        break;
-    case MeshoptMode::Triangles:
-        return (stride == 2 || stride == 4) && source.count % 3 == 0 && source.filter == MeshoptFilter::None;
-    case MeshoptMode::Indices:
-        return (stride == 2 || stride == 4) && source.filter == MeshoptFilter::None;
+    if (source.mode != MeshoptMode::Attributes) {
+        if (source.filter != MeshoptFilter::None) return "only the mode ATTRIBUTES has filters";
+        if (stride != 2 && stride != 4) return fmt::format("the byteStride of indices must be 2 or 4, not {}", stride);
+        if (source.mode == MeshoptMode::Triangles && source.count % 3 != 0) {
+            return fmt::format("the count of TRIANGLES must be divisible by 3, {} is not", source.count);
+        }
+        return {};
     }
-    if (stride == 0 || stride > 256 || stride % 4 != 0) return false;
+    if (stride == 0 || stride > 256 || stride % 4 != 0) {
+        return fmt::format("the byteStride of ATTRIBUTES must be a multiple of 4 from 4 to 256, not {}", stride);
+    }
     switch (source.filter) {
     case MeshoptFilter::Octahedral:
-        return stride == 4 || stride == 8;
+    case MeshoptFilter::Color:
+        if (stride != 4 && stride != 8) return fmt::format("this filter needs a byteStride of 4 or 8, not {}", stride);
+        break;
     case MeshoptFilter::Quaternion:
-        return stride == 8;
+        if (stride != 8) return fmt::format("the filter QUATERNION needs a byteStride of 8, not {}", stride);
+        break;
     default:
-        return true;
+        break;
     }
+    if (source.filter == MeshoptFilter::Color && !source.isKhr) {
+        return "the filter COLOR needs KHR_meshopt_compression instead of EXT_meshopt_compression";
+    }
+    return {};
 }
 
-int decode(MeshoptSource const& source, std::span<const std::byte> bytes, std::vector<std::byte>& out) {
-    auto const* data = reinterpret_cast<const unsigned char*>(bytes.data());
+std::string_view decodeStream(MeshoptSource const& source, std::span<const std::byte> bytes, std::span<std::byte> out) {
     switch (source.mode) {
     case MeshoptMode::Triangles:
-        return meshopt_decodeIndexBuffer(out.data(), source.count, source.byteStride, data, bytes.size());
+        return decodeMeshoptTriangles(bytes, source.byteStride, out);
     case MeshoptMode::Indices:
-        return meshopt_decodeIndexSequence(out.data(), source.count, source.byteStride, data, bytes.size());
+        return decodeMeshoptIndices(bytes, source.byteStride, out);
     default:
-        return meshopt_decodeVertexBuffer(out.data(), source.count, source.byteStride, data, bytes.size());
-    }
-}
-
-void applyFilter(MeshoptSource const& source, std::vector<std::byte>& out) {
-    switch (source.filter) {
-    case MeshoptFilter::None:
-        break;
-    case MeshoptFilter::Octahedral:
-        meshopt_decodeFilterOct(out.data(), source.count, source.byteStride);
-        break;
-    case MeshoptFilter::Quaternion:
-        meshopt_decodeFilterQuat(out.data(), source.count, source.byteStride);
-        break;
-    case MeshoptFilter::Exponential:
-        meshopt_decodeFilterExp(out.data(), source.count, source.byteStride);
-        break;
+        return decodeMeshoptAttributes(bytes, source.isKhr ? 1 : 0, source.byteStride, source.count, out);
     }
 }
 
@@ -61,8 +53,8 @@ void applyFilter(MeshoptSource const& source, std::vector<std::byte>& out) {
 std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<const std::byte> bytes,
                                      std::string_view path, Diagnostics& diagnostics) {
     constexpr uint64_t kMaxRatio = 2048, kMaxCount = uint64_t{ 1 } << 31;
-    if (!isAllowed(source)) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}: the meshopt stride, count and filter do not match", path);
+    if (const std::string rule = brokenRule(source); !rule.empty()) {
+        diagnostics.refuse(ErrorCode::Corrupt, "{}: {}", path, rule);
         return {};
     }
     if (source.count > kMaxCount || source.count * source.byteStride > bytes.size() * kMaxRatio) {
@@ -71,12 +63,12 @@ std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<cons
         return {};
     }
     std::vector<std::byte> out(source.count * source.byteStride);
-    if (const int status = decode(source, bytes, out); status != 0) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}: the meshopt stream is broken or newer than codec version 0 ({})",
-                           path, status);
+    if (const std::string_view reason = decodeStream(source, bytes, out); !reason.empty()) {
+        diagnostics.refuse(ErrorCode::Corrupt, "{}: the meshopt stream is broken: {}; compress the model again", path,
+                           reason);
         return {};
     }
-    applyFilter(source, out);
+    applyMeshoptFilter(source.filter, source.byteStride, out);
     return out;
 }
 

@@ -39,7 +39,8 @@ inline bool fuzzMeshopt(std::span<const std::byte, 4> head, std::span<const std:
     const MeshoptSource source{ .byteStride = static_cast<uint32_t>(head[1]) + 1,
                                 .count = static_cast<uint32_t>(head[2]) << 8 | static_cast<uint32_t>(head[3]),
                                 .mode = static_cast<MeshoptMode>(static_cast<uint32_t>(head[0]) % 3),
-                                .filter = static_cast<MeshoptFilter>(static_cast<uint32_t>(head[0]) / 3 % 4) };
+                                .filter = static_cast<MeshoptFilter>(static_cast<uint32_t>(head[0]) / 3 % 5),
+                                .isKhr = true };
     Diagnostics diagnostics;
     const std::vector<std::byte> out = decodeMeshopt(source, stream, "fuzzed", diagnostics);
     if (!diagnostics.ok()) {
