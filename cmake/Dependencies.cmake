@@ -13,7 +13,6 @@ find_package(SPIRV-Tools-opt REQUIRED)
 find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
 find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
 find_package(nlohmann_json REQUIRED)
-find_package(meshoptimizer REQUIRED)
 find_package(draco REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
@@ -54,7 +53,7 @@ target_link_libraries(spirv_validator INTERFACE SPIRV-Tools-static)
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer draco::draco PNG::PNG JPEG::JPEG ZLIB::ZLIB
+    nlohmann_json::nlohmann_json draco::draco PNG::PNG JPEG::JPEG ZLIB::ZLIB
     PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
 # The reference renderer's ray tracer, version 4 or 3. Its CMake package requires TBB's headers, which are not needed here.

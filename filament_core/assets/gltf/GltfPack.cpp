@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/Hash.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/geometry/TangentFrame.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
 #include "shaders/interface/ShaderInterface.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -175,17 +175,31 @@ void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
     }
 }
 
-/// Merges equal vertices of unindexed geometry, where they are common.
+/// Merges equal vertices of unindexed geometry, where they are common, in the order of their first use. `table` is a
+/// hash table with open addressing, at most half full.
 void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive) {
     const size_t stride = primitive.layout.buffers[0].stride;
-    std::vector<uint32_t> remap(primitive.vertexCount);
-    const size_t unique = meshopt_generateVertexRemap(remap.data(), nullptr, primitive.vertexCount,
-                                                      primitive.vertices.data(), primitive.vertexCount, stride);
-    std::vector<std::byte> vertices(unique * stride);
-    meshopt_remapVertexBuffer(vertices.data(), primitive.vertices.data(), primitive.vertexCount, stride, remap.data());
+    std::vector<uint32_t> remap(primitive.vertexCount),
+            table(std::bit_ceil(size_t{ primitive.vertexCount } * 2), kNone);
+    uint32_t unique = 0;
+    for (uint32_t i = 0; i < primitive.vertexCount; ++i) {
+        const std::byte* vertex = &primitive.vertices[i * stride];
+        size_t slot = hashBytes({ vertex, stride });
+        while (true) {
+            uint32_t& entry = table[slot++ & (table.size() - 1)];
+            if (entry == kNone) { // kept vertices move to the front, into the place of one that is not needed any more
+                entry = unique++;
+                std::memmove(&primitive.vertices[entry * stride], vertex, stride);
+            } else if (std::memcmp(&primitive.vertices[entry * stride], vertex, stride) != 0) {
+                continue;
+            }
+            remap[i] = entry;
+            break;
+        }
+    }
     for (uint32_t& index : indices) index = remap[index];
-    primitive.vertices = std::move(vertices);
-    primitive.vertexCount = static_cast<uint32_t>(unique);
+    primitive.vertices.resize(unique * stride);
+    primitive.vertexCount = unique;
 }
 
 struct SkinOffsets {
