@@ -50,7 +50,7 @@ private:
             for (auto const& element : value) add(element);
         } else {
             static_assert(HasFields<T>, "a field of a type that hashes do not know");
-            visitFields(value, [this](const char*, auto const& field) { add(field); });
+            visitFields(value, [this](const char*, auto const& field) { this->add(field); });
         }
     }
 

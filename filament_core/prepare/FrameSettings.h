@@ -36,8 +36,6 @@ struct FrameSettings {
         return tracksMotion || (effects.screenSpaceReflections.enabled && counts.reflectiveDraws > 0);
     }
     bool isTranslucent() const { return viewport && viewport->blending == ViewBlending::Translucent; }
-
-    friend bool operator==(FrameSettings const&, FrameSettings const&) = default;
 };
 
 /// `effects`: those of the view, within their ranges, with the share of its pixels that there is time for. `contents`:

@@ -143,13 +143,13 @@ TextureSet checkerTextures(uint32_t size) {
 }
 
 TextureSet dimpleTextures(uint32_t size) {
-    constexpr float kColumns = 8, kRows = 8;
+    constexpr float kDimpleColumns = 8, kDimpleRows = 8;
     TextureSet set;
     set.normal = paintNormals(size, [](float2 uv) {
         const float2 wrapped = wrapUnit(uv);
-        const float row = std::floor(wrapped.y * kRows);
-        const float shifted = wrapped.x * kColumns + (static_cast<int>(row) % 2 ? 0.5f : 0.0f);
-        const float2 cell{ shifted - std::floor(shifted) - 0.5f, wrapped.y * kRows - row - 0.5f };
+        const float row = std::floor(wrapped.y * kDimpleRows);
+        const float shifted = wrapped.x * kDimpleColumns + (static_cast<int>(row) % 2 ? 0.5f : 0.0f);
+        const float2 cell{ shifted - std::floor(shifted) - 0.5f, wrapped.y * kDimpleRows - row - 0.5f };
         const float fromRim = 1 - glm::min(length(cell) / 0.46f, 1.0f);
         return -0.045f * glm::smoothstep(0.0f, 0.8f, fromRim);
     });
