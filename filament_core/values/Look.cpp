@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace filament_core {
 namespace {
@@ -38,20 +39,25 @@ float3 inCube(Look const& look, std::array<Place, 3> const& places) {
     return color;
 }
 
-} // namespace
-
-float3 lookedUp(Look const& look, float3 color) {
-    std::array<Place, 3> places;
-    for (int c = 0; c < 3; ++c)
-        places[static_cast<size_t>(c)] = placeOf(color[c], look.domainMin[c], look.domainMax[c], look.size);
-    if (look.isCube) return inCube(look, places);
+float3 inCurve(std::vector<float3> const& entries, float3 least, float3 most, float3 color) {
     float3 result;
     for (int c = 0; c < 3; ++c) {
-        auto const& [index, fraction] = places[static_cast<size_t>(c)];
-        const float low = look.entries[index][c], high = look.entries[index + 1][c];
+        const auto [index, fraction] = placeOf(color[c], least[c], most[c], static_cast<uint32_t>(entries.size()));
+        const float low = entries[index][c], high = entries[index + 1][c];
         result[c] = low + (high - low) * fraction;
     }
     return result;
+}
+
+} // namespace
+
+float3 lookedUp(Look const& look, float3 color) {
+    if (!look.isCube) return inCurve(look.entries, look.domainMin, look.domainMax, color);
+    if (!look.shaper.empty()) color = inCurve(look.shaper, look.shaperMin, look.shaperMax, color);
+    std::array<Place, 3> places;
+    for (int c = 0; c < 3; ++c)
+        places[static_cast<size_t>(c)] = placeOf(color[c], look.domainMin[c], look.domainMax[c], look.size);
+    return inCube(look, places);
 }
 
 } // namespace filament_core

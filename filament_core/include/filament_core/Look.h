@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Look: a colour table of another program, a .cube file (Adobe, "Cube LUT Specification" 1.0), for
-/// DisplayTransform::look. An immutable value: views share it.
+/// Look: a colour table of another program, a .cube file (Adobe, "Cube LUT Specification" 1.0, and what DaVinci Resolve
+/// adds to it), for DisplayTransform::look. An immutable value: views share it.
 ///   Meaning  sRGB display values in and out, after the tone mapper; any other output space is encoded from its result.
 ///   Limits   2 to 65536 entries of a 1D table, 2 to 128 a side of a 3D table; finite numbers within 1e10.
 ///   Memory   12 B an entry. Engines keep the tables that they bake of it, and the look with them.
@@ -27,6 +27,10 @@ struct Look {
     uint32_t size = 0;
     float3 domainMin{ 0 }, domainMax{ 1 }; ///< the inputs of the first and the last entry
     std::vector<float3> entries;
+    /// A curve per component that colours pass before the cube, 2 to 65536 entries; empty: none. With one, domainMin
+    /// and domainMax are the same in every component.
+    std::vector<float3> shaper{};
+    float3 shaperMin{ 0 }, shaperMax{ 1 }; ///< the inputs of its first and its last entry
     friend bool operator==(Look const&, Look const&) = default;
 };
 
