@@ -2,6 +2,7 @@
 // The format is that of LM-63; Ashdown 1999, "Parsing the IESNA LM-63 Photometric Data File", for its older editions.
 #include "filament_core/assets/tables/IesFile.h"
 
+#include "base/AsciiCase.h"
 #include "base/NumberText.h"
 #include "base/math/Elementary.h"
 
@@ -10,6 +11,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace filament_core::assets {
 namespace {
@@ -115,12 +117,35 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+/// Whether the second ballast factor of files with this first line counts: in the editions of 1986, which has no line
+/// of its own, and 1991, "IESNA91". Later ones begin with "IESNA:LM-63-1995" or "IES:LM-63-2019"; programs vary case,
+/// blanks and punctuation.
+bool isOldEdition(std::string_view line) {
+    std::string letters = lowerCase(line);
+    std::erase_if(letters, [](char c) { return (c < 'a' || c > 'z') && (c < '0' || c > '9'); });
+    for (const std::string_view name : { "iesnalm63", "ieslm63" }) {
+        if (!letters.starts_with(name)) continue;
+        const std::string_view year = std::string_view(letters).substr(name.size());
+        return year.starts_with("1986") || year.starts_with("1991");
+    }
+    return true;
+}
+
+/// What follows "TILT=", if the line is of this form.
+std::optional<std::string> tiltOf(std::string_view line) {
+    if (!lowerCase(line.substr(0, 4)).starts_with("tilt")) return std::nullopt;
+    const std::string_view rest = trimmed(line.substr(4));
+    if (!rest.starts_with('=')) return std::nullopt;
+    return std::string(trimmed(rest.substr(1)));
+}
+
 /// Up to TILT=...; returns what follows it. `isOld`: editions whose second ballast factor counts.
 std::string readHeader(IesText& text, bool& isOld) {
-    const std::string_view first = trimmed(text.line());
-    isOld = !first.starts_with("IESNA:LM-63-") && !first.starts_with("IES:LM-63-");
-    for (std::string_view line = first;; line = trimmed(text.line())) {
-        if (line.starts_with("TILT=")) return std::string(trimmed(line.substr(5)));
+    std::string_view line = trimmed(text.line());
+    while (line.empty() && !text.atEnd()) line = trimmed(text.line());
+    isOld = isOldEdition(line);
+    for (;; line = trimmed(text.line())) {
+        if (const std::optional<std::string> tilt = tiltOf(line)) return *tilt;
         if (!text.atEnd()) continue;
         text.refuse(ErrorCode::Corrupt, "there is no line 'TILT=': this is not a photometric file of LM-63");
         return {};
@@ -129,8 +154,10 @@ std::string readHeader(IesText& text, bool& isOld) {
 
 /// The factor of a luminaire that is not tilted.
 double readTilt(IesText& text, std::string const& tilt) {
-    if (tilt == "NONE") return 1;
-    if (tilt != "INCLUDE") {
+    const std::string word = lowerCase(tilt);
+    if (word == "none") return 1;
+    if (word.empty()) text.refuse(ErrorCode::Corrupt, "TILT= names nothing; expected TILT=NONE or TILT=INCLUDE");
+    if (word != "include") {
         text.refuse(ErrorCode::Unsupported, "TILT={} names another file; put its data into this one with TILT=INCLUDE",
                     IesText::printable(tilt));
         return 1;
@@ -178,14 +205,14 @@ bool isNear(double a, double b) { return std::abs(a - b) <= kAngleSlack; }
 
 void checkEnds(IesText& text, IesFile const& file) {
     const double first = file.horizontal.front(), last = file.horizontal.back();
+    const bool isSingle = file.horizontal.size() == 1;
     if (file.type != IesType::C) {
-        const bool isKnown = (isNear(first, 0) || isNear(first, -last)) && last > 0;
-        if (file.horizontal.size() > 1 && isKnown) return;
+        if (isSingle || ((isNear(first, 0) || first < 0) && last > 0)) return;
         return text.refuse(ErrorCode::Unsupported,
-                           "horizontal angles from {} to {} are no symmetry of types A and B: expected 0 or -90 to 90",
+                           "horizontal angles from {} to {} are no symmetry of types A and B: expected one alone, 0 to "
+                           "90, or -90 to 90",
                            first, last);
     }
-    const bool isSingle = file.horizontal.size() == 1;
     const bool isQuarterOrHalf = isNear(first, 0) && (isNear(last, 90) || isNear(last, 180));
     const bool isSideways = isNear(first, 90) && isNear(last, 270); // LM-63-1995
     const bool isWhole = isNear(first, 0) && last > 180 + kAngleSlack;
@@ -271,6 +298,29 @@ IesAngles anglesOf(IesType type, double3 const& d) {
              elementary::atan2(-d.y, elementary::hypot(d.x, forward)) * kDegrees };
 }
 
+/// Types A and B with one horizontal angle measured one plane through the axis, in which angles mean what those of type
+/// C do: the luminaire is taken as one of revolution. Below zero lies the other half of the plane.
+void turnAroundAxis(IesFile& file) {
+    const std::vector<double> angles = std::exchange(file.vertical, {});
+    const std::vector<float> candelas = std::exchange(file.candelas, {});
+    for (const double angle : angles) file.vertical.push_back(std::abs(angle));
+    if (angles.front() < 0 && angles.back() > 0) file.vertical.push_back(0);
+    std::ranges::sort(file.vertical);
+    const auto last = std::unique(file.vertical.begin(), file.vertical.end());
+    file.vertical.erase(last, file.vertical.end());
+    file.type = IesType::C;
+    file.horizontal = angles.front() < 0 ? std::vector<double>{ 0, 180 } : std::vector<double>{ 0 };
+    for (const double side : { 1.0, -1.0 }) {
+        if (side < 0 && file.horizontal.size() == 1) break;
+        for (const double angle : file.vertical) {
+            const std::optional<Span> at = find(angles, side * angle);
+            const auto candela = [&](size_t i) { return static_cast<double>(candelas[i]); };
+            const double value = at ? candela(at->first) + (candela(at->next) - candela(at->first)) * at->weight : 0.0;
+            file.candelas.push_back(static_cast<float>(value));
+        }
+    }
+}
+
 } // namespace
 
 double IesFile::candelasAt(double3 const& direction) const {
@@ -292,7 +342,9 @@ Result<IesFile> readIes(std::span<const std::byte> bytes, std::string_view name)
     if (bytes.size() > kMaxIesBytes)
         return fail(ErrorCode::Unsupported, "{}: {} bytes are more than {} MiB", name, bytes.size(),
                     kMaxIesBytes >> 20);
-    IesText text({ reinterpret_cast<const char*>(bytes.data()), bytes.size() }, name);
+    std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (content.starts_with("\xEF\xBB\xBF")) content.remove_prefix(3); // a byte order mark
+    IesText text(content, name);
     IesFile file;
     bool isOld = false;
     const std::string tilt = readHeader(text, isOld);
@@ -306,6 +358,7 @@ Result<IesFile> readIes(std::span<const std::byte> bytes, std::string_view name)
     if (text.ok()) checkEnds(text, file);
     if (text.ok()) readCandelas(text, file, factor);
     if (!text.ok()) return text.error();
+    if (file.type != IesType::C && file.horizontal.size() == 1) turnAroundAxis(file);
     return file;
 }
 

@@ -3,7 +3,8 @@
 /// 2002 and 2019.
 ///   In      the bytes of a file.   Out: candelas over a grid of angles.
 ///   Read    photometric types A, B and C; any symmetry; angles at any distances; TILT=NONE and TILT=INCLUDE, of which
-///           the factor of an untilted luminaire counts. Keywords, lamps, sizes and watts are not used.
+///           the factor of an untilted luminaire counts. Types A and B with one horizontal angle become type C: a
+///           luminaire of revolution. Keywords, lamps, sizes and watts are not used.
 ///   Units   degrees; candelas, times the multiplier and ballast factors of the file.
 ///   Limits  16 MiB; 8192 angles each way and 2^20 candelas; 1e9 cd.
 ///   Fails   Corrupt, Unsupported: name, line, what was found, what was expected.
