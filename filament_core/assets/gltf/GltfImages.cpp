@@ -59,7 +59,7 @@ void readImage(GltfDocument const& document, GltfFolder const& folder, GltfImage
 
 std::string imageName(GltfDocument const& document, uint32_t image) {
     std::string const& uri = document.images[image].uri;
-    const bool isFile = !uri.empty() && !uri.starts_with("data:");
+    const bool isFile = !uri.empty() && !isDataUri(uri);
     return isFile ? fmt::format("images[{}] {}", image, uri) : fmt::format("images[{}]", image);
 }
 

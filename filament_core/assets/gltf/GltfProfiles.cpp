@@ -10,7 +10,7 @@ namespace {
 constexpr size_t kMaxProfiles = 1024, kMaxProfileBytes = size_t{ 64 } << 20;
 
 std::string profileName(GltfProfile const& profile, uint32_t index) {
-    const bool isFile = !profile.uri.empty() && !profile.uri.starts_with("data:");
+    const bool isFile = !profile.uri.empty() && !isDataUri(profile.uri);
     return isFile ? fmt::format("EXT_lights_ies.lights[{}] {}", index, profile.uri)
                   : fmt::format("EXT_lights_ies.lights[{}]", index);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfUri.h"
 
+#include "base/AsciiCase.h"
+
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -42,16 +44,24 @@ constexpr std::array<int8_t, 256> base64Values() {
     return values;
 }
 
+bool isUriBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
+
+/// Line breaks and blanks, which encoders of MIME and editors put in, count for nothing, and padding ends the data.
 Result<std::vector<std::byte>> base64Decoded(std::string_view text) {
     static constexpr std::array<int8_t, 256> kValues = base64Values();
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+    std::string decoded; // percent-encoded: "+", "/" and "=" are reserved in a URI
+    if (text.find('%') != std::string_view::npos) text = decoded = percentDecoded(text);
+    while (!text.empty() && (text.back() == '=' || isUriBlank(text.back()))) text.remove_suffix(1);
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() / 4 * 3 + 2);
     uint32_t bits = 0, count = 0;
-    for (const char c : text) {
-        const int8_t value = kValues[static_cast<uint8_t>(c)];
-        if (value < 0) return fail(ErrorCode::Corrupt, "the data URI holds a character that is not base64");
-        bits = bits << 6 | static_cast<uint32_t>(value);
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (isUriBlank(text[i])) continue;
+        const auto code = static_cast<uint8_t>(text[i]);
+        if (kValues[code] < 0)
+            return fail(ErrorCode::Corrupt,
+                        "the data URI holds a character that is not base64 (code {} at {}); encode it again", code, i);
+        bits = bits << 6 | static_cast<uint32_t>(kValues[code]);
         count += 6;
         if (count < 8) continue;
         count -= 8;
@@ -60,10 +70,26 @@ Result<std::vector<std::byte>> base64Decoded(std::string_view text) {
     return bytes;
 }
 
+std::string_view withoutUriBlanks(std::string_view text) {
+    while (!text.empty() && isUriBlank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isUriBlank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+/// "base64" is the last parameter (RFC 2397); some writers let a charset follow it.
+bool saysBase64(std::string_view mediaType) {
+    for (size_t at = mediaType.find(';'); at != std::string_view::npos; at = mediaType.find(';')) {
+        mediaType.remove_prefix(at + 1);
+        if (lowerCase(withoutUriBlanks(mediaType.substr(0, mediaType.find(';')))) == "base64") return true;
+    }
+    return false;
+}
+
 Result<std::vector<std::byte>> dataUriBytes(std::string_view uri) {
     const size_t comma = uri.find(',');
-    if (comma == std::string_view::npos) return fail(ErrorCode::Corrupt, "the data URI has no comma");
-    if (uri.substr(0, comma).ends_with(";base64")) return base64Decoded(uri.substr(comma + 1));
+    if (comma == std::string_view::npos)
+        return fail(ErrorCode::Corrupt, "the data URI has no comma before its data; write data:;base64,...");
+    if (saysBase64(uri.substr(0, comma))) return base64Decoded(uri.substr(comma + 1));
     const std::string text = percentDecoded(uri.substr(comma + 1));
     auto const* first = reinterpret_cast<const std::byte*>(text.data());
     return std::vector<std::byte>(first, first + text.size());
@@ -75,6 +101,11 @@ bool hasScheme(std::string_view uri) {
 }
 
 } // namespace
+
+bool isDataUri(std::string_view uri) {
+    constexpr std::string_view kScheme = "data:";
+    return lowerCase(withoutUriBlanks(uri).substr(0, kScheme.size())) == kScheme;
+}
 
 Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {
     std::error_code code;
@@ -94,7 +125,7 @@ Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {
 }
 
 Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder const& folder) {
-    if (uri.starts_with("data:")) return dataUriBytes(uri);
+    if (isDataUri(uri)) return dataUriBytes(uri);
     if (hasScheme(uri)) {
         return fail(ErrorCode::Unsupported, "'{}' is not a file beside the model; store it there", uri.substr(0, 80));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfUri: reads the bytes that a URI of a glTF file refers to.
-///   In      "data:...;base64,..." or a relative reference (RFC 3986, percent-encoded) and the folder of the model.
+///   In      "data:...;base64,..." (RFC 2397) or a relative reference (RFC 3986, percent-encoded) and the folder of the
+///           model. Base64 may be wrapped, percent-encoded, without padding, or in the alphabet for URLs.
 ///   Safety  models are untrusted: only regular files inside the model's folder are opened, unless GltfFolder::from
 ///           allows more. Absolute paths, ".." and links that leave the folder, and URIs with a scheme (http:, file:)
 ///           are errors.
@@ -34,6 +35,9 @@ struct GltfFolder {
     FilesFrom from;
     GltfResolver resolve; ///< replaces the file system
 };
+
+/// Whether it holds its bytes itself. Schemes have no case (RFC 3986, 3.1).
+bool isDataUri(std::string_view uri);
 
 Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder const& folder);
 

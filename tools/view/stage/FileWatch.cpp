@@ -4,6 +4,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/PathInside.h"
+#include "filament_core/assets/gltf/GltfUri.h"
 
 #include <nlohmann/json.hpp>
 
@@ -43,7 +44,7 @@ void addUris(nlohmann::json const& tree, const char* list, fs::path const& folde
         const auto uri = element.is_object() ? element.find("uri") : element.end();
         if (!element.is_object() || uri == element.end() || !uri->is_string()) continue;
         const std::string text = uri->get<std::string>();
-        if (!text.starts_with("data:")) files.push_back(folder / decoded(text));
+        if (!assets::isDataUri(text)) files.push_back(folder / decoded(text));
     }
 }
 
