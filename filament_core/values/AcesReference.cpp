@@ -3,6 +3,7 @@
 // libraries that they import.
 #include "filament_core/values/AcesReference.h"
 
+#include "base/math/ColorSpaces.h"
 #include "base/math/Elementary.h"
 
 #include <algorithm>
@@ -13,32 +14,9 @@
 namespace filament_core {
 namespace {
 
-/// Of red, green, blue and white.
-struct Chromaticities {
-    double2 red, green, blue, white;
-};
-
 constexpr Chromaticities kAp0{ { 0.7347, 0.2653 }, { 0, 1 }, { 0.0001, -0.077 }, { 0.32168, 0.33767 } };
 constexpr Chromaticities kAp1{ { 0.713, 0.293 }, { 0.165, 0.83 }, { 0.128, 0.044 }, { 0.32168, 0.33767 } };
-constexpr Chromaticities kRec709{ { 0.64, 0.33 }, { 0.3, 0.6 }, { 0.15, 0.06 }, { 0.3127, 0.329 } };
-
-double3 xyzOf(double2 xy) { return { xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y }; }
-
-double3x3 diagonal(double3 d) { return { double3(d.x, 0, 0), double3(0, d.y, 0), double3(0, 0, d.z) }; }
-
-/// SMPTE RP 177: the primaries add up to white.
-double3x3 xyzFromRgb(Chromaticities const& c) {
-    const auto unscaled = [](double2 xy) { return double3(xy.x, xy.y, 1 - xy.x - xy.y); };
-    const double3x3 primaries(unscaled(c.red), unscaled(c.green), unscaled(c.blue));
-    return primaries * diagonal(glm::inverse(primaries) * xyzOf(c.white));
-}
-
-/// Bradford's: how a colour looks under another white.
-double3x3 adaptation(double2 from, double2 to) {
-    const double3x3 cones = glm::transpose(double3x3(double3(0.8951, 0.2664, -0.1614), double3(-0.7502, 1.7135, 0.0367),
-                                                     double3(0.0389, -0.0685, 1.0296)));
-    return glm::inverse(cones) * diagonal(cones * xyzOf(to) / (cones * xyzOf(from))) * cones;
-}
+constexpr Chromaticities const& kRec709 = kRec709Chromaticities;
 
 /// All colours towards the grey of their luminance; `toY` are the weights of luminance.
 double3x3 saturationMatrix(double saturation, double3 toY) {
@@ -56,9 +34,10 @@ struct Matrices {
     double3x3 xyzFromAp1 = xyzFromRgb(kAp1);
     double3x3 ap1FromXyz = glm::inverse(xyzFromAp1);
     double3x3 ap0FromRec709 =
-            glm::inverse(xyzFromRgb(kAp0)) * adaptation(kRec709.white, kAp0.white) * xyzFromRgb(kRec709);
+            glm::inverse(xyzFromRgb(kAp0)) * whiteAdaptation(kRec709.white, kAp0.white) * xyzFromRgb(kRec709);
     double3x3 ap1FromAp0 = ap1FromXyz * xyzFromRgb(kAp0);
-    double3x3 rec709FromAp1 = glm::inverse(xyzFromRgb(kRec709)) * adaptation(kAp1.white, kRec709.white) * xyzFromAp1;
+    double3x3 rec709FromAp1 =
+            glm::inverse(xyzFromRgb(kRec709)) * whiteAdaptation(kAp1.white, kRec709.white) * xyzFromAp1;
     double3x3 rrtSaturation = saturationMatrix(kRrtSaturation, luminanceWeights(xyzFromAp1));
     double3x3 odtSaturation = saturationMatrix(kOdtSaturation, luminanceWeights(xyzFromAp1));
 };
