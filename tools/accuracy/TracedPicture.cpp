@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/TracedPicture.h"
 
+#include "filament_core/assets/environment/Panorama.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
-#include "filament_core/assets/image/HdrReader.h"
 #include "toolkit/scenes/MaterialModel.h"
 
 #include <type_traits>
@@ -89,7 +89,7 @@ Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, tools::SceneFolde
     if (skyPath->empty()) {
         picture = reference::pictureOfLight(*model->data, jobs);
     } else {
-        Result<assets::HdrImage> sky = assets::readHdrImage(*skyPath);
+        Result<assets::HdrImage> sky = assets::readPanorama(*skyPath);
         if (!sky) return sky.error();
         picture = std::make_shared<const assets::HdrImage>(std::move(*sky));
     }

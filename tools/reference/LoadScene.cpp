@@ -2,10 +2,10 @@
 #include "tools/reference/LoadScene.h"
 
 #include "base/Hash.h"
+#include "filament_core/assets/environment/Panorama.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelVariants.h"
-#include "filament_core/assets/image/HdrReader.h"
 #include "tools/common/Console.h"
 #include "tools/common/SceneFiles.h"
 
@@ -24,7 +24,7 @@ Result<std::shared_ptr<const assets::HdrImage>> skyOf(Options const& options, sh
     if (options.environment.empty() && model.imageBasedLight) return pictureOfLight(model, jobs);
     if (files.environment.empty()) return std::shared_ptr<const assets::HdrImage>();
     showProgress("loading the environment");
-    Result<assets::HdrImage> image = assets::readHdrImage(files.environment);
+    Result<assets::HdrImage> image = assets::readPanorama(files.environment);
     if (!image) return image.error();
     return std::make_shared<const assets::HdrImage>(std::move(*image));
 }

@@ -5,8 +5,8 @@
 #include "filament_core/assets/environment/CubePicture.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/environment/EnvironmentPackage.h"
+#include "filament_core/assets/environment/Panorama.h"
 #include "filament_core/assets/files/FileBytes.h"
-#include "filament_core/assets/image/HdrReader.h"
 
 #include <algorithm>
 #include <array>
@@ -45,8 +45,9 @@ Result<void> goesOn(EnvironmentOptions const& options) {
 
 void warnAboutRepairs(std::string_view name, HdrRepairs const& repairs) {
     if (repairs.total() == 0) return;
-    log(Severity::Warning, "'{}': replaced {} NaN, {} infinite and {} negative components", name, repairs.notANumber,
-        repairs.infinite, repairs.negative);
+    log(Severity::Warning,
+        "'{}': replaced {} NaN, {} infinite and {} negative components (colours outside of Rec. 709 have some)", name,
+        repairs.notANumber, repairs.infinite, repairs.negative);
 }
 
 std::filesystem::path cacheFile(std::filesystem::path const& directory, uint64_t key) {
@@ -110,7 +111,7 @@ Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::str
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     report(options, "decode", 0, 1);
     if (isKtx2(picture)) return bakeCubePicture(picture, name, jobs, options);
-    const Result<HdrImage> image = decodeHdrImage(picture, name);
+    const Result<HdrImage> image = decodePanorama(picture, name);
     if (!image) return image.error();
     report(options, "decode", 1, 1);
     return bakeEnvironment(*image, jobs, options);
@@ -217,7 +218,9 @@ Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> fil
                                                   jobs::JobSystem& jobs, EnvironmentOptions const& options) try {
     if (auto checked = checkOptions(options); !checked) return checked.error();
     Result<EnvironmentData> data = loadThroughCache(file, name, jobs, options);
-    if (data) warnAboutRepairs(name, data->statistics.repairs);
+    if (!data) return data;
+    warnAboutRepairs(name, data->statistics.repairs);
+    warnAboutPanorama(file, name);
     return data;
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "not enough memory to load '{}'; make it smaller", name);

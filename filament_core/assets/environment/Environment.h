@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadEnvironment: turns an equirectangular .hdr or .exr into the cubes and coefficients that light a scene.
-///   In      a panorama (HdrReader.h) or a cube map in a KTX 2.0 file (CubePicture.h); world direction d sees one
+///   In      a panorama (Panorama.h) or a cube map in a KTX 2.0 file (CubePicture.h); world direction d sees one
 ///           at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi. Or a file of writeEnvironmentPackage() or
 ///           writeBakedEnvironment(), whose sizes, format and mapping then count.
 ///   Out     EnvironmentData, with the same bits from the cache and from the baker, for any number of workers.

@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "cached environments a
 
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
 /// Incremented whenever the baker's results or this layout change.
-constexpr uint32_t kBakerVersion = 5;
+constexpr uint32_t kBakerVersion = 6;
 constexpr uint32_t kMaxFaceSize = 2048;
 
 struct CubeHeader {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Result.h"
+#include "base/math/ColorSpaces.h"
 #include "filament_core/assets/image/HdrImage.h"
 
 #include <bit>
@@ -57,10 +58,17 @@ private:
 /// Nothing if width x height is a supported size, otherwise the reason.
 std::optional<Error> checkHdrSize(int64_t width, int64_t height);
 
+enum class HdrPart : uint8_t { Header, All };
+
+struct DecodedHdr {
+    HdrImage image; ///< without pixels of HdrPart::Header
+    std::optional<Chromaticities> primaries{};
+};
+
 bool isRgbe(std::span<const std::byte> bytes);
-Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes);
+Result<DecodedHdr> decodeRgbe(std::span<const std::byte> bytes, HdrPart part);
 
 bool isExr(std::span<const std::byte> bytes);
-Result<HdrImage> decodeExr(std::span<const std::byte> bytes);
+Result<DecodedHdr> decodeExr(std::span<const std::byte> bytes, HdrPart part);
 
 } // namespace filament_core::assets

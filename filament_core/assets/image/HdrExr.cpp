@@ -6,16 +6,26 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace filament_core::assets {
 namespace {
 
+struct ExrWindow {
+    int64_t minX = 0, minY = 0, width = 0, height = 0;
+};
+
 struct ExrHeader {
     std::vector<ExrChannel> channels; // in file order: alphabetical
     ExrCompression compression = ExrCompression::Count;
-    int32_t minX = 0, minY = 0;
+    int32_t minX = 0, minY = 0; // of the data window, as its size
     uint32_t width = 0, height = 0;
+    std::optional<ExrWindow> display{};
+    std::optional<Chromaticities> primaries{};
+    float pixelAspectRatio = 1, whiteLuminance = 0; // in nits; 0: unknown
+    bool isCube = false;
     bool isTiled = false;
     uint32_t blockWidth = 0, blockRows = 0; // of a block that is not at an edge
     std::array<size_t, 3> source{};         // channels that provide red, green and blue
@@ -45,16 +55,39 @@ Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) 
     }
 }
 
-Result<void> parseDataWindow(std::span<const std::byte> bytes, ExrHeader& header) {
+Result<ExrWindow> parseWindow(std::string_view name, std::span<const std::byte> bytes) {
     ByteCursor cursor(bytes);
     const auto box = cursor.read<std::array<int32_t, 4>>(); // min x, min y, max x, max y, inclusive
-    if (!box) return corruptExr("its data window is cut short");
-    const int64_t width = int64_t((*box)[2]) - (*box)[0] + 1, height = int64_t((*box)[3]) - (*box)[1] + 1;
-    if (auto error = checkHdrSize(width, height)) return *error;
-    header.minX = (*box)[0];
-    header.minY = (*box)[1];
-    header.width = static_cast<uint32_t>(width);
-    header.height = static_cast<uint32_t>(height);
+    if (!box) return fail(ErrorCode::Corrupt, "its {} is cut short", name);
+    const auto [minX, minY, maxX, maxY] = *box;
+    const ExrWindow window{ minX, minY, int64_t{ maxX } - minX + 1, int64_t{ maxY } - minY + 1 };
+    if (auto error = checkHdrSize(window.width, window.height))
+        return fail(error->code, "of its {}: {}", name, error->message);
+    return window;
+}
+
+Result<void> parseDataWindow(std::span<const std::byte> bytes, ExrHeader& header) {
+    const Result<ExrWindow> window = parseWindow("dataWindow", bytes);
+    if (!window) return window.error();
+    header.minX = static_cast<int32_t>(window->minX);
+    header.minY = static_cast<int32_t>(window->minY);
+    header.width = static_cast<uint32_t>(window->width);
+    header.height = static_cast<uint32_t>(window->height);
+    return {};
+}
+
+Result<void> parseDisplayWindow(std::span<const std::byte> bytes, ExrHeader& header) {
+    const Result<ExrWindow> window = parseWindow("displayWindow", bytes);
+    if (!window) return window.error();
+    header.display = *window;
+    return {};
+}
+
+Result<void> parseChromaticities(std::span<const std::byte> bytes, ExrHeader& header) {
+    const auto xy = ByteCursor(bytes).read<std::array<float, 8>>();
+    if (!xy) return corruptExr("its chromaticities are cut short");
+    const auto at = [&](size_t i) { return double2((*xy)[i], (*xy)[i + 1]); };
+    header.primaries = { at(0), at(2), at(4), at(6) };
     return {};
 }
 
@@ -70,6 +103,11 @@ Result<void> parseTiles(std::span<const std::byte> bytes, ExrHeader& header) {
 Result<void> parseAttribute(std::string_view name, std::span<const std::byte> value, ExrHeader& header) {
     if (name == "channels") return parseChannels(value, header);
     if (name == "dataWindow") return parseDataWindow(value, header);
+    if (name == "displayWindow") return parseDisplayWindow(value, header);
+    if (name == "chromaticities") return parseChromaticities(value, header);
+    if (name == "pixelAspectRatio") header.pixelAspectRatio = ByteCursor(value).read<float>().value_or(1.0f);
+    if (name == "whiteLuminance") header.whiteLuminance = ByteCursor(value).read<float>().value_or(0.0f);
+    if (name == "envmap") header.isCube = !value.empty() && value[0] == std::byte{ 1 };
     if (name == "compression") {
         const auto code = value.empty() ? ExrCompression::Count : static_cast<ExrCompression>(value[0]);
         if (code >= ExrCompression::Count) return unsupported("its compression is unknown");
@@ -216,6 +254,47 @@ Result<HdrImage> decodeBlocks(ExrHeader const& header, std::span<const Block> bl
     return image;
 }
 
+ExrWindow shownWindow(ExrHeader const& header) {
+    return header.display.value_or(
+            ExrWindow{ header.minX, header.minY, int64_t{ header.width }, int64_t{ header.height } });
+}
+
+/// The pixels of the data window in the place that the display window has for them; black around them.
+HdrImage inDisplayWindow(HdrImage data, ExrHeader const& header) {
+    const ExrWindow display = shownWindow(header);
+    const int64_t left = header.minX - display.minX, top = header.minY - display.minY;
+    if (left == 0 && top == 0 && display.width == header.width && display.height == header.height) return data;
+    HdrImage image{ .width = static_cast<uint32_t>(display.width),
+                    .height = static_cast<uint32_t>(display.height),
+                    .pixels = {},
+                    .repairs = {} };
+    image.pixels.resize(size_t{ image.width } * image.height, float3(0));
+    const int64_t firstX = std::max<int64_t>(left, 0), endX = std::min(left + header.width, display.width);
+    const int64_t firstY = std::max<int64_t>(top, 0), endY = std::min(top + header.height, display.height);
+    if (firstX >= endX) return image;
+    for (int64_t y = firstY; y < endY; ++y) {
+        const float3* const from = &data.at(static_cast<uint32_t>(firstX - left), static_cast<uint32_t>(y - top));
+        std::copy_n(from, endX - firstX, &image.at(static_cast<uint32_t>(firstX), static_cast<uint32_t>(y)));
+    }
+    return image;
+}
+
+void addWarnings(ExrHeader const& header, HdrImage& image) {
+    const ExrWindow shown = shownWindow(header);
+    const bool isSeen = shown.minX < int64_t{ header.minX } + header.width && header.minX < shown.minX + shown.width &&
+                        shown.minY < int64_t{ header.minY } + header.height && header.minY < shown.minY + shown.height;
+    if (!isSeen)
+        image.warnings.push_back("it is black: its dataWindow lies outside of its displayWindow; correct one of them");
+    if (header.pixelAspectRatio != 1)
+        image.panoramaWarnings.push_back(
+                fmt::format("its pixelAspectRatio of {} is left out: a panorama covers 360 by 180 degrees in any size",
+                            header.pixelAspectRatio));
+    if (header.whiteLuminance > 0 && header.whiteLuminance != 1)
+        image.panoramaWarnings.push_back(
+                fmt::format("its whiteLuminance of {} cd/m^2 is left out; set the intensity of the environment",
+                            header.whiteLuminance));
+}
+
 } // namespace
 
 bool isExr(std::span<const std::byte> bytes) {
@@ -224,13 +303,26 @@ bool isExr(std::span<const std::byte> bytes) {
     return bytes.size() >= 4 && std::ranges::equal(bytes.first(4), kMagic);
 }
 
-Result<HdrImage> decodeExr(std::span<const std::byte> bytes) {
+Result<DecodedHdr> decodeExr(std::span<const std::byte> bytes, HdrPart part) {
     ByteCursor cursor(bytes);
     const Result<ExrHeader> header = parseHeader(cursor);
     if (!header) return header.error();
-    const Result<std::vector<Block>> blocks = findBlocks(bytes, cursor, *header);
-    if (!blocks) return blocks.error();
-    return decodeBlocks(*header, *blocks);
+    DecodedHdr decoded;
+    const ExrWindow window = shownWindow(*header);
+    decoded.image.width = static_cast<uint32_t>(window.width);
+    decoded.image.height = static_cast<uint32_t>(window.height);
+    if (part == HdrPart::All) {
+        const Result<std::vector<Block>> blocks = findBlocks(bytes, cursor, *header);
+        if (!blocks) return blocks.error();
+        Result<HdrImage> image = decodeBlocks(*header, *blocks);
+        if (!image) return image.error();
+        decoded.image = inDisplayWindow(std::move(*image), *header);
+    }
+    const bool isGrey = header->source[0] == header->source[1] && header->source[1] == header->source[2];
+    if (!isGrey) decoded.primaries = header->primaries; // white stays white
+    decoded.image.isCube = header->isCube;
+    addWarnings(*header, decoded.image);
+    return decoded;
 }
 
 } // namespace filament_core::assets

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace filament_core::assets {
@@ -28,10 +29,16 @@ struct HdrImage {
     uint32_t width = 0, height = 0;
     std::vector<float3> pixels; ///< width * height
     HdrRepairs repairs;
+    bool isCube = false;                         ///< six faces, one below the other, as OpenEXR's "envmap" has them
+    std::vector<std::string> warnings{};         ///< what the file says and this image does not follow; each a sentence
+    std::vector<std::string> panoramaWarnings{}; ///< those that count only for images that surround a scene
 
     float3& at(uint32_t x, uint32_t y) { return pixels[size_t(y) * width + x]; }
     float3 const& at(uint32_t x, uint32_t y) const { return pixels[size_t(y) * width + x]; }
 };
+
+/// Colours of other primaries as Rec. 709; those outside of it count as negative in image.repairs. After sanitise().
+void convertToRec709(HdrImage& image, double3x3 const& rec709FromFile);
 
 /// Replaces values outside [0, kMaxRadiance] and counts them in image.repairs.
 void sanitise(HdrImage& image);

@@ -8,13 +8,14 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace filament_core::assets {
 namespace {
 
-Result<HdrImage> decodeByContent(std::span<const std::byte> bytes) {
-    if (isExr(bytes)) return decodeExr(bytes);
-    if (isRgbe(bytes)) return decodeRgbe(bytes);
+Result<DecodedHdr> decodeByContent(std::span<const std::byte> bytes, HdrPart part) {
+    if (isExr(bytes)) return decodeExr(bytes, part);
+    if (isRgbe(bytes)) return decodeRgbe(bytes, part);
     return fail(ErrorCode::Unsupported, "it is neither Radiance .hdr nor OpenEXR");
 }
 
@@ -27,6 +28,16 @@ const char* cureOf(ErrorCode code) {
     default:
         return "export or copy it again";
     }
+}
+
+/// Of colours that are not those of Rec. 709 already.
+std::optional<double3x3> conversionOf(DecodedHdr& decoded) {
+    if (!decoded.primaries || isRec709(*decoded.primaries)) return std::nullopt;
+    const std::optional<double3x3> matrix = rec709FromRgb(*decoded.primaries);
+    if (!matrix)
+        decoded.image.warnings.push_back("its primaries are not those of colours and are taken as those of Rec. 709; "
+                                         "correct PRIMARIES or chromaticities");
+    return matrix;
 }
 
 float repaired(float value, float largestReal, HdrRepairs& repairs) {
@@ -69,21 +80,39 @@ void sanitise(HdrImage& image) {
     }
 }
 
+void convertToRec709(HdrImage& image, double3x3 const& rec709FromFile) {
+    for (float3& pixel : image.pixels) {
+        const double3 color = rec709FromFile * double3(pixel);
+        for (int c = 0; c < 3; ++c) {
+            if (color[c] < 0) ++image.repairs.negative;
+            pixel[c] = static_cast<float>(std::clamp(color[c], 0.0, static_cast<double>(kMaxRadiance)));
+        }
+    }
+}
+
 bool isHdrImage(std::span<const std::byte> bytes) { return isExr(bytes) || isRgbe(bytes); }
 
 Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name) try {
-    Result<HdrImage> image = decodeByContent(bytes);
-    if (!image) {
-        const ErrorCode code = image.error().code;
-        return fail(code, "cannot decode '{}': {}; {}", name, image.error().message, cureOf(code));
+    Result<DecodedHdr> decoded = decodeByContent(bytes, HdrPart::All);
+    if (!decoded) {
+        const ErrorCode code = decoded.error().code;
+        return fail(code, "cannot decode '{}': {}; {}", name, decoded.error().message, cureOf(code));
     }
-    sanitise(*image);
-    return image;
+    sanitise(decoded->image);
+    if (const auto matrix = conversionOf(*decoded)) convertToRec709(decoded->image, *matrix);
+    return std::move(decoded->image);
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "cannot decode '{}': not enough memory; {}", name,
                 cureOf(ErrorCode::OutOfMemory));
 } catch (std::exception const& exception) { // thrown by a library's parser: std::out_of_range etc.
     return fail(ErrorCode::Corrupt, "cannot decode '{}': {}; {}", name, exception.what(), cureOf(ErrorCode::Corrupt));
+}
+
+HdrImage readHdrHeader(std::span<const std::byte> bytes) {
+    Result<DecodedHdr> decoded = decodeByContent(bytes, HdrPart::Header);
+    if (!decoded) return {};
+    conversionOf(*decoded);
+    return std::move(decoded->image);
 }
 
 Result<HdrImage> readHdrImage(std::filesystem::path const& path) {

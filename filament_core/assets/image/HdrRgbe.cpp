@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Radiance RGBE: three mantissas of 8 bits with one exponent. Ward 1991, "Real Pixels" (Graphics Gems II), and the
-// format description in Radiance's ray/doc/filefmts.
+// format description in Radiance's ray/doc/filefmts. Header lines are those of its programs, and the spellings of
+// others.
 #include "filament_core/assets/image/HdrDecoders.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
 
 namespace filament_core::assets {
 namespace {
 
-constexpr size_t kMaxHeaderLine = 4096;
+constexpr size_t kMaxHeaderLine = 65536; // programs write the commands that made the picture
+constexpr std::string_view kBlanks = " \t\r\f\v";
 constexpr size_t kMaxHeaderLines = 1024;
 
 using Rgbe = std::array<uint8_t, 4>;
@@ -19,21 +24,43 @@ using Rgbe = std::array<uint8_t, 4>;
 struct RgbeHeader {
     uint32_t width = 0, height = 0;
     bool bottomUp = false, rightToLeft = false;
-    float scale = 1; // 1 / product of the EXPOSURE lines
+    float scale = 1;             // 1 / product of the EXPOSURE lines
+    float3 colorCorrection{ 1 }; // product of the COLORCORR lines
+    std::optional<Chromaticities> primaries{};
+    std::vector<std::string> warnings{}, panoramaWarnings{};
 };
 
 Error truncated() { return fail(ErrorCode::Corrupt, "it ends in the middle of the pixels"); }
 
-bool parseFloat(std::string_view text, float& value) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    return std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc();
+std::string_view withoutBlanks(std::string_view text) {
+    const size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
 std::string_view nextWord(std::string_view& line) {
-    while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-    const std::string_view word = line.substr(0, line.find(' '));
+    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
     line.remove_prefix(word.size());
     return word;
+}
+
+/// The numbers that a line starts with, as many as there are.
+std::vector<float> numbersOf(std::string_view text, size_t most) {
+    std::vector<float> numbers;
+    while (numbers.size() < most) {
+        const std::string_view word = nextWord(text);
+        float value = 0;
+        if (word.empty() || std::from_chars(word.data(), word.data() + word.size(), value).ec != std::errc()) break;
+        numbers.push_back(value);
+    }
+    return numbers;
+}
+
+std::string shownText(std::string_view text) {
+    std::string shown(text.substr(0, 80));
+    for (char& c : shown) c = c >= ' ' && c < 127 ? c : '?';
+    return shown;
 }
 
 // "-Y 512 +X 1024": rows from the top, pixels from the left. The format allows column-major orders, but no
@@ -55,23 +82,69 @@ Result<RgbeHeader> parseResolution(std::string_view line, RgbeHeader header) {
     return header;
 }
 
+void parseColorCorrection(std::string_view value, RgbeHeader& header) {
+    const std::vector<float> factors = numbersOf(value, 3);
+    const bool isUsable = factors.size() == 3 && std::ranges::all_of(factors, [](float factor) {
+                              return factor > 0 && factor <= std::numeric_limits<float>::max();
+                          });
+    if (isUsable)
+        header.colorCorrection *= float3(factors[0], factors[1], factors[2]);
+    else
+        header.warnings.push_back(
+                fmt::format("its COLORCORR= {} is not three numbers above zero and is left out", shownText(value)));
+}
+
+void parsePrimaries(std::string_view value, RgbeHeader& header) {
+    const std::vector<float> xy = numbersOf(value, 8);
+    if (xy.size() == 8)
+        header.primaries = { { xy[0], xy[1] }, { xy[2], xy[3] }, { xy[4], xy[5] }, { xy[6], xy[7] } };
+    else
+        header.warnings.push_back(
+                fmt::format("its PRIMARIES= {} is not eight numbers and is left out", shownText(value)));
+}
+
+/// What rpict and its like write: of these no picture is a panorama of 360 by 180 degrees.
+void parseView(std::string_view value, RgbeHeader& header) {
+    header.panoramaWarnings.push_back(
+            fmt::format("its header has the camera of a picture (VIEW= {}), but lights as a panorama of 360 by 180 "
+                        "degrees; render or export one",
+                        shownText(value)));
+}
+
+Result<void> parseRgbeLine(std::string_view line, RgbeHeader& header) {
+    const size_t equals = std::min(line.find('='), line.size());
+    const std::string_view key = line.substr(0, line.substr(0, equals).find_last_not_of(kBlanks) + 1);
+    const std::string_view value = withoutBlanks(line.substr(std::min(equals + 1, line.size())));
+    const std::vector<float> numbers = numbersOf(value, 1);
+    const float number = numbers.empty() ? 0 : numbers[0];
+    if (key == "FORMAT" && value != "32-bit_rle_rgbe")
+        return fail(ErrorCode::Unsupported, "its pixels are '{}', not 32-bit_rle_rgbe", shownText(value));
+    if (key == "EXPOSURE" && number > 0) header.scale /= number;
+    if (key == "COLORCORR") parseColorCorrection(value, header);
+    if (key == "PRIMARIES") parsePrimaries(value, header);
+    if (key == "VIEW") parseView(value, header);
+    if (key == "PIXASPECT" && number != 1)
+        header.panoramaWarnings.push_back(fmt::format(
+                "its PIXASPECT= {} is left out: a panorama covers 360 by 180 degrees in any size", shownText(value)));
+    if (key == "GAMMA" && number != 1 && number > 0)
+        header.warnings.push_back(fmt::format("its GAMMA= {} is left out: light is linear; export it with a gamma of 1",
+                                              shownText(value)));
+    return {};
+}
+
+/// Lines that begin with a blank describe the pictures of which Radiance's programs made this one.
 Result<RgbeHeader> parseRgbeHeader(ByteCursor& cursor) {
     RgbeHeader header;
     for (size_t i = 0; i < kMaxHeaderLines; ++i) {
         const auto line = cursor.readUntil('\n', kMaxHeaderLine);
         if (!line) break;
-        if (line->empty()) {
+        if (line->starts_with("-Y ") || line->starts_with("+Y ")) return parseResolution(*line, header);
+        if (withoutBlanks(*line).empty()) {
             const auto resolution = cursor.readUntil('\n', kMaxHeaderLine);
             if (!resolution) break;
             return parseResolution(*resolution, header);
         }
-        if (line->starts_with("FORMAT=") && *line != "FORMAT=32-bit_rle_rgbe") {
-            return fail(ErrorCode::Unsupported, "its pixels are '{}', not 32-bit_rle_rgbe", line->substr(7));
-        }
-        float exposure = 0;
-        if (line->starts_with("EXPOSURE=") && parseFloat(line->substr(9), exposure) && exposure > 0) {
-            header.scale /= exposure;
-        }
+        if (const Result<void> parsed = parseRgbeLine(*line, header); !parsed) return parsed.error();
     }
     return fail(ErrorCode::Corrupt, "its header has no end");
 }
@@ -147,14 +220,20 @@ void flipRows(HdrImage& image) {
 } // namespace
 
 bool isRgbe(std::span<const std::byte> bytes) {
-    return bytes.size() >= 2 && bytes[0] == std::byte{ '#' } && bytes[1] == std::byte{ '?' };
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return text.starts_with("#?") || text.starts_with("FORMAT=32-bit_rle_"); // some files have no first line
 }
 
-Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes) {
+Result<DecodedHdr> decodeRgbe(std::span<const std::byte> bytes, HdrPart part) {
     ByteCursor cursor(bytes);
-    const Result<RgbeHeader> header = parseRgbeHeader(cursor);
+    Result<RgbeHeader> header = parseRgbeHeader(cursor);
     if (!header) return header.error();
-    HdrImage image{ .width = header->width, .height = header->height, .pixels = {}, .repairs = {} };
+    DecodedHdr decoded{ { .width = header->width, .height = header->height, .pixels = {}, .repairs = {} },
+                        header->primaries };
+    HdrImage& image = decoded.image;
+    image.warnings = std::move(header->warnings);
+    image.panoramaWarnings = std::move(header->panoramaWarnings);
+    if (part == HdrPart::Header) return decoded;
     std::vector<Rgbe> row(image.width);
     for (uint32_t y = 0; y < image.height; ++y) { // memory grows only with the rows that exist
         if (!readRow(cursor, row)) {
@@ -165,7 +244,10 @@ Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes) {
         for (Rgbe const& pixel : row) image.pixels.push_back(radianceOf(pixel, header->scale));
     }
     if (header->bottomUp) flipRows(image);
-    return image;
+    if (header->colorCorrection != float3(1)) {
+        for (float3& pixel : image.pixels) pixel /= header->colorCorrection;
+    }
+    return decoded;
 }
 
 } // namespace filament_core::assets

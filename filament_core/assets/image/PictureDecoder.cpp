@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/PictureDecoder.h"
 
+#include "base/Log.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
 #include "filament_core/assets/image/HdrReader.h"
@@ -8,6 +9,7 @@
 #include "filament_core/assets/image/Ktx2Decoder.h"
 
 #include <cstring>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,7 @@ Result<Image> decodeDeep(std::span<const std::byte> bytes, std::string_view name
 Result<Image> decodeFloats(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
     const Result<HdrImage> picture = decodeHdrImage(bytes, name);
     if (!picture) return picture.error();
+    for (std::string const& line : picture->warnings) log(Severity::Warning, "'{}': {}", name, line);
     FloatPixels pixels(picture->width, picture->height, options.isFull);
     for (float3 const& pixel : picture->pixels) pixels.add(float4(pixel, 1));
     return pixels.take();

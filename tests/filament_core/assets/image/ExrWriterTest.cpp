@@ -142,14 +142,14 @@ TEST(ExrWriter, OurReaderFindsTheBitsThatWereWritten) {
     for (const auto& [width, height] : { std::pair(1u, 1u), { 13u, 17u }, { 301u, 33u } }) {
         const size_t count = size_t{ width } * height * 3;
         const auto halves = exrSamples(count, ExrType::Half, 1, 0), floats = exrSamples(count, ExrType::Float, 1, 0);
-        const auto half = decodeExr(encodeExr({ width, height, "RGB", ExrType::Half, halves }));
-        const auto whole = decodeExr(encodeExr({ width, height, "RGB", ExrType::Float, floats }));
+        const auto half = decodeExr(encodeExr({ width, height, "RGB", ExrType::Half, halves }), HdrPart::All);
+        const auto whole = decodeExr(encodeExr({ width, height, "RGB", ExrType::Float, floats }), HdrPart::All);
         ASSERT_TRUE(half && whole) << width;
-        EXPECT_EQ(std::memcmp(whole->pixels.data(), floats.data(), floats.size()), 0) << width << " x " << height;
+        EXPECT_EQ(std::memcmp(whole->image.pixels.data(), floats.data(), floats.size()), 0) << width << " x " << height;
         for (size_t i = 0; i < count; ++i) {
             uint16_t bits = 0;
             std::memcpy(&bits, &halves[2 * i], 2);
-            ASSERT_EQ(std::bit_cast<uint32_t>(half->pixels[i / 3][static_cast<int>(i % 3)]),
+            ASSERT_EQ(std::bit_cast<uint32_t>(half->image.pixels[i / 3][static_cast<int>(i % 3)]),
                       std::bit_cast<uint32_t>(floatFromHalf(bits)))
                     << i;
         }
