@@ -46,7 +46,7 @@ Result<void> goesOn(EnvironmentOptions const& options) {
 void warnAboutRepairs(std::string_view name, HdrRepairs const& repairs) {
     if (repairs.total() == 0) return;
     log(Severity::Warning,
-        "'{}': replaced {} NaN, {} infinite and {} negative components (colours outside of Rec. 709 have some)", name,
+        "'{}': replaced {} NaN, {} infinite and {} negative components; colours outside of Rec. 709 have some", name,
         repairs.notANumber, repairs.infinite, repairs.negative);
 }
 

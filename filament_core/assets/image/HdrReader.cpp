@@ -30,9 +30,15 @@ const char* cureOf(ErrorCode code) {
     }
 }
 
+/// Programs write zeros for what they do not know.
+bool isUnknown(Chromaticities const& space) {
+    const double2 none(0);
+    return space.red == none && space.green == none && space.blue == none && space.white == none;
+}
+
 /// Of colours that are not those of Rec. 709 already.
 std::optional<double3x3> conversionOf(DecodedHdr& decoded) {
-    if (!decoded.primaries || isRec709(*decoded.primaries)) return std::nullopt;
+    if (!decoded.primaries || isRec709(*decoded.primaries) || isUnknown(*decoded.primaries)) return std::nullopt;
     const std::optional<double3x3> matrix = rec709FromRgb(*decoded.primaries);
     if (!matrix)
         decoded.image.warnings.push_back("its primaries are not those of colours and are taken as those of Rec. 709; "

@@ -101,9 +101,11 @@ TEST(HdrMetadata, WhatARadianceHeaderSaysInVainIsNamed) {
     EXPECT_THAT(with("COLORCORR= 1 2").warnings, ElementsAre(HasSubstr("COLORCORR= 1 2 is not three numbers")));
     EXPECT_THAT(with("COLORCORR= 1 0 2").warnings, ElementsAre(HasSubstr("is not three numbers above zero")));
     EXPECT_THAT(with("PRIMARIES= 1 2").warnings, ElementsAre(HasSubstr("PRIMARIES= 1 2 is not eight numbers")));
-    EXPECT_THAT(with("PRIMARIES= 0 0 0 0 0 0 0 0").warnings,
+    EXPECT_THAT(with("PRIMARIES= 1 1 1 1 1 1 1 1").warnings,
                 ElementsAre(HasSubstr("correct PRIMARIES or chromaticities")));
-    EXPECT_EQ(with("PRIMARIES= 0 0 0 0 0 0 0 0").at(0, 0), float3(1, 0.5f, 0.25f));
+    EXPECT_EQ(with("PRIMARIES= 1 1 1 1 1 1 1 1").at(0, 0), float3(1, 0.5f, 0.25f));
+    EXPECT_THAT(with("PRIMARIES=0 0 0 0 0 0 0 0").warnings, IsEmpty()) << "as Photoshop writes it: unknown";
+    EXPECT_EQ(with("PRIMARIES=0 0 0 0 0 0 0 0").at(0, 0), float3(1, 0.5f, 0.25f));
 }
 
 TEST(HdrMetadata, TheFileWithASpaceBehindItsFormatIsRead) {
@@ -148,10 +150,10 @@ TEST(HdrMetadata, ColoursOutsideOfRec709AreCountedAndCut) {
 
 TEST(HdrMetadata, ChromaticitiesThatAreNoneAreNamed) {
     constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
-    for (const auto& bad :
-         { std::array<float, 8>{}, std::array{ kNotANumber, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f },
-           std::array{ 0.64f, 0.33f, 0.64f, 0.33f, 0.15f, 0.06f, 0.3127f, 0.329f },
-           std::array{ 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.0f } }) {
+    for (const auto& bad : { std::array{ 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f },
+                             std::array{ kNotANumber, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f },
+                             std::array{ 0.64f, 0.33f, 0.64f, 0.33f, 0.15f, 0.06f, 0.3127f, 0.329f },
+                             std::array{ 0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.0f } }) {
         const HdrImage image = decodedExr(PlainExr{ .chromaticities = bad }.bytes());
         EXPECT_THAT(image.warnings, ElementsAre(HasSubstr("taken as those of Rec. 709")));
         EXPECT_EQ(image.at(0, 0), float3(1));
