@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfTextures.h"
 
+#include "filament_core/assets/image/ColorProfile.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/assets/image/TextureDecoder.h"
 
@@ -180,6 +181,14 @@ void warnAboutTransfer(GltfDocument const& document, GltfImageSource const& sour
                          imageName(document, source.image), isColor ? "colours" : "data", *isSrgb ? "sRGB" : "linear");
 }
 
+/// glTF 2.0, 3.8.3: colour spaces of files are ignored.
+void warnAboutColorSpace(GltfDocument const& document, GltfImageSource const& source, Diagnostics& diagnostics) {
+    if (const std::optional<std::string> space = foreignColorSpace(source.bytes))
+        diagnostics.warn(
+                "{} declares {}, which glTF ignores: its colours are taken as those of sRGB; convert it to sRGB",
+                imageName(document, source.image), *space);
+}
+
 /// The first level of a texture, for packing.
 Result<Image> decodeFirstLevel(GltfDocument const& document, GltfImageSource const& source) {
     Result<DecodedTexture> texture = decode(document, source, 0, TextureDepth::EightBits);
@@ -226,6 +235,7 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
         Result<DecodedTexture> texture = decode(document, source, maxSize, TextureDepth::AllBits);
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
+        if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);
         const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
         if (isBoth) job.data = withAllLevels(*texture, false, maxSize);
         (job.colorTexture != kNone ? job.color : job.data) =
@@ -248,6 +258,7 @@ void packImagesJob(GltfDocument const& document, GltfTextures const& textures, u
         if (first->width != second->width || first->height != second->height)
             return job.diagnostics.refuse(ErrorCode::Corrupt, "{} and {}: the size of one is not what its header says",
                                           imageName(document, one.image), imageName(document, other.image));
+        if (job.layout == PackLayout::ColorAlpha) warnAboutColorSpace(document, one, job.diagnostics);
         Image packed = packImages(std::move(*first), *second, job.layout);
         job.image = withMipMaps(std::move(packed), job.layout == PackLayout::ColorAlpha, maxSize);
     } catch (std::bad_alloc const&) {

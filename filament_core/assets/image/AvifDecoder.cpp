@@ -245,6 +245,14 @@ uint2 avifSize(std::span<const std::byte> bytes) {
     return decoder ? orientedSize(*(*decoder)->image) : uint2(0);
 }
 
+std::vector<std::byte> avifProfile(std::span<const std::byte> bytes) {
+    const Result<AvifDecoderPointer> decoder = parseAvif(bytes, "");
+    if (!decoder) return {};
+    avifRWData const& icc = (*decoder)->image->icc;
+    auto const* const first = reinterpret_cast<const std::byte*>(icc.data);
+    return { first, first + icc.size };
+}
+
 bool isDeepAvif(std::span<const std::byte> bytes) {
     if (!isAvif(bytes)) return false;
     const Result<AvifDecoderPointer> decoder = parseAvif(bytes, "");

@@ -2,7 +2,7 @@
 /// decodeImage: a PNG, JPEG, WebP or AVIF file in memory as RGBA8 pixels.
 ///   In      the file's bytes; `name` is used in error messages.
 ///   Out     one level, format RGBA8 (the caller knows whether it is sRGB); missing alpha is 255, grey is copied to all
-///           colours. Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 demands.
+///           colours. Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 demands; ColorProfile.h names them.
 ///           PNG: the pixels of the specification (ISO/IEC 15948); 16-bit channels are rounded to 8 (13.12);
 ///           decodeDeepPng() keeps them.
 ///           JPEG: the accurate integer DCT and triangle-filtered chroma of libjpeg-turbo, whose bits do not depend on
@@ -43,6 +43,8 @@ bool isWebp(std::span<const std::byte> bytes);
 uint2 webpSize(std::span<const std::byte> bytes);
 
 bool isAvif(std::span<const std::byte> bytes);
+/// Its ICC profile; empty without one.
+std::vector<std::byte> avifProfile(std::span<const std::byte> bytes);
 /// As its header says, turned; {0, 0} if there is none.
 uint2 avifSize(std::span<const std::byte> bytes);
 

@@ -4,11 +4,13 @@
 #include "base/Log.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
+#include "filament_core/assets/image/ColorProfile.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
 
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,6 +92,9 @@ Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view n
     if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
         return fail(ErrorCode::Unsupported,
                     "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2, HDR and EXR; convert it to one of them", name);
+    if (const auto space = options.isColor ? foreignColorSpace(bytes) : std::nullopt)
+        log(Severity::Warning, "'{}' declares {}, but its colours are taken as those of sRGB; convert it to sRGB", name,
+            *space);
     if (isDeepImage(bytes)) return decodeDeep(bytes, name, options);
     Result<Image> picture = decodeImage(bytes, name);
     if (picture && options.isColor) picture->format = backend::Format::RGBA8Srgb;

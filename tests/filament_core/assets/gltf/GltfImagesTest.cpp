@@ -3,6 +3,7 @@
 #include "filament_core/assets/gltf/GltfImages.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
+#include "filament_core/assets/image/PngChunks.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
 #include <gmock/gmock.h>
@@ -86,6 +87,29 @@ TEST_F(GltfImages, OneRangeOfABufferThatManyViewsNameIsDecodedOnce) {
     ASSERT_TRUE(model) << model.error().message;
     EXPECT_EQ(model->images.size(), 2u);
     EXPECT_EQ(model->materials[0].baseColor.image, model->materials[1].baseColor.image);
+}
+
+// glTF 2.0, 3.8.3: the colour space of a file is ignored; who exported a wide one learns it.
+TEST_F(GltfImages, AColourSpaceOfAFileIsNamedWhereItHoldsColours) {
+    Bytes wide = png(100);
+    Bytes chunk;
+    appendPngChunk(chunk, "cICP", std::array{ std::byte{ 12 }, std::byte{ 13 }, std::byte{ 0 }, std::byte{ 1 } });
+    wide.insert(wide.begin() + 33, chunk.begin(), chunk.end()); // behind the header
+    put(folder / "wide.png", wide);
+    TestFile file = manyMaterials(1);
+    file.root["images"].push_back({ { "uri", "wide.png" } });
+    const auto model = load(file);
+    ASSERT_TRUE(model) << model.error().message;
+    EXPECT_EQ(model->images[0].data[0], std::byte{ 100 });
+    EXPECT_THAT(model->warnings, testing::ElementsAre(HasSubstr(
+                                         "images[0] wide.png declares CICP primaries 12 and transfer characteristics "
+                                         "13, which glTF ignores")));
+    Json& material = file.root["materials"][0];
+    material["normalTexture"] = material["pbrMetallicRoughness"]["baseColorTexture"];
+    material.erase("pbrMetallicRoughness");
+    const auto bumps = load(file);
+    ASSERT_TRUE(bumps) << bumps.error().message;
+    EXPECT_TRUE(bumps->warnings.empty()) << bumps->warnings.front();
 }
 
 // Nine images of 16384 x 16384 would take 9 GiB; the file has a kilobyte.

@@ -6,6 +6,7 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/environment/Panorama.h"
+#include "filament_core/assets/image/ColorProfile.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/ImageSize.h"
@@ -25,6 +26,9 @@ inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 /// PNG, JPEG, WebP and AVIF. Returns whether it was an image.
 inline bool fuzzImage(std::span<const std::byte> bytes) {
     isCutShortPng(bytes);
+    foreignIccProfile(bytes);
+    if (const auto space = foreignColorSpace(bytes))
+        FILAMENT_ASSERT(space->find('\n') == std::string::npos, "a colour space is one line");
     const uint2 size = imageSize(bytes);
     if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return false; // only slow
     const Result<Image> image = decodeImage(bytes, "fuzzed");
