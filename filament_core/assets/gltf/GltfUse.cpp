@@ -113,7 +113,7 @@ private:
     void material(uint32_t index) {
         if (!mark(GltfArray::Materials, index)) return;
         GltfMaterial& material = mDocument.materials[index];
-        for (TexturePath const& path : texturePaths()) texture(*textureInfoOf(material, path.map, path.isSecond));
+        for (TexturePath const& path : texturePaths()) texture(*textureInfoOf(material, path.map));
         texture(material.specularGlossiness);
     }
 

@@ -21,16 +21,18 @@ void visitMaps(GltfMaterial& material, Visit const& visit) {
         const bool isCore = map == MapName::Normal || map == MapName::Occlusion || map == MapName::Emissive;
         if (map == MapName::BaseColor || m.unlit) return map == MapName::BaseColor;
         if (isCore || m.specularGlossiness) return isCore;
-        if (map == MapName::ClearCoat || map == MapName::ClearCoatNormal) return m.clearCoat.isUsed();
-        if (map == MapName::Sheen) return m.sheen.isUsed();
-        if (map == MapName::Specular) return m.specular.isUsed();
+        if (map >= MapName::ClearCoat && map <= MapName::ClearCoatNormal) return m.clearCoat.isUsed();
+        if (map == MapName::Sheen || map == MapName::SheenRoughness) return m.sheen.isUsed();
+        if (map == MapName::Specular || map == MapName::SpecularFactor) return m.specular.isUsed();
         if (map == MapName::Anisotropy) return m.anisotropy.isUsed();
-        if (map == MapName::Iridescence) return m.iridescence.isUsed();
+        if (map == MapName::Iridescence || map == MapName::IridescenceThickness) return m.iridescence.isUsed();
         if (map == MapName::Transmission) return m.transmission.isUsed();
-        return map != MapName::DiffuseTransmission || m.diffuseTransmission.isUsed();
+        if (map == MapName::Thickness) return m.transmission.isSolid();
+        const bool isDiffuse = map == MapName::DiffuseTransmission || map == MapName::DiffuseTransmissionFactor;
+        return !isDiffuse || m.diffuseTransmission.isUsed();
     };
     for (TexturePath const& path : texturePaths()) {
-        GltfTextureInfo& info = *textureInfoOf(material, path.map, path.isSecond);
+        GltfTextureInfo& info = *textureInfoOf(material, path.map);
         if (info.texture != kNone) visit(info, path.path, isDrawn(path.map));
     }
     if (material.specularGlossiness.texture != kNone)
