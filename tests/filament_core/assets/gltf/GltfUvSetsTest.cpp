@@ -43,7 +43,8 @@ TestFile fileWithSets(std::vector<int> const& order) {
         "KHR_materials_clearcoat": { "clearcoatFactor": 1 }, "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ] },
         "KHR_materials_anisotropy": { "anisotropyStrength": 0.5 }, "KHR_materials_specular": {},
         "KHR_materials_iridescence": { "iridescenceFactor": 1 }, "KHR_materials_volume": { "thicknessFactor": 1 },
-        "KHR_materials_transmission": { "transmissionFactor": 1 } } })") };
+        "KHR_materials_transmission": { "transmissionFactor": 1 },
+        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 } } })") };
     return file;
 }
 
@@ -84,17 +85,8 @@ std::vector<float4> framesAtCorners(ModelData const& model) {
     return frames;
 }
 
-std::vector<TexturePath> mapsOfLayers() {
-    std::vector<TexturePath> maps;
-    for (TexturePath const& path : texturePaths()) {
-        // Transmission takes the place of the textures of diffuse transmission.
-        if (path.map != MapName::DiffuseTransmission) maps.push_back(path);
-    }
-    return maps;
-}
-
 TEST(GltfUvSets, AnySetServesAnyMap) {
-    for (TexturePath const& path : mapsOfLayers()) {
+    for (TexturePath const& path : texturePaths()) {
         for (int set = 0; set < kSets; ++set) {
             TestFile file = fileWithSets(inOrder());
             addMap(file, path.path, set);
