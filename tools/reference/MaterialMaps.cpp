@@ -57,9 +57,9 @@ std::array<double2, 2> MaterialPoint::uvEdgesOf(assets::TextureRef const& map) c
 
 double2 MaterialPoint::derivedVector(assets::TextureRef const& map, double2 vector) const {
     const std::array<double2, 2> uv = uvEdgesOf(map);
-    const double area = uv[0].x * uv[1].y - uv[1].x * uv[0].y, side = area < 0 ? -1 : 1;
+    const double area = uv[0].x * uv[1].y - uv[1].x * uv[0].y, sign = area < 0 ? -1 : 1;
     const double3 tangent(varyings.tangent), bitangent = glm::cross(varyings.normal, tangent) * varyings.tangent.w;
-    const auto inFrame = [&](double3 v) { return double2(glm::dot(v, tangent), glm::dot(v, bitangent)) * side; };
+    const auto inFrame = [&](double3 v) { return double2(glm::dot(v, tangent), glm::dot(v, bitangent)) * sign; };
     const double2 right = inFrame(varyings.edges[0] * uv[1].y - varyings.edges[1] * uv[0].y);
     const double2 up = inFrame(varyings.edges[0] * uv[1].x - varyings.edges[1] * uv[0].x);
     if (area == 0 || right == double2(0.0)) return vector;
@@ -73,9 +73,9 @@ double2 MaterialPoint::vectorOfVertex(assets::TextureRef const& map, double2 vec
     const glm::dmat2 turn{ double3x3(map.uvTransform) };
     const double area = glm::determinant(turn);
     if (frame == assets::MapFrame::Vertex || area == 0) return vector;
-    const double side = area < 0 ? -1 : 1;
-    const double2 x = glm::normalize(double2(turn[1].y, turn[0].y) * side), y(-x.y, x.x);
-    return vector.x * x + vector.y * side * y;
+    const double sign = area < 0 ? -1 : 1;
+    const double2 x = glm::normalize(double2(turn[1].y, turn[0].y) * sign), y(-x.y, x.x);
+    return vector.x * x + vector.y * sign * y;
 }
 
 double3 MaterialPoint::mappedNormal(assets::TextureRef const& map, double scale) const {

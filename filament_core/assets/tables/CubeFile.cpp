@@ -9,6 +9,8 @@
 
 #include <filament_core/Look.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
