@@ -40,11 +40,12 @@ std::optional<double3x3> rec709FromRgb(Chromaticities const& space) {
     return isWhite ? std::optional(result) : std::nullopt;
 }
 
-bool isRec709(Chromaticities const& space) {
+bool isRec709(Chromaticities const& space, double tolerance) {
     Chromaticities const& own = kRec709Chromaticities;
     const std::array<double2, 4> differences{ space.red - own.red, space.green - own.green, space.blue - own.blue,
                                               space.white - own.white };
-    return std::ranges::all_of(differences, [](double2 d) { return std::abs(d.x) <= 5e-4 && std::abs(d.y) <= 5e-4; });
+    return std::ranges::all_of(differences,
+                               [=](double2 d) { return std::abs(d.x) <= tolerance && std::abs(d.y) <= tolerance; });
 }
 
 } // namespace filament_core

@@ -27,7 +27,7 @@ double3x3 whiteAdaptation(double2 from, double2 to);
 /// White stays white. Nothing if the chromaticities span no space of colours, or one so thin that rounding counts.
 std::optional<double3x3> rec709FromRgb(Chromaticities const& space);
 
-/// Whether they are those of Rec. 709 to four digits, as files write them.
-bool isRec709(Chromaticities const& space);
+/// Whether they are those of Rec. 709, each number within `tolerance`.
+bool isRec709(Chromaticities const& space, double tolerance);
 
 } // namespace filament_core

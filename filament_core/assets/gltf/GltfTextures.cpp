@@ -28,7 +28,6 @@ public:
               mJobOfSource(document.images.size(), kNone) {}
 
     MaterialData resolve(uint32_t index) {
-        mMaterial = index;
         GltfMaterial const& material = mDocument.materials[index];
         MaterialData data = material.values;
         data.baseColor = textureFor(material.baseColor, true);
@@ -163,7 +162,6 @@ private:
     std::vector<uint32_t> mFirstOfSame, mSourceOfImage; // by index in the document
     std::vector<uint32_t> mJobOfSource;
     std::map<Packed, uint32_t> mPacked; // -> its slot
-    uint32_t mMaterial = 0;
 };
 
 Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize,

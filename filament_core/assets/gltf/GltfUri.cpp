@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfUri.h"
 
-#include "base/AsciiCase.h"
+#include "base/AsciiText.h"
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,9 @@ constexpr std::array<int8_t, 256> base64Values() {
     return values;
 }
 
-bool isUriBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f'; }
+constexpr std::string_view kUriBlanks = " \t\r\n\f";
+
+bool isUriBlank(char c) { return kUriBlanks.find(c) != kUriBlanks.npos; }
 
 /// Line breaks and blanks, which encoders of MIME and editors put in, count for nothing, and padding ends the data.
 Result<std::vector<std::byte>> base64Decoded(std::string_view text) {
@@ -70,17 +72,11 @@ Result<std::vector<std::byte>> base64Decoded(std::string_view text) {
     return bytes;
 }
 
-std::string_view withoutUriBlanks(std::string_view text) {
-    while (!text.empty() && isUriBlank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && isUriBlank(text.back())) text.remove_suffix(1);
-    return text;
-}
-
 /// "base64" is the last parameter (RFC 2397); some writers let a charset follow it.
 bool saysBase64(std::string_view mediaType) {
     for (size_t at = mediaType.find(';'); at != std::string_view::npos; at = mediaType.find(';')) {
         mediaType.remove_prefix(at + 1);
-        if (lowerCase(withoutUriBlanks(mediaType.substr(0, mediaType.find(';')))) == "base64") return true;
+        if (lowerCase(withoutBlanks(mediaType.substr(0, mediaType.find(';')), kUriBlanks)) == "base64") return true;
     }
     return false;
 }
@@ -104,7 +100,7 @@ bool hasScheme(std::string_view uri) {
 
 bool isDataUri(std::string_view uri) {
     constexpr std::string_view kScheme = "data:";
-    return lowerCase(withoutUriBlanks(uri).substr(0, kScheme.size())) == kScheme;
+    return lowerCase(withoutBlanks(uri, kUriBlanks).substr(0, kScheme.size())) == kScheme;
 }
 
 Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {

@@ -9,12 +9,12 @@
 #include <memory>
 
 namespace filament_core::assets {
-namespace {
 
-/// IEC 61966-2-1.
 double linearFromSrgb(double code) {
     return code <= 0.04045 ? code / 12.92 : elementary::pow((code + 0.055) / 1.055, 2.4);
 }
+
+namespace {
 
 std::unique_ptr<ChannelTransfer> makeTransfer(double (*linearFromUnit)(double)) {
     auto transfer = std::make_unique<ChannelTransfer>();

@@ -11,6 +11,9 @@
 
 namespace filament_core::assets {
 
+/// IEC 61966-2-1, of codes in [0, 1].
+double linearFromSrgb(double code);
+
 struct ChannelTransfer {
     std::array<uint16_t, 256> linearFromCode;
     std::array<uint8_t, 65536> codeFromLinear; ///< the code with the nearest value

@@ -63,13 +63,6 @@ void readPngChunk(std::string_view name, Bytes data, PngColors& colors) {
     colors.chromaticities = { .red = at(1), .green = at(2), .blue = at(3), .white = at(0) };
 }
 
-bool isNearRec709(Chromaticities const& space) {
-    Chromaticities const& own = kRec709Chromaticities;
-    const auto isNear = [](double2 a, double2 b) { return std::abs(a.x - b.x) < 0.01 && std::abs(a.y - b.y) < 0.01; };
-    return isNear(space.red, own.red) && isNear(space.green, own.green) && isNear(space.blue, own.blue) &&
-           isNear(space.white, own.white);
-}
-
 /// Codes of H.273 whose colours are taken as those of sRGB: AVIF files have them, too.
 std::optional<std::string> foreignCicp(uint32_t primaries, uint32_t transfer) {
     if ((primaries == 1 || primaries == 2) && (transfer == 13 || transfer == 1 || transfer == 2)) return std::nullopt;
@@ -88,7 +81,7 @@ std::optional<std::string> foreignPng(Bytes file) {
     if (colors.cicp) return foreignCicp((*colors.cicp)[0], (*colors.cicp)[1]);
     if (!colors.profile.empty()) return foreignIccProfile(colors.profile);
     if (colors.isSrgb) return std::nullopt;
-    if (colors.chromaticities && !isNearRec709(*colors.chromaticities)) {
+    if (colors.chromaticities && !isRec709(*colors.chromaticities, 0.01)) {
         auto const& [red, green, blue, white] = *colors.chromaticities;
         return fmt::format("the primaries {} {}, {} {}, {} {} and the white {} {} of cHRM", red.x, red.y, green.x,
                            green.y, blue.x, blue.y, white.x, white.y);

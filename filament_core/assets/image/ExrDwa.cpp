@@ -7,6 +7,7 @@
 //           own; of the others, runs of zeros are one word each.
 //   Runs    exact: the first bytes of all samples, then the second, ..., as run lengths in a zlib stream.
 //   Plain   exact: a zlib stream.
+#include "base/AsciiText.h"
 #include "base/math/Elementary.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ExrBlock.h"
@@ -78,13 +79,6 @@ std::optional<std::vector<Rule>> readRules(ByteCursor& cursor) {
         if (color > 0) rule.color = color - 1;
     }
     return rules;
-}
-
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
 }
 
 /// How each channel is stored, and which are stored as three colours.

@@ -284,7 +284,8 @@ void addWarnings(ExrHeader const& header, HdrImage& image) {
     const bool isSeen = shown.minX < int64_t{ header.minX } + header.width && header.minX < shown.minX + shown.width &&
                         shown.minY < int64_t{ header.minY } + header.height && header.minY < shown.minY + shown.height;
     if (!isSeen)
-        image.warnings.push_back("it is black: its dataWindow lies outside of its displayWindow; correct one of them");
+        image.warnings.emplace_back(
+                "it is black: its dataWindow lies outside of its displayWindow; correct one of them");
     if (header.pixelAspectRatio != 1)
         image.panoramaWarnings.push_back(
                 fmt::format("its pixelAspectRatio of {} is left out: a panorama covers 360 by 180 degrees in any size",

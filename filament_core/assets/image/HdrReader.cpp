@@ -38,11 +38,14 @@ bool isUnknown(Chromaticities const& space) {
 
 /// Of colours that are not those of Rec. 709 already.
 std::optional<double3x3> conversionOf(DecodedHdr& decoded) {
-    if (!decoded.primaries || isRec709(*decoded.primaries) || isUnknown(*decoded.primaries)) return std::nullopt;
+    constexpr double kFourDigits = 5e-4; // as files write them
+    if (!decoded.primaries || isRec709(*decoded.primaries, kFourDigits) || isUnknown(*decoded.primaries))
+        return std::nullopt;
     const std::optional<double3x3> matrix = rec709FromRgb(*decoded.primaries);
     if (!matrix)
-        decoded.image.warnings.push_back("its primaries are not those of colours and are taken as those of Rec. 709; "
-                                         "correct PRIMARIES or chromaticities");
+        decoded.image.warnings.emplace_back(
+                "its primaries are not those of colours and are taken as those of Rec. 709; "
+                "correct PRIMARIES or chromaticities");
     return matrix;
 }
 

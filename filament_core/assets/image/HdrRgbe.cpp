@@ -2,6 +2,7 @@
 // Radiance RGBE: three mantissas of 8 bits with one exponent. Ward 1991, "Real Pixels" (Graphics Gems II), and the
 // format description in Radiance's ray/doc/filefmts. Header lines are those of its programs, and the spellings of
 // others.
+#include "base/AsciiText.h"
 #include "filament_core/assets/image/HdrDecoders.h"
 
 #include <algorithm>
@@ -31,12 +32,6 @@ struct RgbeHeader {
 };
 
 Error truncated() { return fail(ErrorCode::Corrupt, "it ends in the middle of the pixels"); }
-
-std::string_view withoutBlanks(std::string_view text) {
-    const size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 std::string_view nextWord(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
@@ -114,7 +109,7 @@ void parseView(std::string_view value, RgbeHeader& header) {
 Result<void> parseRgbeLine(std::string_view line, RgbeHeader& header) {
     const size_t equals = std::min(line.find('='), line.size());
     const std::string_view key = line.substr(0, line.substr(0, equals).find_last_not_of(kBlanks) + 1);
-    const std::string_view value = withoutBlanks(line.substr(std::min(equals + 1, line.size())));
+    const std::string_view value = withoutBlanks(line.substr(std::min(equals + 1, line.size())), kBlanks);
     const std::vector<float> numbers = numbersOf(value, 1);
     const float number = numbers.empty() ? 0 : numbers[0];
     if (key == "FORMAT" && value != "32-bit_rle_rgbe")
@@ -139,7 +134,7 @@ Result<RgbeHeader> parseRgbeHeader(ByteCursor& cursor) {
         const auto line = cursor.readUntil('\n', kMaxHeaderLine);
         if (!line) break;
         if (line->starts_with("-Y ") || line->starts_with("+Y ")) return parseResolution(*line, header);
-        if (withoutBlanks(*line).empty()) {
+        if (withoutBlanks(*line, kBlanks).empty()) {
             const auto resolution = cursor.readUntil('\n', kMaxHeaderLine);
             if (!resolution) break;
             return parseResolution(*resolution, header);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/math/Elementary.h"
+#include "filament_core/assets/image/ChannelTransfer.h"
 #include "filament_core/assets/image/ColorProfile.h"
 
 #include <fmt/format.h>
@@ -61,10 +62,6 @@ std::string iccName(IccTags const& tags) {
     return name;
 }
 
-double srgbDecoded(double code) {
-    return code <= 0.04045 ? code / 12.92 : elementary::pow((code + 0.055) / 1.055, 2.4);
-}
-
 /// A parametric curve, ICC.1 table 68; NaN of an unknown one.
 double parametric(IccTags const& tags, size_t at, double x) {
     const uint32_t type = tags.number(at + 8, 2);
@@ -104,7 +101,7 @@ bool isSrgbCurve(IccTags const& tags, std::string_view name) {
     const size_t at = tags.find(name);
     for (int i = 1; i <= 16; ++i) {
         const double x = i / 16.0;
-        if (!(std::abs(curveAt(tags, at, x) - srgbDecoded(x)) < 0.01)) return false; // NaN too
+        if (!(std::abs(curveAt(tags, at, x) - linearFromSrgb(x)) < 0.01)) return false; // NaN too
     }
     return true;
 }

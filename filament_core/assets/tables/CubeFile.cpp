@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // .cube files: Adobe 2013, "Cube LUT Specification" 1.0, and what Resolve adds (Developer/LUT/README.txt of its
 // installation): input ranges, a curve before the cube, and video range.
-#include "base/AsciiCase.h"
+#include "base/AsciiText.h"
 #include "base/NumberText.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/tables/DisplayColor.h"
@@ -44,12 +44,6 @@ size_t wordsOf(std::string_view line, std::array<std::string_view, 4>& words) {
         at = line.find_first_not_of(kBlank, end);
     }
     return count;
-}
-
-std::string_view withoutBlanks(std::string_view text) {
-    const size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 /// Without its quotes, of either kind, and cut at kMaxTitle bytes, but not within a character.
@@ -146,7 +140,7 @@ private:
     void readKeyword(std::string_view keyword, std::string_view line, std::array<std::string_view, 4> const& words,
                      size_t count) {
         if (keyword == "TITLE") {
-            mTitle = titleOf(withoutBlanks(withoutBlanks(line).substr(keyword.size())));
+            mTitle = titleOf(withoutBlanks(withoutBlanks(line, kBlank).substr(keyword.size()), kBlank));
             return;
         }
         if (keyword == "LUT_1D_SIZE") return readSize(mCurve, kMaxCurve, words, count);

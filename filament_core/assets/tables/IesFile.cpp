@@ -2,7 +2,7 @@
 // The format is that of LM-63; Ashdown 1999, "Parsing the IESNA LM-63 Photometric Data File", for its older editions.
 #include "filament_core/assets/tables/IesFile.h"
 
-#include "base/AsciiCase.h"
+#include "base/AsciiText.h"
 #include "base/NumberText.h"
 #include "base/math/Elementary.h"
 
@@ -111,11 +111,7 @@ private:
     std::optional<Error> mError;
 };
 
-std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+std::string_view trimmed(std::string_view text) { return withoutBlanks(text, " \t"); }
 
 /// Whether the second ballast factor of files with this first line counts: in the editions of 1986, which has no line
 /// of its own, and 1991, "IESNA91". Later ones begin with "IESNA:LM-63-1995" or "IES:LM-63-2019"; programs vary case,

@@ -2,8 +2,8 @@
 // What the drawn scene does not use may be broken: each way to break an element is tried on one that the scene uses,
 // which is an error, and on one that it does not use, which is a warning and changes nothing of the model.
 #include "filament_core/assets/files/FileBytes.h"
+#include "tests/filament_core/assets/FaultFile.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
@@ -344,11 +344,10 @@ TEST(GltfUse, ChannelsThatMoveNothingDrawnMayHaveBrokenData) {
 }
 
 TEST(GltfUse, FilesWithAnUnusedBrokenPartAreDrawn) {
-    const std::filesystem::path faults = tools::assetDir().parent_path() / "faults";
-    if (!std::filesystem::exists(faults)) GTEST_SKIP() << "needs the folder 'faults' beside the assets";
+    SKIP_WITHOUT_FAULT_FILES();
     for (const char* name : { "unused_broken_image.gltf", "unused_broken_buffer.glb" }) {
         jobs::JobSystem jobs({ .workers = 0 });
-        const Result<ModelData> model = loadGltf(faults / name, jobs);
+        const Result<ModelData> model = loadGltf(faultFile(name), jobs);
         ASSERT_TRUE(model) << model.error().message;
         ASSERT_EQ(model->meshes.size(), 1u);
         EXPECT_GT(model->meshes[0].primitives.size(), 0u);

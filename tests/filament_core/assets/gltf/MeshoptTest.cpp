@@ -2,9 +2,9 @@
 // KHR_meshopt_compression and EXT_meshopt_compression: generated streams, the examples of the specification, filters
 // beside its formulas, damage, and the rules in which the two extensions differ.
 #include "filament_core/assets/gltf/Meshopt.h"
+#include "tests/filament_core/assets/FaultFile.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/assets/gltf/MeshoptWriter.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
@@ -385,12 +385,11 @@ TEST(Meshopt, DescriptionsThatBreakARuleNameIt) {
 
 /// Of gltfpack 1.3: both are quantised alike, so that they are the same numbers.
 TEST(Meshopt, TheFoxInVersionOneIsTheFoxInVersionZero) {
-    const std::filesystem::path folder = tools::assetDir().parent_path() / "faults";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "needs 'faults' beside the folder FILAMENT_ASSET_DIR";
+    SKIP_WITHOUT_FAULT_FILES();
     jobs::JobSystem jobs;
     const GltfOptions options{ .deformation = GltfDeformation::Kept };
-    const Result<ModelData> one = loadGltf(folder / "meshopt_khr_v1.glb", jobs, options);
-    const Result<ModelData> zero = loadGltf(folder / "meshopt_ext_v0_same_model.glb", jobs, options);
+    const Result<ModelData> one = loadGltf(faultFile("meshopt_khr_v1.glb"), jobs, options);
+    const Result<ModelData> zero = loadGltf(faultFile("meshopt_ext_v0_same_model.glb"), jobs, options);
     ASSERT_TRUE(one) << one.error().message;
     ASSERT_TRUE(zero) << zero.error().message;
     ASSERT_EQ(one->meshes.size(), zero->meshes.size());

@@ -2,19 +2,14 @@
 // Two maps of one extension that differ in anything that says how they are read: each draws what it draws alone. The
 // other is white then, so that the same numbers are multiplied by one: the pictures have the same bits.
 #include "filament_core/assets/gltf/GltfWriter.h"
-#include "tests/filament_core/assets/gltf/GltfTestFile.h"
-#include "tests/filament_core/engine/materials/MaterialStage.h"
-
-#include <filament_core/Gltf.h>
+#include "tests/filament_core/engine/gltf/SquareGrid.h"
 
 #include <array>
-#include <memory>
 #include <span>
 
 namespace filament_core::texture_pairs {
 namespace {
 
-using assets::test::Bytes;
 using assets::test::Json;
 using assets::test::TestFile;
 
@@ -118,61 +113,42 @@ Json materialOf(TestFile& file, Square const& square) {
              { "extensions", extensions } };
 }
 
-/// Squares of 2 x 2 metres, side by side in rows.
-constexpr uint32_t kColumns = 20, kPixels = 4;
+constexpr uint32_t kPixels = 4;
+using SquarePixels = std::array<float4, size_t{ kPixels } * kPixels>;
 
-Bytes fileOf(std::span<const Square> squares) {
+/// Under suns from both sides, before a white background; the same bits on both APIs.
+std::vector<SquarePixels> draw(std::span<const Square> squares) {
     using assets::test::kFloat;
+    const test::SquareGrid grid{ .columns = 20, .pixels = kPixels, .count = squares.size() };
     TestFile file;
-    file.root["nodes"] = file.root["meshes"] = file.root["scenes"][0]["nodes"] = Json::array();
     for (const char* name : { "KHR_texture_transform", "KHR_materials_clearcoat", "KHR_materials_sheen",
                               "KHR_materials_specular", "KHR_materials_iridescence", "KHR_materials_transmission",
                               "KHR_materials_volume", "KHR_materials_diffuse_transmission" })
         file.root["extensionsUsed"].push_back(name);
     const std::vector<float> places{ -1, 1, 0, -1, -1, 0, 1, -1, 0, 1, 1, 0 };
+    const std::vector<float> normals{ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 };
     const std::vector<float> upright{ 0, 0, 0, 1, 1, 1, 1, 0 }, other{ 0.1f, 0.7f, 0.9f, 0.2f, 1.4f, 1.1f, 0.3f, 1.6f };
     const Json attributes{ { "POSITION", file.add(places, kFloat, "VEC3", 3) },
-                           { "NORMAL",
-                             file.add(std::vector<float>{ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 }, kFloat, "VEC3", 3) },
+                           { "NORMAL", file.add(normals, kFloat, "VEC3", 3) },
                            { "TEXCOORD_0", file.add(upright, kFloat, "VEC2", 2) },
                            { "TEXCOORD_1", file.add(other, kFloat, "VEC2", 2) } };
     const size_t indices = file.add(std::vector<uint16_t>{ 0, 1, 2, 0, 2, 3 }, assets::test::kUShort, "SCALAR", 1);
+    std::vector<Json> primitives;
     for (size_t i = 0; i < squares.size(); ++i) {
         file.root["materials"].push_back(materialOf(file, squares[i]));
-        const Json primitive{ { "attributes", attributes }, { "indices", indices }, { "material", i } };
-        file.root["meshes"].push_back({ { "primitives", Json::array({ primitive }) } });
-        file.root["nodes"].push_back(
-                { { "mesh", i }, { "translation", { 2 * (i % kColumns) + 1, 2 * (i / kColumns) + 1, 0 } } });
-        file.root["scenes"][0]["nodes"].push_back(i);
+        primitives.push_back({ { "attributes", attributes }, { "indices", indices }, { "material", i } });
     }
-    return file.glb();
-}
-
-using SquarePixels = std::array<float4, size_t{ kPixels } * kPixels>;
-
-/// Under suns from both sides, before a white background; the same bits on both APIs.
-std::vector<SquarePixels> draw(std::span<const Square> squares) {
-    const Bytes file = fileOf(squares);
-    const auto rows = static_cast<uint32_t>((squares.size() + kColumns - 1) / kColumns);
-    const Image image = test::onBothApis([&](test::MaterialStage& stage) {
-        Result<Model> model = loadGltf(stage.engine, GltfMemory{ .file = file, .name = "pairs.glb" });
-        ASSERT_TRUE(model) << model.error().message;
-        const auto kept = std::make_shared<Model>(std::move(*model));
-        stage.keep(kept);
-        stage.scene.add(*kept);
+    grid.place(file, primitives);
+    const Image image = grid.draw(file.glb(), 1, [](test::MaterialStage& stage) {
         for (const float side : { 1.0f, -1.0f })
             stage.scene.add(SunLight{ .directionWorld = { -0.3f, -0.2f, -side }, .illuminance = Lux{ 2 + side } });
         stage.view.clearColor = float4(1);
-        stage.view.size = { kColumns * kPixels, rows * kPixels };
-        stage.view.camera = Camera::lookAt({ kColumns, rows, 5 }, { kColumns, rows, 0 },
-                                           { .orthographicHeight = 2.0f * float(rows) });
-        stage.view.camera.exposure = { .aperture = 1, .shutterSeconds = 1, .iso = 100 };
     });
     std::vector<SquarePixels> pixels(squares.size());
-    for (uint32_t i = 0; i < squares.size() && !image.pixels.empty(); ++i) {
+    for (size_t i = 0; i < squares.size() && !image.pixels.empty(); ++i) {
+        const uint2 corner = grid.cornerOf(i, 1);
         for (uint32_t p = 0; p < kPixels * kPixels; ++p)
-            pixels[i][p] = test::halfPixel(image, i % kColumns * kPixels + p % kPixels,
-                                           (rows - 1 - i / kColumns) * kPixels + p / kPixels);
+            pixels[i][p] = test::halfPixel(image, corner.x + p % kPixels, corner.y + p / kPixels);
     }
     return pixels;
 }

@@ -3,20 +3,15 @@
 // transform draws what a mesh draws whose coordinates contain it, and two maps of one material do not disturb each
 // other.
 #include "filament_core/assets/gltf/GltfWriter.h"
-#include "tests/filament_core/assets/gltf/GltfTestFile.h"
-#include "tests/filament_core/engine/materials/MaterialStage.h"
-
-#include <filament_core/Gltf.h>
+#include "tests/filament_core/engine/gltf/SquareGrid.h"
 
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <span>
 
 namespace filament_core::vector_textures {
 namespace {
 
-using assets::test::Bytes;
 using assets::test::Json;
 using assets::test::TestFile;
 
@@ -158,47 +153,24 @@ Json primitiveOf(TestFile& file, Square const& square) {
              { "material", file.root["materials"].size() - 1 } };
 }
 
-/// Squares of 2 x 2 metres, side by side in rows.
-constexpr uint32_t kColumns = 32, kPixels = 2;
-
-Bytes fileOf(std::span<const Square> squares) {
-    TestFile file;
-    file.root["nodes"] = file.root["meshes"] = file.root["scenes"][0]["nodes"] = Json::array();
-    file.root["extensionsUsed"] = { "KHR_texture_transform", "KHR_materials_clearcoat", "KHR_materials_anisotropy",
-                                    "KHR_materials_specular" };
-    for (size_t i = 0; i < squares.size(); ++i) {
-        file.root["meshes"].push_back({ { "primitives", { primitiveOf(file, squares[i]) } } });
-        file.root["nodes"].push_back(
-                { { "mesh", i }, { "translation", { 2 * (i % kColumns) + 1, 2 * (i / kColumns) + 1, 0 } } });
-        file.root["scenes"][0]["nodes"].push_back(i);
-    }
-    return file.glb();
-}
-
 /// The colours of squares under a sun from the side, scene-linear, from the front or the back: the same bits on both
 /// APIs.
 std::vector<float3> draw(std::span<const Square> squares, double side = 1) {
-    const Bytes file = fileOf(squares);
-    const auto rows = static_cast<uint32_t>((squares.size() + kColumns - 1) / kColumns);
-    const Image image = test::onBothApis([&](test::MaterialStage& stage) {
-        Result<Model> model = loadGltf(stage.engine, GltfMemory{ .file = file, .name = "vectors.glb" });
-        ASSERT_TRUE(model) << model.error().message;
-        const auto kept = std::make_shared<Model>(std::move(*model));
-        stage.keep(kept);
-        stage.scene.add(*kept);
+    const test::SquareGrid grid{ .columns = 32, .pixels = 2, .count = squares.size() };
+    TestFile file;
+    file.root["extensionsUsed"] = { "KHR_texture_transform", "KHR_materials_clearcoat", "KHR_materials_anisotropy",
+                                    "KHR_materials_specular" };
+    std::vector<Json> primitives;
+    for (Square const& square : squares) primitives.push_back(primitiveOf(file, square));
+    grid.place(file, primitives);
+    const Image image = grid.draw(file.glb(), side, [&](test::MaterialStage& stage) {
         stage.scene.add(SunLight{ .directionWorld = { -0.5f, -0.3f, float(-side) }, .illuminance = Lux{ 3 } });
-        stage.view.size = { kColumns * kPixels, rows * kPixels };
-        stage.view.camera = Camera::lookAt({ kColumns, rows, side * 5 }, { kColumns, rows, 0 },
-                                           { .orthographicHeight = 2.0f * float(rows) });
-        stage.view.camera.exposure = { .aperture = 1, .shutterSeconds = 1, .iso = 100 };
     });
-    std::vector<float3> colors;
-    for (uint32_t i = 0; i < squares.size() && !image.pixels.empty(); ++i) {
-        const uint32_t x = (side > 0 ? i % kColumns : kColumns - 1 - i % kColumns) * kPixels;
-        const uint32_t y = (rows - 1 - i / kColumns) * kPixels;
-        colors.emplace_back(test::halfPixel(image, x, y));
+    std::vector<float3> colors(squares.size());
+    for (size_t i = 0; i < squares.size() && !image.pixels.empty(); ++i) {
+        const uint2 corner = grid.cornerOf(i, side);
+        colors[i] = float3(test::halfPixel(image, corner.x, corner.y));
     }
-    colors.resize(squares.size());
     return colors;
 }
 

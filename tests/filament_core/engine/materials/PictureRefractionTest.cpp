@@ -113,12 +113,12 @@ double crossing(Image const& image, uint32_t y, double share) {
 
 // The chord of the ball, for a view along -z and a slab turned about y by `angle`.
 TEST(PictureRefraction, ATurnedBlockShiftsAnEdgeAsFarAsSnellsLawSays) {
-    constexpr uint32_t kSide = 128;
+    constexpr uint32_t kViewSide = 128;
     constexpr double kFov = 2, kEye = 60, kBehindZ = -0.6, kThickness = 0.4;
     for (const double degrees : { 0.0, 20.0, 45.0, -45.0, 60.0 }) {
         for (const double ior : { 1.0, 1.5, 2.4 }) {
             const double angle = glm::radians(degrees);
-            const Image picture = seen({ kSide, kSide }, [&](MaterialStage& stage) {
+            const Image picture = seen({ kViewSide, kViewSide }, [&](MaterialStage& stage) {
                 stage.view.camera = Camera::lookAt({ 0, 0, kEye }, { 0, 0, 0 }, { .verticalFovDegrees = kFov });
                 addWall(stage, kEdge, static_cast<float>(kBehindZ), 8);
                 double4x4 turned(1.0);
@@ -134,26 +134,27 @@ TEST(PictureRefraction, ATurnedBlockShiftsAnEdgeAsFarAsSnellsLawSays) {
             // difference.
             const double inside = std::asin(std::sin(std::abs(angle)) / ior);
             const double aside = kThickness * std::cos(inside) * std::sin(std::abs(angle) - inside);
-            const double shift = (angle > 0 ? 1 : -1) * aside * kSide / (2 * kEye * std::tan(glm::radians(kFov / 2)));
-            EXPECT_NEAR(crossing(picture, kSide / 2, 0.5), kSide / 2 + shift, 0.25)
+            const double shift =
+                    (angle > 0 ? 1 : -1) * aside * kViewSide / (2 * kEye * std::tan(glm::radians(kFov / 2)));
+            EXPECT_NEAR(crossing(picture, kViewSide / 2, 0.5), kViewSide / 2 + shift, 0.25)
                     << degrees << " degrees, index " << ior;
         }
     }
 }
 
 TEST(PictureRefraction, RoughGlassBlursAnEdgeAsWideAsItsLobe) {
-    constexpr uint32_t kSide = 256;
+    constexpr uint32_t kViewSide = 256;
     double last = 0;
     for (const double roughness : { 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35 }) {
-        const Image picture = seen({ kSide, kSide }, [&](MaterialStage& stage) {
+        const Image picture = seen({ kViewSide, kViewSide }, [&](MaterialStage& stage) {
             addWall(stage, kEdge, -4, 16); // as far behind the sheet as the camera is before it
             stage.add(stage.material(text(kSheet, fmt::format("material.roughness = {:.2f};", roughness)), kNoLights),
                       { {} });
         });
         // Half of the light of a lobe of half vectors with alpha = roughness^2 is within 2 alpha / sqrt(3) of a row.
-        const double pixelsPerTangent = kSide / (2 * std::tan(glm::radians(22.5)));
+        const double pixelsPerTangent = kViewSide / (2 * std::tan(glm::radians(22.5)));
         const double expected = 2 * (2 * roughness * roughness / std::sqrt(3.0)) * 0.5 * pixelsPerTangent;
-        const double found = crossing(picture, kSide / 2, 0.75) - crossing(picture, kSide / 2, 0.25);
+        const double found = crossing(picture, kViewSide / 2, 0.75) - crossing(picture, kViewSide / 2, 0.25);
         EXPECT_NEAR(found, expected, 0.15 * expected + 0.6) << roughness;
         EXPECT_GT(found, last) << roughness;
         last = found;

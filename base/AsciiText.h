@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What readers of text formats do with words, whatever the locale of the program.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace filament_core {
+
+/// Without the case of the letters A to Z.
+inline std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower;
+}
+
+/// Without the characters of `blanks` at both ends.
+inline std::string_view withoutBlanks(std::string_view text, std::string_view blanks) {
+    const size_t first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+} // namespace filament_core
