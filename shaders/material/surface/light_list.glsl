@@ -30,3 +30,32 @@ LightList lightsNear(highp vec3 point) {
     }
     return list;
 }
+
+// A light of a list.
+struct ListedLight {
+    int place; // in the list; its count: none
+    int index; // in lightBuffer
+    highp vec4 positionRange;
+};
+
+// Steps to the next light whose range the point is within, at `light.place` or after it.
+// A loop of its own that reads only what it must: drivers for CPUs shade several fragments in step, with every
+// instruction of a loop for all of them until the last one leaves it. So each fragment first finds its own next light,
+// and shading runs as often as the fragment with most lights in range needs it, not once for each light listed.
+void findInRange(LightList list, highp vec3 point, inout ListedLight light) {
+    bool isSearching = light.place < list.count;
+    for (;;) {
+        if (isSearching) {
+            light.index = light.place;
+            if (list.isFroxel) light.index = int(froxelBuffer.words[list.first + light.place]);
+            light.index += int(frameUniforms.froxelPlaces.y);
+            light.positionRange = lightBuffer.lights[light.index].positionRange;
+            highp vec3 toLight = light.positionRange.xyz - point;
+            // Where distanceAttenuation() and rangeWindow() are 0. Suns are unlimited: their w is 0.
+            bool isOutside = dot(toLight, toLight) * light.positionRange.w >= 1.0;
+            if (isOutside) ++light.place;
+            isSearching = isOutside && light.place < list.count;
+        }
+        if (!isSearching) break; // last in the loop: whatever follows a break runs once more, for no fragment
+    }
+}

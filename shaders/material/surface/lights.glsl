@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sum over all lights that reach a surface: shadeLight() of the shading model for each.
 
-// Authors' models see lights in full shadow, too.
+// Lights in full shadow are not shaded; authors' models see them, too.
+bool isLit(highp vec3 visibility) {
 #if defined(CUSTOM_SURFACE_SHADING)
-#define SKIP_IN_SHADOW(visibility)
+    return true;
 #else
-#define SKIP_IN_SHADOW(visibility) if (max3(visibility) <= 0.0) continue;
+    return max3(visibility) > 0.0;
 #endif
+}
 
 #if defined(HAS_LIGHT_LIST)
 
@@ -26,71 +28,78 @@ highp vec3 areaLight(Surface surface, AreaLight area) {
     return reflected;
 }
 
-highp vec3 punctualLights(Surface surface) {
-    highp vec3 sum = vec3(0.0);
-    LightList list = lightsNear(vertex_worldPosition);
-    int firstLight = int(frameUniforms.froxelPlaces.y);
-    for (int i = 0; i < list.count; ++i) { // a loop even for few lights: unrolled code takes seconds to compile
-        int index = i;
-        if (list.isFroxel) index = int(froxelBuffer.words[list.first + i]);
-        index += firstLight;
-        highp vec4 positionRange = lightBuffer.lights[index].positionRange;
-        highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
-        bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
-        bool isAnArea = quality_areaLights != 0 && isArea(colorIntensity.w);
-        highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
-        highp float attenuation = 1.0;
-        if (isAnArea) {
-            attenuation = rangeWindow(toLight, positionRange.w);
-        } else if (!isSun) {
-            attenuation = distanceAttenuation(toLight, positionRange.w);
+highp vec3 punctualLight(Surface surface, ListedLight listed) {
+    int index = listed.index;
+    highp vec4 positionRange = listed.positionRange;
+    highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
+    bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
+    bool isAnArea = quality_areaLights != 0 && isArea(colorIntensity.w);
+    highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
+    highp vec3 direction = isSun ? toLight : normalizeOrZero(toLight);
+    highp float attenuation = 1.0;
+    if (isAnArea) {
+        attenuation = rangeWindow(toLight, positionRange.w);
+    } else if (!isSun) {
+        attenuation = distanceAttenuation(toLight, positionRange.w);
+    }
+    if (colorIntensity.w > 0.0 && !isAnArea) {
+        highp vec4 directionScale = lightBuffer.lights[index].directionScale;
+        highp float offset = lightBuffer.lights[index].offset.x;
+        attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
+    }
+    if (quality_lightProfiles != 0 && !isAnArea) {
+        highp float profiled = lightBuffer.lights[index].offset.w;
+        if (profiled > 0.0) {
+            highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
+            attenuation *= profileShare(int(profiled) - 1, forward, -direction);
         }
-        if (attenuation <= 0.0) continue; // out of range
-        highp vec3 direction = isSun ? toLight : normalizeOrZero(toLight);
-        if (colorIntensity.w > 0.0 && !isAnArea) {
-            highp vec4 directionScale = lightBuffer.lights[index].directionScale;
-            highp float offset = lightBuffer.lights[index].offset.x;
-            attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
-            if (attenuation <= 0.0) continue; // outside the cone
-        }
-        if (quality_lightProfiles != 0 && !isAnArea) {
-            highp float profiled = lightBuffer.lights[index].offset.w;
-            if (profiled > 0.0) {
-                highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
-                attenuation *= profileShare(int(profiled) - 1, forward, -direction);
-                if (attenuation <= 0.0) continue; // dark in this direction
-            }
-        }
+    }
+    highp vec3 light = vec3(0.0);
+    if (attenuation > 0.0) { // in range, within the cone, and the profile is not dark in this direction
         highp vec3 visibility = vec3(1.0);
 #if defined(RECEIVES_SHADOWS)
-        if (variant_shadows != 0) {
-            visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
-            SKIP_IN_SHADOW(visibility)
-        }
+        if (variant_shadows != 0) visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
 #endif
         if (quality_contactShadows != 0) {
-            bool isAsked = (int(lightBuffer.lights[index].offset.z) & kContactShadowBit) != 0;
+            bool isAsked = (int(lightBuffer.lights[index].offset.z) & kContactShadowBit) != 0 && isLit(visibility);
             highp float reach = isSun ? frameUniforms.contactShadows.x : sqrt(dot(toLight, toLight));
             visibility *= contactVisibility(isAsked, direction, reach);
-            SKIP_IN_SHADOW(visibility)
         }
         if (isAnArea) {
             AreaLight area = areaLightAt(index, toLight, colorIntensity);
             area.luminance *= attenuation;
             area.visibility = visibility;
-            sum += areaLight(surface, area);
-            continue;
-        }
-        Light arriving;
-        arriving.direction = direction;
-        arriving.illuminance = colorIntensity.rgb * (visibility * attenuation);
+            if (isLit(visibility)) light = areaLight(surface, area);
+        } else if (isLit(visibility)) {
+            Light arriving;
+            arriving.direction = direction;
+            arriving.illuminance = colorIntensity.rgb * (visibility * attenuation);
 #if defined(CUSTOM_SURFACE_SHADING)
-        arriving.color = tintedByShadow(colorIntensity.rgb, visibility);
-        arriving.attenuation = attenuation;
-        arriving.visibility = max3(visibility);
-        arriving.position = isSun ? vertex_worldPosition + toLight : positionRange.xyz;
+            arriving.color = tintedByShadow(colorIntensity.rgb, visibility);
+            arriving.attenuation = attenuation;
+            arriving.visibility = max3(visibility);
+            arriving.position = isSun ? vertex_worldPosition + toLight : positionRange.xyz;
 #endif
-        sum += shadeLight(surface, arriving);
+            light = shadeLight(surface, arriving);
+        }
+    }
+    return light;
+}
+
+highp vec3 punctualLights(Surface surface) {
+    highp vec3 sum = vec3(0.0);
+    LightList list = lightsNear(vertex_worldPosition);
+    ListedLight next = ListedLight(0, 0, vec4(0.0));
+    findInRange(list, vertex_worldPosition, next);
+    for (;;) { // a loop even for few lights: unrolled code takes seconds to compile
+        ListedLight light = next;
+        bool isFound = light.place < list.count;
+        if (isFound) {
+            ++next.place;
+            findInRange(list, vertex_worldPosition, next);
+            sum += punctualLight(surface, light);
+        }
+        if (!isFound || next.place >= list.count) break; // last, as in findInRange()
     }
     return sum;
 }
