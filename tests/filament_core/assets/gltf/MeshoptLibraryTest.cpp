@@ -4,12 +4,11 @@
 // are there.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/Meshopt.h"
-#include "tools/paths/Paths.h"
+#include "tests/filament_core/assets/NpmPackages.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -17,17 +16,6 @@ namespace filament_core::assets {
 namespace {
 
 namespace fs = std::filesystem;
-
-int shell(std::string const& command) { return std::system(command.c_str()); }
-
-/// Installed once for a build; offline if the package is in npm's cache.
-bool installLibrary(fs::path const& folder) {
-    const fs::path package = folder / "node_modules/meshoptimizer/package.json";
-    if (fs::exists(package)) return shell("node --version > /dev/null 2>&1") == 0;
-    fs::create_directories(folder);
-    return shell("timeout 60 npm install --prefix '" + folder.string() +
-                 "' --prefer-offline --fetch-retries=0 --no-audit --no-fund meshoptimizer@1.3.0 > /dev/null 2>&1") == 0;
-}
 
 /// One unit of the result is allowed for filters that are not exact (appendix B).
 int largestDifference(std::span<const std::byte> ours, std::span<const std::byte> theirs, size_t stride,
@@ -50,8 +38,8 @@ int largestDifference(std::span<const std::byte> ours, std::span<const std::byte
 }
 
 TEST(MeshoptLibrary, StreamsOfNpmsMeshoptimizerAreDecodedAsByItself) {
-    const fs::path folder = tools::buildDir() / "npm";
-    if (!installLibrary(folder)) GTEST_SKIP() << "needs node, npm and its registry for the package meshoptimizer";
+    const fs::path folder = npmFolder("npm", "meshoptimizer@1.3.0");
+    if (folder.empty()) GTEST_SKIP() << "needs node, npm and its registry for the package meshoptimizer";
     const fs::path script = tools::sourceDir() / "tests/filament_core/assets/gltf/meshopt_streams.mjs";
     const fs::path output = fs::path(testing::TempDir()) / ("meshopt-" + std::to_string(getpid()));
     ASSERT_EQ(shell("node '" + script.string() + "' '" + folder.string() + "' '" + output.string() + "'"), 0);
