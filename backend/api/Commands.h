@@ -36,8 +36,8 @@ struct CmdDestroySurface { SurfaceHandle handle; };
 // Contents [O].
 /// Replaces bytes [offset, offset + bytes.size()) of a buffer.
 struct CmdUpdateBuffer { BufferHandle buffer; uint64_t offset = 0; std::span<const std::byte> bytes; };
-/// Replaces a rectangle of one level of `layerCount` layers. `bytes`: tightly packed rows, top row first, layer after
-/// layer.
+/// Replaces a rectangle of one level of `layerCount` layers, or slices. `bytes`: tightly packed rows, top row first,
+/// layer after layer.
 struct CmdUploadTexture {
     TextureHandle texture;
     uint8_t level = 0;

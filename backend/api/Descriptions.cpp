@@ -12,11 +12,22 @@ bool isUniform(BindingType type) {
 
 } // namespace
 
+uint32_t layersOfLevel(DeviceTextureDesc const& desc, uint32_t level) {
+    return desc.type == TextureType::Texture3D ? std::max(1u, uint32_t{ desc.layers } >> level) : desc.layers;
+}
+
+uint32_t fullMipCount(DeviceTextureDesc const& desc) {
+    const uint32_t depth = desc.type == TextureType::Texture3D ? desc.layers : 1;
+    return fullMipCount(std::max(desc.width, depth), desc.height);
+}
+
 uint64_t textureBytes(DeviceTextureDesc const& desc) {
     uint64_t bytes = 0;
-    for (uint32_t level = 0; level < std::min<uint32_t>(desc.levels, 32); ++level)
-        bytes += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
-    return bytes * desc.layers * desc.samples;
+    for (uint32_t level = 0; level < std::min<uint32_t>(desc.levels, 32); ++level) {
+        const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
+        bytes += imageBytes(desc.format, width, height) * layersOfLevel(desc, level);
+    }
+    return bytes * desc.samples;
 }
 
 uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding) {

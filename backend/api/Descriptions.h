@@ -61,7 +61,9 @@ struct BufferDesc {
 
 // ---------------------------------------------------------------------------------------------- textures
 
-enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
+/// Texture3D: uncompressed, and neither attachment nor blitted: its texels are uploaded. What commands call layers are
+/// its slices; deeper levels have fewer.
+enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray, Texture3D };
 constexpr bool isCube(TextureType type) { return type == TextureType::Cube || type == TextureType::CubeArray; }
 
 enum class TextureUsage : uint8_t {
@@ -86,7 +88,7 @@ struct DeviceTextureDesc {
     TextureUsage usage = TextureUsage::Sampled;
     uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level, which may be sampled, but not copied
     uint8_t levels = 1;  ///< 1..fullMipCount
-    uint16_t layers = 1; ///< array layers; a cube has 6 (+x -x +y -y +z -z, the order of both APIs)
+    uint16_t layers = 1; ///< array layers; a cube has 6 (+x -x +y -y +z -z, the order of both APIs); slices of level 0
     uint32_t width = 1, height = 1;
     std::string_view debugName;
     /// Another texture, whose memory this one takes if it is large enough and of the right kind: of those that share
@@ -94,6 +96,11 @@ struct DeviceTextureDesc {
     /// DeviceFeatures::sharedMemory only, and not together with TextureUsage::Transient.
     TextureHandle placedOn{};
 };
+
+/// Layers of one level: slices of a 3D texture are halved, others stay.
+uint32_t layersOfLevel(DeviceTextureDesc const& desc, uint32_t level);
+/// The most levels that such a texture may have.
+uint32_t fullMipCount(DeviceTextureDesc const& desc);
 
 /// Of all levels, layers and samples, tightly packed.
 uint64_t textureBytes(DeviceTextureDesc const& desc);

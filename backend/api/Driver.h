@@ -28,6 +28,7 @@ enum class ShaderLanguage : uint8_t { SpirV, Essl310 };
 
 struct DeviceLimits {
     uint32_t maxTextureSize = 2048;
+    uint32_t max3DTextureSize = 256; ///< texels a side of a 3D texture
     uint32_t maxColorAttachments = 4;
     uint32_t maxUniformBlockBytes = 16384;
     uint32_t uniformOffsetAlignment = 256;  ///< power of two

@@ -80,8 +80,12 @@ GLenum glVertexType(VertexFormat format) { return kVertexTypes[static_cast<size_
 GLenum glTextureTarget(DeviceTextureDesc const& desc) {
     if (desc.samples > 1) return GL_TEXTURE_2D_MULTISAMPLE;
     static constexpr GLenum kTargets[] = { GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_CUBE_MAP,
-                                           GL_TEXTURE_CUBE_MAP_ARRAY };
+                                           GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_3D };
     return lookUp(kTargets, desc.type);
+}
+
+bool isLayered(GLenum target) {
+    return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY || target == GL_TEXTURE_3D;
 }
 
 GLenum glTopology(PrimitiveType topology) {

@@ -21,6 +21,8 @@ GlFormat const& glFormat(Format format);
 GLenum glVertexType(VertexFormat format);
 
 GLenum glTextureTarget(DeviceTextureDesc const& desc);
+/// Whether the target's images are addressed by level and layer: arrays and 3D textures.
+bool isLayered(GLenum target);
 GLenum glTopology(PrimitiveType topology);
 GLenum glCompare(CompareOp op); ///< None maps to GL_ALWAYS
 GLenum glStencilOp(StencilOp op);

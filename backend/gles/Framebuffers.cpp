@@ -56,7 +56,7 @@ GLuint Framebuffers::single(Side side, Texture const& texture, uint32_t level, u
 
 void Framebuffers::attach(GLenum point, ImageKey const& image) {
     Api const& gl = mDevice.gl;
-    if (image.target == GL_TEXTURE_2D_ARRAY || image.target == GL_TEXTURE_CUBE_MAP_ARRAY) {
+    if (isLayered(image.target)) {
         gl.FramebufferTextureLayer(GL_FRAMEBUFFER, point, image.texture, image.level, image.layer);
     } else {
         const bool cube = image.target == GL_TEXTURE_CUBE_MAP;

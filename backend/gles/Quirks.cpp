@@ -98,6 +98,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     info.driverName = text(gl, GL_VERSION);
     DeviceLimits& limits = info.limits;
     limits.maxTextureSize = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_SIZE));
+    limits.max3DTextureSize = static_cast<uint32_t>(integer(gl, GL_MAX_3D_TEXTURE_SIZE));
     limits.maxColorAttachments =
             std::min({ static_cast<uint32_t>(integer(gl, GL_MAX_COLOR_ATTACHMENTS)),
                        static_cast<uint32_t>(integer(gl, GL_MAX_DRAW_BUFFERS)), kMaxColorAttachments });

@@ -29,7 +29,15 @@ void uploadImage(Api const& gl, GLenum target, GLint level, Area area, GlFormat 
     }
 }
 
-bool isLayered(GLenum target) { return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY; }
+bool is3D(DeviceTextureDesc const& desc) { return desc.type == TextureType::Texture3D; }
+
+uint32_t mostTexels(DeviceLimits const& limits, DeviceTextureDesc const& desc) {
+    return is3D(desc) ? limits.max3DTextureSize : limits.maxTextureSize;
+}
+
+uint32_t largestSide(DeviceTextureDesc const& desc) {
+    return std::max({ desc.width, desc.height, is3D(desc) ? uint32_t{ desc.layers } : 1u });
+}
 
 void uploadLayers(Api const& gl, GLenum target, GLint level, Area area, GLint layer, GLsizei layers,
                   GlFormat const& format, std::span<const std::byte> bytes) {
@@ -82,10 +90,10 @@ void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
         mDevice.error(DriverErrorKind::Other,
                       "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
                       formatInfo(desc.format).name);
-    } else if (const uint32_t most = mDevice.info.limits.maxTextureSize; std::max(desc.width, desc.height) > most) {
+    } else if (const uint32_t most = mostTexels(mDevice.info.limits, desc); largestSide(desc) > most) {
         // Reported here, because GL_INVALID_VALUE would name neither the size nor the limit.
-        mDevice.error(DriverErrorKind::Other, "texture '{}': {} x {} texels; this device supports at most {} per side",
-                      desc.debugName, desc.width, desc.height, most);
+        mDevice.error(DriverErrorKind::Other, "texture '{}': {} texels a side; this device supports at most {}",
+                      desc.debugName, largestSide(desc), most);
     } else {
         mDevice.beginCreation();
         mDevice.gl.GenTextures(1, &texture.name);

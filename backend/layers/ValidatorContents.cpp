@@ -40,11 +40,11 @@ void Validator::execute(CmdUpdateBuffer const& command) {
 bool Validator::checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
                             uint32_t layerCount, Rect const& rect) {
     DeviceTextureDesc const& desc = texture.desc;
-    const bool exists =
-            require(level < desc.levels, Harm::Crash, "{} '{}': level {} of {}", role, texture.name, level,
-                    desc.levels) &&
-            require(layerCount > 0 && layer + layerCount <= desc.layers, Harm::Crash, "{} '{}': layers {}..{} of {}",
-                    role, texture.name, layer, layer + layerCount, desc.layers);
+    const bool exists = require(level < desc.levels, Harm::Crash, "{} '{}': level {} of {}", role, texture.name, level,
+                                desc.levels) &&
+                        require(layerCount > 0 && layer + layerCount <= layersOfLevel(desc, level), Harm::Crash,
+                                "{} '{}': layers {}..{} of {}", role, texture.name, layer, layer + layerCount,
+                                layersOfLevel(desc, level));
     if (!exists) return false;
     const uint32_t width = levelSize(desc.width, level), height = levelSize(desc.height, level);
     return require(inside(rect, width, height), Harm::Crash,
@@ -81,6 +81,8 @@ void Validator::execute(CmdGenerateMips const& command) {
     require(has(texture->desc.usage, TextureUsage::TransferSource) &&
                     has(texture->desc.usage, TextureUsage::TransferTarget),
             Harm::Crash, "generating mips needs TransferSource and TransferTarget");
+    require(texture->desc.type != TextureType::Texture3D, Harm::Crash,
+            "mips of a 3D texture cannot be generated; upload them");
     require(format.kind == FormatKind::Color && format.isRenderable, Harm::Crash,
             "mips of {} cannot be generated; upload them", format.name);
     checkWrite(texture->desc.format, "generating mips");
@@ -97,6 +99,8 @@ bool Validator::checkBlitSide(TextureModel const& texture, std::string_view role
     FormatInfo const& format = formatInfo(texture.desc.format);
     return require(has(texture.desc.usage, usage), Harm::Crash, "{} '{}' lacks TextureUsage::Transfer{}", role,
                    texture.name, usage == TextureUsage::TransferSource ? "Source" : "Target") &
+           require(texture.desc.type != TextureType::Texture3D, Harm::Crash,
+                   "{} '{}' is a 3D texture, which cannot be blitted; upload its texels", role, texture.name) &
            require(texture.desc.samples == 1, Harm::Crash, "{} '{}' has {} samples; resolve it in a pass", role,
                    texture.name, texture.desc.samples) &
            require(format.kind <= FormatKind::UnsignedInteger && format.isRenderable, Harm::Crash,

@@ -74,13 +74,20 @@ void Validator::execute(CmdCreateTexture const& command) {
 }
 
 void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
-    const uint32_t maxSize = mInfo.limits.maxTextureSize;
+    const bool is3D = desc.type == TextureType::Texture3D;
+    const uint32_t maxSize = is3D ? mInfo.limits.max3DTextureSize : mInfo.limits.maxTextureSize;
     require(desc.width > 0 && desc.height > 0, Harm::Crash, "{} x {} texels; both must be > 0", desc.width,
             desc.height);
     require(desc.width <= maxSize && desc.height <= maxSize, Harm::Crash,
-            "{} x {} texels; this device has at most {} (DeviceLimits::maxTextureSize)", desc.width, desc.height,
-            maxSize);
-    const uint32_t full = fullMipCount(desc.width, desc.height);
+            "{} x {} texels; this device has at most {} (DeviceLimits::{})", desc.width, desc.height, maxSize,
+            is3D ? "max3DTextureSize" : "maxTextureSize");
+    if (is3D) {
+        require(desc.layers <= maxSize, Harm::Crash,
+                "{} slices; this device has at most {} (DeviceLimits::max3DTextureSize)", desc.layers, maxSize);
+        require(!isCompressed(desc.format) && !hasDepth(desc.format) && !has(desc.usage, kAttachmentUsage), Harm::Crash,
+                "a 3D texture is uncompressed, without depth formats, and no attachment; upload its texels");
+    }
+    const uint32_t full = fullMipCount(desc);
     require(desc.levels >= 1 && desc.levels <= full, Harm::Crash, "{} levels; {} x {} has 1..{}", desc.levels,
             desc.width, desc.height, full);
     const bool is2D = desc.type == TextureType::Texture2D;
@@ -365,6 +372,8 @@ void Validator::checkEntryRange(BindingDesc const& binding, BindGroupEntry const
     require(isWhole || mInfo.features.textureViews, Harm::Crash,
             "binding {} shows a part of texture '{}'; this device lacks DeviceFeatures::textureViews", entry.binding,
             texture.name);
+    require(desc.type != TextureType::Texture3D || isWhole, Harm::Crash,
+            "binding {}: 3D texture '{}' shows all of its levels and slices", entry.binding, texture.name);
     require(desc.type != TextureType::Cube || range.layerCount == 6, Harm::Crash,
             "binding {}: cube '{}' shows all of its 6 layers, not {}", entry.binding, texture.name, range.layerCount);
     require(desc.type != TextureType::CubeArray || (range.layer % 6 == 0 && range.layerCount % 6 == 0), Harm::Crash,

@@ -21,6 +21,7 @@ DeviceInfo describeNullDevice() {
     info.deviceName = "no device";
     info.driverName = "null driver";
     info.limits = { .maxTextureSize = 16384,
+                    .max3DTextureSize = 2048,
                     .maxColorAttachments = kMaxColorAttachments,
                     .maxUniformBlockBytes = 65536,
                     .uniformOffsetAlignment = 256,

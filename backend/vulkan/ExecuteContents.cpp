@@ -9,13 +9,24 @@
 namespace filament_core::backend::vulkan {
 namespace {
 
+/// Of a texture's subresources: those of all slices are one.
+SubresourceRange layersOf(Texture const& texture, uint32_t level, uint32_t layer, uint32_t layerCount) {
+    if (texture.is3D()) return { level, 1, 0, 1 };
+    return { level, 1, layer, layerCount };
+}
+
+/// Of a 3D texture.
+struct Slices {
+    uint32_t first, count;
+};
+
 VkBufferImageCopy copyRegion(Texture const& texture, uint64_t bufferOffset, SubresourceRange const& range,
-                             Rect const& rect) {
+                             Rect const& rect, Slices slices) {
     VkBufferImageCopy region{};
     region.bufferOffset = bufferOffset; // row length and image height 0: tightly packed
     region.imageSubresource = { copyAspectOf(texture.format()), range.level, range.layer, range.layerCount };
-    region.imageOffset = { rect.x, rect.y, 0 };
-    region.imageExtent = { rect.width, rect.height, 1 };
+    region.imageOffset = { rect.x, rect.y, texture.is3D() ? static_cast<int32_t>(slices.first) : 0 };
+    region.imageExtent = { rect.width, rect.height, texture.is3D() ? slices.count : 1 };
     return region;
 }
 
@@ -70,11 +81,12 @@ void Executor::execute(CmdUploadTexture const& command) {
     FILAMENT_ASSERT(command.bytes.size() >= bytes, "an upload has the bytes of its rectangle in every layer");
     const auto staged = stage(command.bytes.first(bytes), texture->name());
     if (!staged) return;
-    const SubresourceRange range{ command.level, 1, command.layer, command.layerCount };
-    const bool replacesAll = covers(command.rect, texture->extent(command.level));
+    const SubresourceRange range = layersOf(*texture, command.level, command.layer, command.layerCount);
+    const bool replacesAll = !texture->is3D() && covers(command.rect, texture->extent(command.level));
     mBarriers.image(*texture, range, Use::TransferWrite, replacesAll ? Contents::Discard : Contents::Keep);
     flushBarriers();
-    const VkBufferImageCopy region = copyRegion(*texture, staged->offset, range, command.rect);
+    const VkBufferImageCopy region =
+            copyRegion(*texture, staged->offset, range, command.rect, { command.layer, command.layerCount });
     mDevice->fn().vkCmdCopyBufferToImage(commands(), staged->buffer, texture->image(),
                                          infoOf(Use::TransferWrite).layout, 1, &region);
 }
@@ -176,11 +188,11 @@ void Executor::execute(CmdReadTexture const& command) {
 }
 
 void Executor::recordReadback(CmdReadTexture const& command, Texture& texture, std::unique_ptr<Buffer> target) {
-    const SubresourceRange range{ command.level, 1, command.layer, 1 };
+    const SubresourceRange range = layersOf(texture, command.level, command.layer, 1);
     mBarriers.image(texture, range, Use::TransferRead);
     VkCommandBuffer recording = commands();
     flushBarriers();
-    const VkBufferImageCopy region = copyRegion(texture, 0, range, command.rect);
+    const VkBufferImageCopy region = copyRegion(texture, 0, range, command.rect, { command.layer, 1 });
     mDevice->fn().vkCmdCopyImageToBuffer(recording, texture.image(), infoOf(Use::TransferRead).layout, target->handle(),
                                          1, &region);
     mBarriers.hostRead();

@@ -56,6 +56,7 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     const std::string build = driver.driverInfo[0] ? driver.driverInfo : versionText(core.driverVersion);
     info.driverName = fmt::format("{}, Vulkan {}", build, versionText(core.apiVersion));
     info.limits.maxTextureSize = limits.maxImageDimension2D;
+    info.limits.max3DTextureSize = limits.maxImageDimension3D;
     info.limits.maxColorAttachments = std::min(limits.maxColorAttachments, kMaxColorAttachments);
     info.limits.maxUniformBlockBytes = limits.maxUniformBufferRange;
     info.limits.uniformOffsetAlignment = static_cast<uint32_t>(limits.minUniformBufferOffsetAlignment);

@@ -34,11 +34,12 @@ VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = isCube(desc.type) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     if (hasTwoFormats(desc)) info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
-    info.imageType = VK_IMAGE_TYPE_2D;
+    const bool is3D = desc.type == TextureType::Texture3D;
+    info.imageType = is3D ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
     info.format = native(desc.format);
-    info.extent = { desc.width, desc.height, 1 };
+    info.extent = { desc.width, desc.height, is3D ? desc.layers : 1u };
     info.mipLevels = desc.levels;
-    info.arrayLayers = desc.layers;
+    info.arrayLayers = is3D ? 1 : desc.layers;
     info.samples = sampleBits(desc.samples);
     info.usage = usageFlags(desc.usage);
     return info;
@@ -52,6 +53,8 @@ VkImageViewType viewType(TextureType type) {
         return VK_IMAGE_VIEW_TYPE_CUBE;
     case TextureType::CubeArray:
         return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
+    case TextureType::Texture3D:
+        return VK_IMAGE_VIEW_TYPE_3D;
     case TextureType::Texture2D:
         break;
     }
@@ -76,8 +79,8 @@ Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, V
     }
     if (result != VK_SUCCESS) return errorFromResult(result, describe(desc));
     const bool fits = desc.width <= limits.maxExtent.width && desc.height <= limits.maxExtent.height &&
-                      desc.levels <= limits.maxMipLevels && desc.layers <= limits.maxArrayLayers &&
-                      (limits.sampleCounts & info.samples) != 0;
+                      info.extent.depth <= limits.maxExtent.depth && desc.levels <= limits.maxMipLevels &&
+                      info.arrayLayers <= limits.maxArrayLayers && (limits.sampleCounts & info.samples) != 0;
     if (!fits) {
         return fail(ErrorCode::Unsupported, "{}: beyond the limits of '{}' ({}x{}, {} levels, {} layers)",
                     describe(desc), device.info().deviceName, limits.maxExtent.width, limits.maxExtent.height,
@@ -99,9 +102,9 @@ bool fits(VkMemoryRequirements const& needs, ImageMemory const& memory) {
 } // namespace
 
 Texture::Texture(Device& device, DeviceTextureDesc const& desc)
-        : uses(desc.levels, desc.layers), mDevice(device), mType(desc.type), mFormat(desc.format),
+        : uses(desc.levels, imageInfo(desc).arrayLayers), mDevice(device), mType(desc.type), mFormat(desc.format),
           mAspects(aspectsOf(desc.format)), mExtent{ desc.width, desc.height }, mLevels(desc.levels),
-          mLayers(desc.layers), mName(desc.debugName) {}
+          mLayers(imageInfo(desc).arrayLayers), mName(desc.debugName) {}
 
 Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDesc const& desc, Texture const* host) {
     if (Result<void> support = checkSupport(device, desc, imageInfo(desc)); !support) return support.error();

@@ -56,7 +56,8 @@ public:
     VkImageAspectFlags aspects() const { return mAspects; }
     bool isSampled() const { return mSampledView != VK_NULL_HANDLE; }
     uint32_t levels() const { return mLevels; }
-    uint32_t layers() const { return mLayers; }
+    uint32_t layers() const { return mLayers; } ///< 1 of a 3D texture: its slices are one subresource
+    bool is3D() const { return mType == TextureType::Texture3D; }
     VkExtent2D extent(uint32_t level) const {
         return { std::max(1u, mExtent.width >> level), std::max(1u, mExtent.height >> level) };
     }

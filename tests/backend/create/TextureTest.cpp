@@ -301,6 +301,53 @@ DRIVER_TEST(Texture, AnArrayOfCubesIsSelectedByTheFourthCoordinate) {
     EXPECT_EQ(firsts(seen), (std::vector<float>{ 0, 5, 6, 42, 14, 114 }));
 }
 
+DRIVER_TEST(Texture, SlicesOfA3DTextureAreUploadedApartAndFilteredTogether) {
+    using enum TextureUsage;
+    const TextureHandle texture = gpu.texture({ .type = TextureType::Texture3D,
+                                                .format = Format::R32F,
+                                                .usage = Sampled | TransferTarget,
+                                                .levels = 3,
+                                                .layers = 6,
+                                                .width = 2,
+                                                .height = 4 });
+    const auto upload = [&](uint8_t level, Rect rect, uint16_t slice, uint16_t slices) {
+        std::vector<float> texels; // level * 1000 + slice * 100 + row * 10 + column
+        for (uint32_t z = slice; z < slice + uint32_t{ slices }; ++z) {
+            for (uint32_t y = 0; y < rect.height; ++y) {
+                for (uint32_t x = 0; x < rect.width; ++x)
+                    texels.push_back(static_cast<float>(level * 1000 + z * 100 + (uint32_t(rect.y) + y) * 10 +
+                                                        (uint32_t(rect.x) + x)));
+            }
+        }
+        gpu.upload(texture, rect, bytesOf(texels), level, slice, slices);
+    };
+    upload(0, { 0, 0, 2, 4 }, 0, 4);
+    upload(0, { 0, 0, 2, 3 }, 4, 2);
+    upload(0, { 0, 3, 2, 1 }, 4, 2);
+    upload(1, { 0, 0, 1, 2 }, 0, 3);
+    upload(2, { 0, 0, 1, 1 }, 0, 1);
+    constexpr const char* kImage = "layout(set = 1, binding = 0) uniform highp sampler3D image;";
+    const std::vector<Rgba> all = paintRow(gpu, 48, kImage,
+                                           "float t = mod(i, 8.0);\n"
+                                           "vec3 at = vec3((mod(t, 2.0) + 0.5) * 0.5, (floor(t * 0.5) + 0.5) * 0.25, "
+                                           "(floor(i * 0.125) + 0.5) / 6.0);\n"
+                                           "result = textureLod(image, at, 0.0);",
+                                           texture, gpu.sampler({ .mipFilter = MipFilter::Nearest }));
+    for (uint32_t i = 0; i < 48; ++i)
+        EXPECT_EQ(all[i][0], static_cast<float>(i / 8 * 100 + i % 8 / 2 * 10 + i % 2)) << i;
+    const std::vector<Rgba> levels = paintRow(
+            gpu, 4, kImage, "result = textureLod(image, vec3(0.5, 0.75, (i + 0.5) / 3.0), i < 3.0 ? 1.0 : 2.0);",
+            texture, gpu.sampler({ .mipFilter = MipFilter::Nearest }));
+    EXPECT_EQ(firsts(levels), (std::vector<float>{ 1010, 1110, 1210, 2000 }));
+    // Half way between slices 1 and 2; beyond the last one, where wrapW repeats.
+    const SamplerHandle linear =
+            gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear, .wrapW = WrapMode::Repeat });
+    const std::vector<Rgba> between =
+            paintRow(gpu, 2, kImage, "result = textureLod(image, vec3(0.25, 0.125, (2.0 + 4.0 * i) / 6.0), 0.0);",
+                     texture, linear);
+    EXPECT_EQ(firsts(between), (std::vector<float>{ 150, 250 }));
+}
+
 // ---------------------------------------------------------------------------------------------- samplers
 
 int wrapped(int texel, int size, WrapMode mode) {

@@ -170,6 +170,8 @@ void inPass(CommandBuffer& to, std::function<void(CommandBuffer&)> const& draw, 
     to.record(CmdEndPass{});
 }
 
+constexpr std::array<std::byte, 4> kTexel{}; // of RGBA8
+
 CmdCreateTexture textureWith(std::function<void(DeviceTextureDesc&)> const& change) {
     CmdCreateTexture command{ TextureHandle::make(20, 1), { .width = 8, .height = 8 } };
     change(command.desc);
@@ -276,6 +278,47 @@ std::vector<Case> objectCases() {
         { "TooManyLevels", [](C& to) { to.record(textureWith([](auto& d) { d.levels = 5; })); },
           "5 levels; 8 x 8 has 1..4" },
         { "LayersOf2D", [](C& to) { to.record(textureWith([](auto& d) { d.layers = 2; })); }, "use Texture2DArray" },
+        { "SlicesBeyondTheLimit",
+          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Texture3D, d.layers = 9'999; })); },
+          "max3DTextureSize" },
+        { "AttachmentOf3D",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.type = TextureType::Texture3D, d.layers = 2;
+                  d.usage = TextureUsage::Sampled | TextureUsage::ColorAttachment;
+              }));
+          },
+          "a 3D texture is uncompressed" },
+        { "CompressedSlices",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.type = TextureType::Texture3D, d.layers = 2, d.format = Format::BC7,
+                  d.usage = TextureUsage::Sampled;
+              }));
+          },
+          "a 3D texture is uncompressed" },
+        { "SliceOfASmallerLevel",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.type = TextureType::Texture3D, d.layers = 4, d.levels = 2;
+                  d.usage = TextureUsage::Sampled | TextureUsage::TransferTarget;
+              }));
+              to.record(CmdUploadTexture{ .texture = TextureHandle::make(20, 1),
+                                          .level = 1,
+                                          .layer = 2,
+                                          .rect = { 0, 0, 1, 1 },
+                                          .bytes = kTexel });
+          },
+          "layers 2..3 of 2" },
+        { "MipsOf3D",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.type = TextureType::Texture3D, d.layers = 4, d.levels = 2;
+                  d.usage = TextureUsage::TransferSource | TextureUsage::TransferTarget;
+              }));
+              to.record(CmdGenerateMips{ TextureHandle::make(20, 1) });
+          },
+          "mips of a 3D texture cannot be generated" },
         { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 5; })); },
           "6 square layers" },
         { "CubesOf8",
