@@ -42,6 +42,7 @@ py::dict dictOf(DeviceDescription const& device) {
     dict["device"] = device.device;
     dict["driver"] = device.driver;
     dict["max_texture_size"] = device.maxTextureSize;
+    dict["max_3d_texture_size"] = device.max3DTextureSize;
     dict["max_samples"] = device.maxSamples;
     return dict;
 }

@@ -6,6 +6,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/tables/DfgTable.h"
 #include "filament_core/assets/tables/ToneTable.h"
+#include "filament_core/engine/materials/TextureParameters.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <array>
@@ -71,12 +72,9 @@ Texture Engine::Impl::unsetTexture(shader::Parameter const& parameter) {
     const bool isFloat = parameter.format == SamplerFormat::Float;
     std::array<uint8_t, 4 * 6> texels;
     texels.fill(isFloat ? 255 : 1);
-    const bool isCube = parameter.type == SamplerCube || parameter.type == SamplerCubeArray;
-    const uint32_t layers = isCube ? 6 : 1;
-    texture = createTexture({ .kind = parameter.type == SamplerCube        ? TextureKind::Cube
-                                      : parameter.type == SamplerCubeArray ? TextureKind::CubeArray
-                                      : parameter.type == Sampler2DArray   ? TextureKind::Texture2DArray
-                                                                           : TextureKind::Texture2D,
+    const TextureKind kind = engine::textureKindOf(parameter.type);
+    const uint32_t layers = kind == TextureKind::Cube || kind == TextureKind::CubeArray ? 6 : 1;
+    texture = createTexture({ .kind = kind,
                               .format = isFloat                                  ? Format::RGBA8
                                         : parameter.format == SamplerFormat::Int ? Format::RGBA8I
                                                                                  : Format::RGBA8UI,

@@ -23,7 +23,12 @@ using engine::PublicCall;
 using engine::thisThread;
 
 DeviceDescription descriptionOf(DeviceInfo const& info) {
-    return { info.backend, info.deviceName, info.driverName, info.limits.maxTextureSize, info.limits.maxSamples };
+    return { info.backend,
+             info.deviceName,
+             info.driverName,
+             info.limits.maxTextureSize,
+             info.limits.max3DTextureSize,
+             info.limits.maxSamples };
 }
 
 FrameLatency latencyOf(LatencyStatistics const& latency) {

@@ -4,6 +4,7 @@
 #include "base/Log.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/materials/TextureParameters.h"
 #include "filament_core/scene/VertexPositions.h"
 
 #include <algorithm>
@@ -16,20 +17,6 @@ namespace {
 
 using namespace backend;
 
-TextureType textureType(TextureKind kind) {
-    switch (kind) {
-    case TextureKind::Texture2D:
-        return TextureType::Texture2D;
-    case TextureKind::Texture2DArray:
-        return TextureType::Texture2DArray;
-    case TextureKind::Cube:
-        return TextureType::Cube;
-    case TextureKind::CubeArray:
-        return TextureType::CubeArray;
-    }
-    return TextureType::Texture2D;
-}
-
 constexpr uint32_t kMostLayers = 2048; // of the desktop's drivers; devices may have fewer
 
 backend::DeviceTextureDesc backendDesc(filament_core::TextureDesc const& desc) {
@@ -40,19 +27,24 @@ backend::DeviceTextureDesc backendDesc(filament_core::TextureDesc const& desc) {
                     "a cube has six square layers");
     FILAMENT_ASSERT(desc.kind != TextureKind::CubeArray || (desc.layers % 6 == 0 && desc.width == desc.height),
                     "an array of cubes has six square layers per cube");
-    const uint32_t full = fullMipCount(desc.width, desc.height);
-    FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
+    FILAMENT_ASSERT(desc.kind != TextureKind::Texture3D ||
+                            (!desc.generateMips && !desc.renderable && !isCompressed(desc.format)),
+                    "a 3D texture has an uncompressed format and all of its levels in `pixels`, and is not renderable");
     FILAMENT_ASSERT(!desc.renderable || formatInfo(desc.format).isRenderable,
                     "a renderable texture, or a swap chain, has a format that passes can write");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
-    return { .type = textureType(desc.kind),
-             .format = desc.format,
-             .usage = usage,
-             .levels = static_cast<uint8_t>(desc.generateMips ? full : desc.levels),
-             .layers = static_cast<uint16_t>(desc.layers),
-             .width = desc.width,
-             .height = desc.height };
+    backend::DeviceTextureDesc device{ .type = engine::textureType(desc.kind),
+                                       .format = desc.format,
+                                       .usage = usage,
+                                       .levels = static_cast<uint8_t>(desc.levels),
+                                       .layers = static_cast<uint16_t>(desc.layers),
+                                       .width = desc.width,
+                                       .height = desc.height };
+    const uint32_t full = fullMipCount(device);
+    FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
+    if (desc.generateMips) device.levels = static_cast<uint8_t>(full);
+    return device;
 }
 
 /// With or without a copy of the command's bytes.
@@ -68,17 +60,19 @@ void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner c
 void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (owner) commands.keep(owner);
+    const backend::DeviceTextureDesc device = backendDesc(desc);
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
     for (uint32_t level = 0; level < levels; ++level) {
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
-        const size_t bytes = imageBytes(desc.format, width, height) * desc.layers;
+        const uint32_t layers = layersOfLevel(device, level);
+        const size_t bytes = imageBytes(desc.format, width, height) * layers;
         FILAMENT_ASSERT(offset + bytes <= desc.pixels.size(), "`pixels` holds all layers of all levels");
         recordBytes(commands,
                     CmdUploadTexture{ handle,
                                       static_cast<uint8_t>(level),
                                       0,
-                                      static_cast<uint16_t>(desc.layers),
+                                      static_cast<uint16_t>(layers),
                                       { 0, 0, width, height },
                                       desc.pixels.subspan(offset, bytes) },
                     owner);
@@ -126,12 +120,15 @@ BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<con
 
 // The driver would also reject it, but only after all of its uses have been recorded.
 bool fitsDevice(Engine::Impl& engine, filament_core::TextureDesc const& desc) {
-    const uint32_t most = engine.device.maxTextureSize;
-    if (std::max(desc.width, desc.height) <= most) return true;
+    const bool is3D = desc.kind == TextureKind::Texture3D;
+    const uint32_t most = is3D ? engine.device.max3DTextureSize : engine.device.maxTextureSize;
+    if (std::max({ desc.width, desc.height, is3D ? desc.layers : 1u }) <= most) return true;
+    const std::string size = is3D ? fmt::format("{} x {} x {}", desc.width, desc.height, desc.layers)
+                                  : fmt::format("{} x {}", desc.width, desc.height);
     engine.report(
-            fmt::format("texture '{}': {} x {} texels; this device supports at most {} per side: it has no texels, and "
+            fmt::format("texture '{}': {} texels; this device supports at most {} per side: it has no texels, and "
                         "drawing to it and reading from it are skipped",
-                        desc.name, desc.width, desc.height, most));
+                        desc.name, size, most));
     return false;
 }
 

@@ -37,7 +37,7 @@ struct Region {
 
 Region regionOf(DeviceTextureDesc const& desc, TextureUpdate const& update) {
     requireInside(update.level, 1, desc.levels, "levels");
-    requireInside(update.firstLayer, update.layerCount, desc.layers, "layers");
+    requireInside(update.firstLayer, update.layerCount, layersOfLevel(desc, update.level), "layers");
     const uint2 size(std::max(1u, desc.width >> update.level), std::max(1u, desc.height >> update.level));
     const uint2 part(update.size.x ? update.size.x : size.x - std::min(update.offset.x, size.x),
                      update.size.y ? update.size.y : size.y - std::min(update.offset.y, size.y));
@@ -109,6 +109,8 @@ void Engine::Impl::update(engine::TextureState& state, TextureUpdate const& upda
     const uint64_t bytes = imageBytes(desc.format, region.rect.width, region.rect.height) * region.layers;
     if (update.pixels.size() != bytes)
         misused(fmt::format("`pixels` has {} bytes, but the part that is changed has {}", update.pixels.size(), bytes));
+    if (update.generateMips && desc.type == TextureType::Texture3D)
+        misused("the mip levels of a 3D texture are not computed; give each level");
     const bool isSrgb = formatInfo(desc.format).isSrgb;
     if (update.generateMips && isSrgb && !region.isWholeLevel0(desc))
         misused("the mip levels of an sRGB texture are computed from all of level 0; give all of it, or each level");

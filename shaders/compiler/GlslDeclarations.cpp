@@ -18,7 +18,7 @@ const char* glslType(ParameterType type) {
     static constexpr const char* kNames[] = {
         "bool", "bvec2", "bvec3", "bvec4", "float", "vec2", "vec3", "vec4", "int", "ivec2", "ivec3", "ivec4", "uint",
         "uvec2", "uvec3", "uvec4", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube", "subpassInput",
-        "samplerCubeArray", "sampler2DMS"
+        "samplerCubeArray", "sampler2DMS", "sampler3D"
     };
     // clang-format on
     return kNames[static_cast<size_t>(type)];

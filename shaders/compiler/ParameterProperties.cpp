@@ -31,7 +31,7 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "sampler2d", ParameterType::Sampler2D }, { "sampler2dArray", ParameterType::Sampler2DArray },
     { "samplerCubemap", ParameterType::SamplerCube }, { "samplerExternal", ParameterType::Sampler2D },
     { "samplerCubemapArray", ParameterType::SamplerCubeArray }, { "subpassInput", ParameterType::SubpassInput },
-    { "sampler2dMS", ParameterType::Sampler2DMS } };
+    { "sampler2dMS", ParameterType::Sampler2DMS }, { "sampler3d", ParameterType::Sampler3D } };
 // clang-format on
 
 /// The guide's name for a vector type of GLSL: float3 for vec3. Empty for other names.
@@ -63,9 +63,6 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
         }
         base.text.resize(base.text.find_last_not_of(' ', bracket - 1) + 1); // "float [2]" is "float[2]"
     }
-    if (equalIgnoringCase(base.text, "sampler3d"))
-        return errorAt(value.at, "the type sampler3d is known but not supported by this version",
-                       ErrorCode::Unsupported);
     if (const std::string guides = guideType(base.text); !guides.empty())
         return errorAt(value.at, fmt::format("'type' cannot be '{}'; did you mean '{}'?", base.text, guides));
     if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kParameterTypes{
     "bool", "bool2", "bool3", "bool4", "float", "float2", "float3", "float4", "int", "int2", "int3", "int4", "uint",
     "uint2", "uint3", "uint4", "float3x3", "float4x4", "sampler2d", "sampler2dArray", "samplerCubemap",
-    "subpassInput", "samplerCubemapArray", "sampler2dMS"
+    "subpassInput", "samplerCubemapArray", "sampler2dMS", "sampler3d"
 };
 // clang-format on
 

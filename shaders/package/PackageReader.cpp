@@ -123,7 +123,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
     for (uint32_t i = 0; i < count && !in.failed(); ++i) {
         Parameter parameter;
         parameter.name = in.text();
-        if (!readEnum(in, parameter.type, ParameterType::Sampler2DMS)) return false;
+        if (!readEnum(in, parameter.type, ParameterType::Sampler3D)) return false;
         parameter.arraySize = in.u32();
         parameter.offset = in.u32();
         parameter.binding = in.u8();

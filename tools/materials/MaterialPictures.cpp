@@ -133,6 +133,47 @@ MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
             pixels, kBilinear);
 }
 
+/// In [0, 1), without a table and of integers only: the same on every machine.
+float noiseAt(uint3 cell) {
+    uint32_t bits = cell.x * 0x8DA6B343u ^ cell.y * 0xD8163841u ^ cell.z * 0xCB1AB31Fu;
+    bits = (bits ^ bits >> 15) * 0x2C1B3C6Du;
+    bits = (bits ^ bits >> 12) * 0x297A2D39u;
+    return static_cast<float>((bits ^ bits >> 15) >> 8) / 16'777'216.0f;
+}
+
+/// Value noise: `cells` along each axis, which repeat.
+float noise(float3 at, uint32_t cells) {
+    const float3 scaled = at * static_cast<float>(cells), floor = glm::floor(scaled);
+    const float3 t = (scaled - floor) * (scaled - floor) * (3.0f - 2.0f * (scaled - floor));
+    float sum = 0;
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+        const uint3 step(corner & 1, corner >> 1 & 1, corner >> 2);
+        const float3 weight = glm::mix(1.0f - t, t, float3(step));
+        sum += weight.x * weight.y * weight.z * noiseAt((uint3(floor) + step) % cells);
+    }
+    return sum;
+}
+
+/// Marble: dark veins where a slanted wave, bent by noise, turns; smoother there.
+MaterialPicture veinsVolume(Engine& engine, std::string const& name) {
+    constexpr uint32_t kSide = 32;
+    std::vector<std::byte> pixels;
+    for (uint32_t z = 0; z < kSide; ++z) {
+        const auto slice = paint(kSide, [&](float2 uv) {
+            const float3 at(uv, (static_cast<float>(z) + 0.5f) / kSide);
+            const float wave = at.x + at.y + at.z + 0.5f * noise(at, 4) + 0.25f * noise(at, 8);
+            const float vein = std::abs(2 * (2 * wave - std::floor(2 * wave)) - 1); // 0 in the middle of a vein
+            const float stone = glm::clamp(vein * 3, 0.0f, 1.0f);
+            return float4(glm::mix(float3(0.12f, 0.10f, 0.14f), float3(0.85f, 0.80f, 0.72f), stone),
+                          0.2f + 0.4f * stone);
+        });
+        pixels.insert(pixels.end(), slice.begin(), slice.end());
+    }
+    return upload(engine,
+                  { .kind = TextureKind::Texture3D, .width = kSide, .height = kSide, .layers = kSide, .name = name },
+                  pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear, .mipFilter = MipFilter::None });
+}
+
 /// 0 to 63 along u.
 MaterialPicture wholeNumbers(Engine& engine, std::string const& name, Format format) {
     std::vector<std::byte> pixels;
@@ -157,12 +198,13 @@ Result<MaterialPicture> makeMaterialPicture(Engine& engine, std::string const& n
     }
     if (name == "gradient/cube") return gradientCube(engine, name);
     if (name == "stripes/layers") return stripeLayers(engine, name);
+    if (name == "veins/volume") return veinsVolume(engine, name);
     if (name == "numbers/int") return wholeNumbers(engine, name, Format::R8I);
     if (name == "numbers/uint") return wholeNumbers(engine, name, Format::R8UI);
     return fail(ErrorCode::NotFound,
                 "there is no picture '{}': brick, wood, terrazzo, checker, dimple, lattice, glass, lava or brushed and "
                 "/color, /normal, /surface or /emission; waves/height, waves/normal, waves/occlusion, swirl/direction, "
-                "wedge/thickness, gradient/cube, stripes/layers, numbers/int, numbers/uint",
+                "wedge/thickness, gradient/cube, stripes/layers, veins/volume, numbers/int, numbers/uint",
                 name);
 }
 

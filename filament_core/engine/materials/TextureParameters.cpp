@@ -20,15 +20,46 @@ const char* kindName(TextureType type) {
         return "a cube";
     case TextureType::CubeArray:
         return "an array of cubes";
+    case TextureType::Texture3D:
+        return "a 3D texture";
     }
     return "a texture";
 }
 
-TextureType kindOf(ParameterType sampler) {
-    if (sampler == ParameterType::SamplerCube) return TextureType::Cube;
-    if (sampler == ParameterType::SamplerCubeArray) return TextureType::CubeArray;
-    return sampler == ParameterType::Sampler2DArray ? TextureType::Texture2DArray : TextureType::Texture2D;
+} // namespace
+
+TextureType textureType(TextureKind kind) {
+    switch (kind) {
+    case TextureKind::Texture2D:
+        return TextureType::Texture2D;
+    case TextureKind::Texture2DArray:
+        return TextureType::Texture2DArray;
+    case TextureKind::Cube:
+        return TextureType::Cube;
+    case TextureKind::CubeArray:
+        return TextureType::CubeArray;
+    case TextureKind::Texture3D:
+        return TextureType::Texture3D;
+    }
+    return TextureType::Texture2D;
 }
+
+TextureKind textureKindOf(ParameterType sampler) {
+    switch (sampler) {
+    case ParameterType::Sampler2DArray:
+        return TextureKind::Texture2DArray;
+    case ParameterType::SamplerCube:
+        return TextureKind::Cube;
+    case ParameterType::SamplerCubeArray:
+        return TextureKind::CubeArray;
+    case ParameterType::Sampler3D:
+        return TextureKind::Texture3D;
+    default:
+        return TextureKind::Texture2D;
+    }
+}
+
+namespace {
 
 shader::SamplerFormat samplerFormatOf(Format format) {
     switch (formatInfo(format).kind) {
@@ -67,7 +98,7 @@ Result<void> checkSampler(scene::Material const& material, Parameter const& para
 
 Result<void> checkTexture(scene::Material const& material, Parameter const& parameter, DeviceTextureDesc const& texture,
                           std::string_view name) {
-    if (texture.type != kindOf(parameter.type)) {
+    if (texture.type != textureType(textureKindOf(parameter.type))) {
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",
                     parameter.name, material.name, toString(parameter.type), name, kindName(texture.type));
     }

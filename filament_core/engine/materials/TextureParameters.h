@@ -8,11 +8,16 @@
 #include "base/Result.h"
 #include "filament_core/scene/Materials.h"
 
+#include <filament_core/Objects.h>
 #include <filament_core/Quality.h>
 
 #include <string_view>
 
 namespace filament_core::engine {
+
+backend::TextureType textureType(TextureKind kind);
+/// What a sampler reads.
+TextureKind textureKindOf(shader::ParameterType sampler);
 
 /// Whether the parameter is a sampler that the app can set.
 Result<void> checkSampler(scene::Material const& material, shader::Parameter const& parameter);

@@ -43,9 +43,10 @@ class FaultInjector; // backend/layers/Faulty.h
 
 struct DeviceDescription {
     Backend backend = Backend::Null;
-    std::string device{}; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driver{}; ///< name and version
-    uint32_t maxTextureSize = 0;
+    std::string device{};          ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver{};          ///< name and version
+    uint32_t maxTextureSize = 0;   ///< texels a side
+    uint32_t max3DTextureSize = 0; ///< texels a side of a 3D texture
     uint32_t maxSamples = 1;
 };
 

@@ -63,15 +63,17 @@ struct DrawOrder {
     friend bool operator==(DrawOrder const&, DrawOrder const&) = default;
 };
 
-enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
+enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray, Texture3D };
 
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If
 /// it is empty, the contents are undefined. Copied before the call returns.
+/// A 3D texture (`sampler3d` of a material) has an uncompressed format, and `pixels` holds all of its levels: its
+/// slices, from w = 0 on, are halved from level to level like its rows. It is not renderable.
 struct TextureDesc {
     TextureKind kind = TextureKind::Texture2D;
     Format format = Format::RGBA8;
-    uint32_t width = 1, height = 1; ///< >= 1, at most DeviceDescription::maxTextureSize
-    uint32_t layers = 1;            ///< 6 for a cube
+    uint32_t width = 1, height = 1; ///< >= 1, at most DeviceDescription::maxTextureSize, or max3DTextureSize
+    uint32_t layers = 1;            ///< 6 for a cube; the slices of level 0 of a 3D texture, at most max3DTextureSize
     uint32_t levels = 1;            ///< mip levels given in `pixels`
     bool generateMips = false;      ///< compute levels 1.. from level 0, on the device or, for RGBA8Srgb, before the
                                     ///< upload; `pixels` then has level 0 only
@@ -84,8 +86,8 @@ struct TextureDesc {
 struct TextureUpdate {
     std::span<const std::byte> pixels{}; ///< tightly packed rows, row 0 at the top, layer after layer
     uint32_t level = 0;
-    uint32_t firstLayer = 0, layerCount = 1;
-    uint2 offset{ 0 }, size{ 0 }; ///< texels, from the left and the top; a size of 0: up to the edge
+    uint32_t firstLayer = 0, layerCount = 1; ///< or slices of a 3D texture
+    uint2 offset{ 0 }, size{ 0 };            ///< texels, from the left and the top; a size of 0: up to the edge
     /// Then computes levels 1.. from level 0; of RGBA8Srgb only if `pixels` is all of level 0. On the device, or for
     /// RGBA8Srgb before the upload.
     bool generateMips = false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: a row for each sample.
 #include "tests/samples/materials/SampleTable.h"
 
 namespace filament_core::samples {
@@ -79,6 +80,7 @@ std::vector<Sample> samples() {
         { "unlit", { "shadingModel : unlit", "shadingModel : lit" } },
         { "variables", { "height=0.15", "height=0" } },
         { "variant_filter", {}, Effect::Differs, 1, false },
+        { "volume_texture", { "getUserWorldPosition() * 0.5 + 0.5", "vec3(0.25)" } },
         { "wide_lines", { "material.lineWidth = materialParams.width;", "" } },
     };
     // clang-format on

@@ -160,13 +160,6 @@ TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
                 HasSubstr("did you mean 'dynamicLighting'?"));
 }
 
-TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
-    const Error error = failureOf(withProperties("parameters : [ { name : a, type : sampler3d } ]"));
-    EXPECT_EQ(error.code, ErrorCode::Unsupported);
-    EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));
-    EXPECT_THAT(error.message, HasSubstr("known but not supported by this version"));
-}
-
 TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
     for (const char* properties : { "maskThreshold : 1.5",
                                     "maskThreshold : high",

@@ -24,7 +24,7 @@ enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
 enum class ParameterType : uint8_t {
     Bool, Bool2, Bool3, Bool4, Float, Float2, Float3, Float4, Int, Int2, Int3, Int4, Uint, Uint2, Uint3, Uint4,
     Float3x3, Float4x4,                          ///< std140 columns of 16 bytes
-    Sampler2D, Sampler2DArray, SamplerCube, SubpassInput, SamplerCubeArray, Sampler2DMS,
+    Sampler2D, Sampler2DArray, SamplerCube, SubpassInput, SamplerCubeArray, Sampler2DMS, Sampler3D,
 };
 // clang-format on
 /// The guide's spelling: "float3", "samplerCubemap".

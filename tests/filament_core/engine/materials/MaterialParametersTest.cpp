@@ -115,23 +115,71 @@ TEST_P(MaterialParameters, OfEveryTypeArriveInTheShader) {
     EXPECT_EQ(test::shownBy(*mEngine, instance), float4(0, 1, 0, 1)) << "red: the first value that is wrong";
 }
 
+TEST_P(MaterialParameters, OfVolumesAreFilteredAlongAllThreeAxesAndHaveLevels) {
+    const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
+    name : volumes, shadingModel : unlit,
+    parameters : [ { type : sampler3d, name : volume }, { type : float3, name : at }, { type : float, name : level } ]
+}
+fragment {
+    void material(inout MaterialInputs material) {
+        prepareMaterial(material);
+        material.baseColor = textureLod(materialParams_volume, materialParams.at, materialParams.level);
+    }
+}
+)");
+    const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
+    // Level 0: 2 x 1 x 4 texels of (column, 0, slice / 4); level 1: 1 x 1 x 2 of (0, 1, slice); level 2: one.
+    std::vector<float4> texels;
+    for (int slice = 0; slice < 4; ++slice) {
+        for (int column = 0; column < 2; ++column) texels.emplace_back(column, 0, static_cast<float>(slice) / 4, 1);
+    }
+    for (int slice = 0; slice < 2; ++slice) texels.emplace_back(0, 1, slice, 1);
+    texels.emplace_back(1, 1, 0, 1);
+    const Owned<Texture> volume = mEngine->own(mEngine->create(TextureDesc{ .kind = TextureKind::Texture3D,
+                                                                            .format = Format::RGBA32F,
+                                                                            .width = 2,
+                                                                            .layers = 4,
+                                                                            .levels = 3,
+                                                                            .pixels = std::as_bytes(std::span(texels)),
+                                                                            .name = "volume" }));
+    const Sampler linear{ .magFilter = Filter::Linear, .minFilter = Filter::Linear, .mipFilter = MipFilter::Nearest };
+    set(instance, "level", 0.0f);
+    EXPECT_TRUE(mEngine->set(instance, "volume", volume, linear));
+    const auto shown = [&](float3 at, float level) {
+        set(instance, "at", at), set(instance, "level", level);
+        return test::shownBy(*mEngine, instance);
+    };
+    EXPECT_EQ(shown({ 0.25f, 0.5f, 0.125f }, 0), float4(0, 0, 0, 1));
+    EXPECT_EQ(shown({ 0.5f, 0.5f, 0.625f }, 0), float4(0.5f, 0, 0.5f, 1)) << "between two columns of slice 2";
+    EXPECT_EQ(shown({ 0.75f, 0.5f, 0.75f }, 0), float4(1, 0, 0.625f, 1)) << "between slices 2 and 3";
+    EXPECT_EQ(shown({ 0.5f, 0.5f, 0.75f }, 1), float4(0, 1, 1, 1));
+    EXPECT_EQ(shown({ 0.5f, 0.5f, 0.5f }, 2), float4(1, 1, 0, 1));
+    constexpr float4 kNew(0, 0, 1, 1);
+    mEngine->update(volume, { .pixels = std::as_bytes(std::span(&kNew, 1)), .level = 1, .firstLayer = 1 });
+    EXPECT_EQ(shown({ 0.5f, 0.5f, 0.75f }, 1), float4(0, 0, 1, 1)) << "one slice of level 1 has other texels";
+    const Owned<Texture> flat = mEngine->own(mEngine->create(TextureDesc{ .name = "flat" }));
+    EXPECT_THAT(refusal(instance, "volume", Texture(flat), linear),
+                testing::HasSubstr("'volume' of material 'volumes' is sampler3d, but texture 'flat' is a 2D texture"));
+}
+
 TEST_P(MaterialParameters, SamplersOfEveryKindAreOpaqueWhiteUntilTheyAreSet) {
     const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
     shadingModel : unlit, featureLevel : 2,
     parameters : [ { type : sampler2d, name : a }, { type : sampler2dArray, name : b }, { type : samplerCubemap, name : c },
-                   { type : samplerCubemapArray, name : d } ]
+                   { type : samplerCubemapArray, name : d }, { type : sampler3d, name : e } ]
 }
 fragment {
     void material(inout MaterialInputs material) {
         prepareMaterial(material);
         vec4 all = texture(materialParams_a, vec2(0.5)) + texture(materialParams_b, vec3(0.5, 0.5, 0.0));
+        all += texture(materialParams_e, vec3(0.5));
         all += texture(materialParams_c, vec3(1.0, 0.0, 0.0)) + texture(materialParams_d, vec4(1.0, 0.0, 0.0, 0.0));
         material.baseColor = vec4(all.rgb, 1.0);
     }
 }
 )");
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
-    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(4, 4, 4, 1));
+    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(5, 5, 5, 1));
 }
 
 TEST_P(MaterialParameters, OfLevelTwoHaveArraysOfCubesWhoseFourthCoordinateChoosesTheCube) {
