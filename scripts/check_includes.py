@@ -37,7 +37,7 @@ ROOMS = {
                             "filament_core/include"],
     "filament_core/assets/files": ["base"],
     "filament_core/assets/blocks": ["base", "base/math"],
-    "filament_core/assets/image": ["base", "base/math", "jobsystem", "backend/api", "filament_core/include",
+    "filament_core/assets/image": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
                                    "filament_core/assets/files", "filament_core/assets/blocks"],
     "filament_core/assets/environment": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
                                          "filament_core/assets/files", "filament_core/assets/image"],

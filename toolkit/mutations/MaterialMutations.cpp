@@ -92,9 +92,11 @@ private:
     std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, per block created in this stream
 };
 
-/// Inverts green in normal maps: the picture of a loader that assumes DirectX's convention.
-class NormalYEdit final : public PayloadEdit {
+/// Changes a channel of normal maps.
+class NormalMapEdit final : public PayloadEdit {
 public:
+    NormalMapEdit(size_t channel, std::byte (*change)(std::byte)) : mChannel(channel), mChange(change) {}
+
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
         mNormalMaps.clear();
@@ -110,12 +112,21 @@ public:
     void edit(CmdUploadTexture& command) override {
         if (!mNormalMaps.contains(command.texture)) return;
         Bytes& texels = copy(command.bytes); // the loader converts every normal map to RGBA8
-        for (size_t i = 1; i < texels.size(); i += 4) texels[i] = ~texels[i];
+        for (size_t i = mChannel; i < texels.size(); i += 4) texels[i] = mChange(texels[i]);
     }
 
 private:
+    const size_t mChannel;
+    std::byte (*const mChange)(std::byte);
     std::set<TextureHandle> mNormalMaps;
 };
+/// The picture of a loader that assumes DirectX's convention.
+std::unique_ptr<StreamEdit> normalY() {
+    return std::make_unique<NormalMapEdit>(1, [](std::byte code) { return ~code; });
+}
+std::unique_ptr<StreamEdit> normalWidth() {
+    return std::make_unique<NormalMapEdit>(3, [](std::byte) { return std::byte{ 0 }; });
+}
 std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
 std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
 std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
@@ -124,9 +135,13 @@ std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bum
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMaterialMutations[] = {
-    { "roughness", "roughness + 1 %", roughness }, { "normalY", "normal maps with y flipped", make<NormalYEdit> },
-    { "metallic", "metallic - 2 %", metallic },    { "emissive", "emission + 2 %", emissive },
-    { "cutoff", "alpha cutoff + 5 %", cutoff },    { "thickness", "thickness of solids + 5 %", thickness },
+    { "roughness", "roughness + 1 %", roughness },
+    { "normalY", "normal maps with y flipped", normalY },
+    { "normalWidth", "roughness without that of averaged normals", normalWidth },
+    { "metallic", "metallic - 2 %", metallic },
+    { "emissive", "emission + 2 %", emissive },
+    { "cutoff", "alpha cutoff + 5 %", cutoff },
+    { "thickness", "thickness of solids + 5 %", thickness },
     { "bump", "bumps 5 % higher", bump },
 };
 

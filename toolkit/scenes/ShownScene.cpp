@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/scenes/ShownScene.h"
 
+#include <filament_core/Options.h>
+
 #include <fmt/format.h>
 
 namespace filament_core::tools {
@@ -8,13 +10,12 @@ namespace {
 
 constexpr uint64_t kMaxObjects = 1'000'000; // a scene has 2^20 handles of a type
 
-std::string keyOf(GltfLoadOptions const& options) {
-    return fmt::format("{} {} {}", toString(options.positions), toString(options.tangents), options.allLevels);
-}
-
-std::string keyOf(EnvironmentLoadOptions const& options) {
-    return fmt::format("{} {} {} {}", toString(options.format), toString(options.roughnessMapping), options.faceSize,
-                       options.samples);
+/// Every option, so that equal keys are equal files.
+template <HasOptions T>
+std::string keyOf(T const& options) {
+    std::string key;
+    for (Option const& option : optionsOf<T>()) key += optionValue(option, &options) + ' ';
+    return key;
 }
 
 } // namespace

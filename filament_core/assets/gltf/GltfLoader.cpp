@@ -200,7 +200,8 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     structure.step();
 
     std::vector<uint32_t> newMaterial;
-    content.textures = planTextures(document, folder, usedMaterials(document, scene), newMaterial, diagnostics);
+    content.textures =
+            planTextures(document, folder, usedMaterials(document, scene), options.normals, newMaterial, diagnostics);
     content.environment = planEnvironment(document);
     readImages(document, folder, content, jobs, options, diagnostics);
     GltfProfiles profiles;

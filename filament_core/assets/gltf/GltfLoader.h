@@ -41,6 +41,7 @@ struct GltfOptions {
     GeometryStorage storage{};
     GltfDeformation deformation = GltfDeformation::AtRest;
     GltfLevels levels = GltfLevels::Finest;
+    GltfNormals normals = GltfNormals::Plain;
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
     GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files
     /// Requested from any thread: the load ends before its next image or primitive, with Cancelled. Must outlive it.

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/image/ColorProfile.h"
 #include "filament_core/assets/image/MipMaps.h"
+#include "filament_core/assets/image/NormalWidths.h"
 #include "filament_core/assets/image/TextureDecoder.h"
 
 #include <exception>
@@ -21,26 +22,26 @@ constexpr Sampler kDefaultSampler{ .magFilter = Filter::Linear,
 
 class TexturePlanner {
 public:
-    TexturePlanner(GltfDocument const& document, GltfFolder const& folder, GltfTextures& textures,
+    TexturePlanner(GltfDocument const& document, GltfFolder const& folder, GltfNormals normals, GltfTextures& textures,
                    Diagnostics& diagnostics)
-            : mDocument(document), mFolder(folder), mTextures(textures), mDiagnostics(diagnostics),
+            : mDocument(document), mFolder(folder), mNormals(normals), mTextures(textures), mDiagnostics(diagnostics),
               mFirstOfSame(firstOfSameImages(document)), mSourceOfImage(document.images.size(), kNone),
               mJobOfSource(document.images.size(), kNone) {}
 
     MaterialData resolve(uint32_t index) {
         GltfMaterial const& material = mDocument.materials[index];
         MaterialData data = material.values;
-        data.baseColor = textureFor(material.baseColor, true);
+        data.baseColor = textureFor(material.baseColor, Use::Color);
         if (data.unlit) return data; // shows only the base colour
-        data.normal = textureFor(material.normal, false);
-        data.occlusion = textureFor(material.occlusion, false);
-        data.emissive = textureFor(material.emissive, true);
-        if (data.bump.isUsed()) data.bump.map = textureFor(material.bump, false);
+        data.normal = normalsFor(material.normal);
+        data.occlusion = textureFor(material.occlusion, Use::Data);
+        data.emissive = textureFor(material.emissive, Use::Color);
+        if (data.bump.isUsed()) data.bump.map = textureFor(material.bump, Use::Data);
         if (data.specularGlossiness) {
-            data.specularGlossiness->map = textureFor(material.specularGlossiness, true);
+            data.specularGlossiness->map = textureFor(material.specularGlossiness, Use::Color);
             return data;
         }
-        data.metallicRoughness = textureFor(material.metallicRoughness, false);
+        data.metallicRoughness = textureFor(material.metallicRoughness, Use::Data);
         resolveExtensions(material, data);
         return data;
     }
@@ -50,11 +51,11 @@ private:
     void resolveExtensions(GltfMaterial const& material, MaterialData& data) {
         if (data.clearCoat.isUsed()) {
             data.clearCoat.maps = pairFor(material.clearCoat, PackLayout::RedGreen);
-            data.clearCoat.normal = textureFor(material.clearCoatNormal, false);
+            data.clearCoat.normal = normalsFor(material.clearCoatNormal);
         }
         if (data.sheen.isUsed()) data.sheen.maps = pairFor(material.sheen, PackLayout::ColorAlpha);
         if (data.specular.isUsed()) data.specular.maps = pairFor(material.specular, PackLayout::ColorAlpha);
-        if (data.anisotropy.isUsed()) data.anisotropy.map = textureFor(material.anisotropy, false);
+        if (data.anisotropy.isUsed()) data.anisotropy.map = textureFor(material.anisotropy, Use::Data);
         if (data.iridescence.isUsed()) data.iridescence.maps = pairFor(material.iridescence, PackLayout::RedGreen);
         if (data.transmission.isUsed()) {
             GltfTexturePair maps = material.transmission;
@@ -65,27 +66,36 @@ private:
             data.diffuseTransmission.maps = pairFor(material.diffuseTransmission, PackLayout::ColorAlpha);
     }
 
-    TextureRef textureFor(GltfTextureInfo const& info, bool isColor) {
+    enum class Use : uint8_t { Color, Data, Normals };
+
+    TextureRef textureFor(GltfTextureInfo const& info, Use use) {
         TextureRef reference = referenceTo(info);
-        if (reference.image != kNone) reference.image = slotFor(reference.image, isColor);
+        if (reference.image != kNone) reference.image = slotFor(reference.image, use);
+        return reference;
+    }
+
+    TextureRef normalsFor(GltfTextureInfo const& info) {
+        const bool hasWidths = mNormals == GltfNormals::WithWidths;
+        TextureRef reference = textureFor(info, hasWidths ? Use::Normals : Use::Data);
+        reference.hasWidths = hasWidths && reference.image != kNone;
         return reference;
     }
 
     TexturePair pairFor(GltfTexturePair const& infos, PackLayout layout) {
-        const bool isColor = layout == PackLayout::ColorAlpha;
+        const Use use = layout == PackLayout::ColorAlpha ? Use::Color : Use::Data;
         const TextureRef first = referenceTo(infos.first), second = referenceTo(infos.second);
         TexturePair pair{ first, first.image != kNone, second.image != kNone };
         if (!pair.hasFirst && !pair.hasSecond) return pair;
         const bool isOne = !pair.hasFirst || !pair.hasSecond || first.image == second.image;
         if (!pair.hasFirst) pair.texture = second;
         if (pair.hasFirst && pair.hasSecond && !(isReadAlike(first, second) && (isOne || haveOneSize(first, second)))) {
-            pair.texture.image = slotFor(first.image, isColor);
+            pair.texture.image = slotFor(first.image, use);
             pair.second = second;
-            pair.second.image = slotFor(second.image, isColor && isOne); // alpha is the same in both
+            pair.second.image = slotFor(second.image, isOne ? use : Use::Data); // alpha is the same in both
             return pair;
         }
         pair.texture.image =
-                isOne ? slotFor(pair.texture.image, isColor) : packedSlotFor({ first.image, second.image, layout });
+                isOne ? slotFor(pair.texture.image, use) : packedSlotFor({ first.image, second.image, layout });
         return pair;
     }
 
@@ -132,14 +142,14 @@ private:
         return source;
     }
 
-    uint32_t slotFor(uint32_t image, bool isColor) {
+    uint32_t slotFor(uint32_t image, Use use) {
         const uint32_t source = sourceFor(image);
         if (mJobOfSource[source] == kNone) {
             mJobOfSource[source] = static_cast<uint32_t>(mTextures.jobs.size());
-            mTextures.jobs.push_back({ .source = source, .color = {}, .data = {}, .diagnostics = {} });
+            mTextures.jobs.emplace_back().source = source;
         }
         GltfImageJob& job = mTextures.jobs[mJobOfSource[source]];
-        uint32_t& slot = isColor ? job.colorTexture : job.dataTexture;
+        uint32_t& slot = use == Use::Color ? job.colorTexture : use == Use::Data ? job.dataTexture : job.normalTexture;
         if (slot == kNone) slot = mTextures.textureCount++;
         return slot;
     }
@@ -157,6 +167,7 @@ private:
 
     GltfDocument const& mDocument;
     GltfFolder const& mFolder;
+    GltfNormals mNormals;
     GltfTextures& mTextures;
     Diagnostics& mDiagnostics;
     std::vector<uint32_t> mFirstOfSame, mSourceOfImage; // by index in the document
@@ -172,9 +183,8 @@ Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource cons
 /// The file of a texture says whether it holds colours, and so does its use.
 void warnAboutTransfer(GltfDocument const& document, GltfImageSource const& source, std::optional<bool> isSrgb,
                        GltfImageJob& job) {
-    if (!isSrgb || (job.colorTexture != kNone) == (job.dataTexture != kNone)) return;
     const bool isColor = job.colorTexture != kNone;
-    if (*isSrgb == isColor) return;
+    if (!isSrgb || *isSrgb == isColor || (isColor && job.useCount() > 1)) return;
     job.diagnostics.warn("{} is used for {}, but its file says that it is {}; the use counts",
                          imageName(document, source.image), isColor ? "colours" : "data", *isSrgb ? "sRGB" : "linear");
 }
@@ -202,9 +212,9 @@ uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
 } // namespace
 
 GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder, std::vector<bool> const& used,
-                          std::vector<uint32_t>& remap, Diagnostics& diagnostics) {
+                          GltfNormals normals, std::vector<uint32_t>& remap, Diagnostics& diagnostics) {
     GltfTextures textures;
-    TexturePlanner planner(document, folder, textures, diagnostics);
+    TexturePlanner planner(document, folder, normals, textures, diagnostics);
     remap.assign(document.materials.size(), kNone);
     for (uint32_t i = 0; i < document.materials.size(); ++i) {
         if (!used[i]) continue;
@@ -216,10 +226,8 @@ GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder
 
 void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
     uint64_t pixels = 0;
-    for (GltfImageJob const& job : textures.jobs) {
-        const uint64_t uses = (job.colorTexture != kNone ? 1u : 0u) + (job.dataTexture != kNone ? 1u : 0u);
-        pixels += uses * pixelsOf(textures.sources[job.source].size);
-    }
+    for (GltfImageJob const& job : textures.jobs)
+        pixels += job.useCount() * pixelsOf(textures.sources[job.source].size);
     for (GltfPackJob const& job : textures.packs) pixels += pixelsOf(textures.sources[job.first].size);
     if (pixels > kMaxImagePixels)
         diagnostics.refuse(ErrorCode::Unsupported,
@@ -230,14 +238,16 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job) {
     GltfImageSource const& source = textures.sources[job.source];
     try {
-        Result<DecodedTexture> texture = decode(document, source, maxSize, TextureDepth::AllBits);
+        const bool hasNormals = job.normalTexture != kNone; // of which the first level counts, even if it is dropped
+        Result<DecodedTexture> texture = decode(document, source, hasNormals ? 0 : maxSize, TextureDepth::AllBits);
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
         if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);
-        const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
-        if (isBoth) job.data = withAllLevels(*texture, false, maxSize);
-        (job.colorTexture != kNone ? job.color : job.data) =
-                withAllLevels(std::move(*texture), job.colorTexture != kNone, maxSize);
+        uint32_t uses = job.useCount();
+        const auto take = [&] { return --uses == 0 ? std::move(*texture) : *texture; };
+        if (job.colorTexture != kNone) job.color = withAllLevels(take(), true, maxSize);
+        if (job.dataTexture != kNone) job.data = withAllLevels(take(), false, maxSize);
+        if (hasNormals) job.normals = withNormalWidths(withAllLevels(take(), false, 0), maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again",
                                source.image);
@@ -273,6 +283,7 @@ std::vector<Image> collectImages(GltfTextures& textures) {
     for (GltfImageJob& job : textures.jobs) {
         if (job.colorTexture != kNone) images[job.colorTexture] = std::move(job.color);
         if (job.dataTexture != kNone) images[job.dataTexture] = std::move(job.data);
+        if (job.normalTexture != kNone) images[job.normalTexture] = std::move(job.normals);
     }
     for (GltfPackJob& job : textures.packs) images[job.texture] = std::move(job.image);
     return images;

@@ -5,7 +5,7 @@
 ///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
 ///           expects a pair of maps in one texture and the file has two that are read alike and have one size, they are
 ///           packed, with one job per distinct pair; others stay apart. TextureRef::image is an index into the jobs'
-///           textures, in order.
+///           textures, in order. With GltfNormals::WithWidths, normals are a third use: their alpha is filled.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
 ///   Fails   a missing or broken image is an error that names it.
 #pragma once
@@ -20,9 +20,14 @@
 namespace filament_core::assets {
 
 struct GltfImageJob {
-    uint32_t source = 0;                                ///< index in GltfTextures::sources
-    uint32_t colorTexture = kNone, dataTexture = kNone; ///< slots in ModelData::images
-    Image color, data;                                  ///< filled as requested
+    uint32_t source = 0;                                                       ///< index in GltfTextures::sources
+    uint32_t colorTexture = kNone, dataTexture = kNone, normalTexture = kNone; ///< slots in ModelData::images
+    Image color, data, normals;                                                ///< filled as requested
+
+    uint32_t useCount() const {
+        return (colorTexture != kNone ? 1u : 0u) + (dataTexture != kNone ? 1u : 0u) +
+               (normalTexture != kNone ? 1u : 0u);
+    }
     Diagnostics diagnostics;
 };
 
@@ -45,7 +50,7 @@ struct GltfTextures {
 /// `used`: for each material of the document, whether it is used. Unused materials are dropped; `remap` gives the new
 /// index of the others. Reads the images of pairs, whose sizes decide.
 GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder, std::vector<bool> const& used,
-                          std::vector<uint32_t>& remap, Diagnostics& diagnostics);
+                          GltfNormals normals, std::vector<uint32_t>& remap, Diagnostics& diagnostics);
 
 /// An error if the textures together have more than kMaxImagePixels; the sources are read.
 void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);

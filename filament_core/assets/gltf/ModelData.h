@@ -31,6 +31,12 @@ enum class GltfLevels : uint8_t {
     All,
 };
 
+/// What textures of normals hold besides the normals.
+enum class GltfNormals : uint8_t {
+    Plain,
+    WithWidths, ///< alpha as image/NormalWidths.h fills it
+};
+
 /// Where skins and morph targets are applied.
 enum class GltfDeformation : uint8_t {
     AtRest, ///< by the loader, once: the vertices are those of the rest pose

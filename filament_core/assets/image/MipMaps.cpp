@@ -4,6 +4,7 @@
 #include "base/Assert.h"
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
+#include "filament_core/assets/image/MipTaps.h"
 
 #include <algorithm>
 #include <array>
@@ -54,39 +55,21 @@ void halveRows(uint16_t const* row0, uint16_t const* row1, uint32_t width, uint1
     }
 }
 
-/// The source texels that output texel `i` covers, and their weights, which sum to 1.
-struct Taps {
-    uint32_t first = 0, count = 1;
-    std::array<float, 3> weights{ 1, 0, 0 };
-};
-
-/// n texels become m = max(1, n / 2): texel i covers [i n / m, (i + 1) n / m). For an odd n = 2m + 1 it touches three.
-Taps tapsOf(uint32_t i, uint32_t sourceSize) {
-    if (sourceSize == 1) return {};
-    if (sourceSize % 2 == 0) return { 2 * i, 2, { 0.5f, 0.5f, 0 } };
-    const uint32_t size = sourceSize / 2;
-    const auto total = static_cast<float>(sourceSize);
-    return { 2 * i,
-             3,
-             { static_cast<float>(size - i) / total, static_cast<float>(size) / total,
-               static_cast<float>(i + 1) / total } };
-}
-
 /// For any sizes: weighted means over up to 3 x 3 texels. `row(y)` returns row y of the source.
 template <class Row>
 void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sourceHeight, uint32_t width,
                  uint16_t* out) {
-    const Taps vertical = tapsOf(y, sourceHeight);
+    const MipTaps vertical = mipTapsOf(y, sourceHeight);
     std::array<uint16_t const*, 3> rows{};
     for (uint32_t i = 0; i < vertical.count; ++i) rows[i] = row(vertical.first + i);
     for (uint32_t x = 0; x < width; ++x, out += kChannels) {
-        const Taps horizontal = tapsOf(x, sourceWidth);
+        const MipTaps horizontal = mipTapsOf(x, sourceWidth);
         for (uint32_t c = 0; c < kChannels; ++c) {
             float sum = 0;
             for (uint32_t i = 0; i < vertical.count; ++i) {
                 for (uint32_t j = 0; j < horizontal.count; ++j) {
                     const uint16_t texel = rows[i][(horizontal.first + j) * kChannels + c];
-                    sum += vertical.weights[i] * horizontal.weights[j] * static_cast<float>(texel);
+                    sum += vertical.weight<float>(i) * horizontal.weight<float>(j) * static_cast<float>(texel);
                 }
             }
             out[c] = static_cast<uint16_t>(std::min(sum + 0.5f, 65535.0f));
@@ -140,17 +123,6 @@ void fillLevels(Image& image, uint32_t layer, Encoding const& encoding) {
     }
 }
 
-/// Drops the levels that are larger than `maxSize`.
-void dropLargeLevels(Image& image, uint32_t maxSize) {
-    uint32_t dropped = 0;
-    while (maxSize > 0 && (std::max(image.width, image.height) >> dropped) > maxSize) ++dropped;
-    if (dropped == 0) return;
-    image.data.erase(image.data.begin(), image.data.begin() + static_cast<std::ptrdiff_t>(image.levelOffset(dropped)));
-    image.width = std::max(1u, image.width >> dropped);
-    image.height = std::max(1u, image.height >> dropped);
-    image.levels -= dropped;
-}
-
 /// The first level as 16-bit light.
 Level lightOf(DeepImage const& base, bool isColor) {
     Level level{ base.width, base.height, base.codes };
@@ -173,6 +145,16 @@ void encodeHalves(size_t count, Value const& value, std::byte* halves) {
 }
 
 } // namespace
+
+void dropLargeLevels(Image& image, uint32_t maxSize) {
+    uint32_t dropped = 0;
+    while (maxSize > 0 && (std::max(image.width, image.height) >> dropped) > maxSize) ++dropped;
+    if (dropped == 0) return;
+    image.data.erase(image.data.begin(), image.data.begin() + static_cast<std::ptrdiff_t>(image.levelOffset(dropped)));
+    image.width = std::max(1u, image.width >> dropped);
+    image.height = std::max(1u, image.height >> dropped);
+    image.levels -= dropped;
+}
 
 Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize) {
     FILAMENT_ASSERT(!base.codes.empty() && base.codes.size() == size_t{ kChannels } * base.width * base.height,

@@ -24,4 +24,7 @@ Image withMipMaps(Image base, bool isColor, uint32_t maxSize = 0);
 /// level has the nearest halves; the others are means of 16-bit light, which are exact to 1/65535.
 Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize = 0);
 
+/// Drops the levels that are larger than `maxSize` in any direction (0: none).
+void dropLargeLevels(Image& image, uint32_t maxSize);
+
 } // namespace filament_core::assets

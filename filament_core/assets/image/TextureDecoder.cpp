@@ -60,6 +60,7 @@ Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize) {
     Image image = std::move(texture.image);
     if (image.levels == 1) return withMipMaps(std::move(image), isColor, maxSize);
     image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
+    dropLargeLevels(image, maxSize);
     return image;
 }
 

@@ -13,13 +13,14 @@ void require(Result<void> const& result) {
     FILAMENT_ASSERT(result.ok(), "the glTF materials have the parameters that GltfMaterialSettings names");
 }
 
-/// A map only lowers the factor. Anisotropy makes one direction rougher.
+/// A map only lowers the factor. Anisotropy makes one direction rougher, and averaged normals make all.
 std::optional<uint32_t> roughnessBound(GltfMaterialSettings const& settings, shader::MaterialPackage const& package) {
     shader::Parameter const* factor = package.findParameter("roughnessFactor");
-    const bool isAnisotropic = std::ranges::any_of(settings.constants, [](MaterialConstant const& constant) {
-        return constant.name == "hasAnisotropy" && constant.value == MaterialConstant{ "", true }.value;
+    const bool isRougher = std::ranges::any_of(settings.constants, [](MaterialConstant const& constant) {
+        return (constant.name == "hasAnisotropy" || constant.name == "normalWidth") &&
+               constant.value == MaterialConstant{ "", true }.value;
     });
-    return factor && !isAnisotropic ? std::optional(factor->offset) : std::nullopt;
+    return factor && !isRougher ? std::optional(factor->offset) : std::nullopt;
 }
 
 } // namespace

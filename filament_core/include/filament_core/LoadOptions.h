@@ -28,6 +28,9 @@ struct GltfLoadOptions {
     /// Of things with levels of detail (MSFT_lod): true loads all of them, for ModelCopy::chooseLevels(). False: the
     /// finest alone, which takes less time and memory.
     bool allLevels = false;
+    /// True: mip levels of normal maps raise the roughness by the variation of normals that they average away, so that
+    /// highlights keep their width at a distance. Takes time to load, and no memory.
+    bool normalMapRoughness = false;
     /// True: buffers and images may also lie outside of the model's folder: behind absolute paths, "..", and links that
     /// lead out. Only for models that you trust.
     bool filesFromAnywhere = false;

@@ -6,9 +6,9 @@
 #include "shaders/material/gltf/layers.glsl"
 
 void material(inout MaterialInputs material) {
-    gltfNormals(material);
+    vec2 widths = gltfNormals(material);
     prepareMaterial(material);
     gltfBump();
-    gltfSurface(material);
-    gltfLayers(material);
+    gltfSurface(material, widths.x);
+    gltfLayers(material, widths.y);
 }

@@ -2,7 +2,8 @@
 // The layers of the KHR_materials extensions on top of gltfSurface(). Unused layers are neutral: constants that the
 // driver knows when it creates the pipeline, so it removes the layer.
 
-void gltfClearCoat(inout MaterialInputs material) {
+// width: of its normal.
+void gltfClearCoat(inout MaterialInputs material, float width) {
     material.clearCoat = 0.0;
     if (materialConstants_hasClearCoat) {
         vec4 maps = vec4(1.0); // red: coat, green: its roughness
@@ -17,15 +18,20 @@ void gltfClearCoat(inout MaterialInputs material) {
         material.clearCoat = (materialConstants_hasClearCoatMap ? maps.r : 1.0) * materialParams.clearCoat;
         material.clearCoatRoughness =
                 (materialConstants_hasClearCoatRoughnessMap ? maps.g : 1.0) * materialParams.clearCoatRoughness;
+        if (materialConstants_clearCoatNormalWidth)
+            material.clearCoatRoughness = widenedPerceptualRoughness(material.clearCoatRoughness, width);
     }
 }
 
-vec3 gltfClearCoatNormal() {
+// As gltfNormal().
+vec4 gltfClearCoatNormal() {
     vec2 uv = mapUv(materialConstants_clearCoatNormalUv, materialConstants_clearCoatNormalTransform,
             materialParams.clearCoatNormalUvMatrix);
-    vec3 n = texture(materialParams_clearCoatNormalMap, uv).xyz * 2.0 - 1.0;
+    vec4 texel = texture(materialParams_clearCoatNormalMap, uv);
+    vec3 n = texel.xyz * 2.0 - 1.0;
     n.xy = vectorOfVertex(n.xy, materialConstants_clearCoatNormalFrame, uv, materialParams.clearCoatNormalUvMatrix);
-    return vec3(n.xy * materialParams.clearCoatNormalScale, n.z);
+    return vec4(n.xy * materialParams.clearCoatNormalScale, n.z,
+            materialConstants_clearCoatNormalWidth ? texel.a * materialParams.clearCoatNormalScale : 0.0);
 }
 
 void gltfSheen(inout MaterialInputs material) {
@@ -132,13 +138,20 @@ void gltfDiffuseTransmission(inout MaterialInputs material) {
     }
 }
 
-void gltfNormals(inout MaterialInputs material) {
-    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
-    if (materialConstants_hasClearCoatNormalMap) material.clearCoatNormal = gltfClearCoatNormal();
+// Sets the normals. Returns the widths of the surface's and of the coat's.
+vec2 gltfNormals(inout MaterialInputs material) {
+    vec2 widths = vec2(gltfSurfaceNormal(material), 0.0);
+    if (materialConstants_hasClearCoatNormalMap) {
+        vec4 coat = gltfClearCoatNormal();
+        material.clearCoatNormal = coat.xyz;
+        widths.y = coat.w;
+    }
+    return widths;
 }
 
-void gltfLayers(inout MaterialInputs material) {
-    gltfClearCoat(material);
+// coatWidth: of the coat's normal.
+void gltfLayers(inout MaterialInputs material, float coatWidth) {
+    gltfClearCoat(material, coatWidth);
     gltfSheen(material);
     gltfSpecular(material);
     gltfAnisotropy(material);

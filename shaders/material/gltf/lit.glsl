@@ -4,8 +4,8 @@
 #include "shaders/material/gltf/surface.glsl"
 
 void material(inout MaterialInputs material) {
-    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
+    float width = gltfSurfaceNormal(material);
     prepareMaterial(material);
     gltfBump();
-    gltfSurface(material);
+    gltfSurface(material, width);
 }

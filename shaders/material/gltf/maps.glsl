@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps shared by all lit glTF materials: normals, occlusion, emission, bumps. glTF 2.0 specification, 3.9.3.
 
+#include "shaders/lib/normals.glsl"
 #include "shaders/material/gltf/emission.glsl"
 #include "shaders/material/gltf/vectors.glsl"
 
-vec3 gltfNormal() {
+// The normal, and in w the width of those that the texel averages (normalWidth()), if the loader computed it.
+vec4 gltfNormal() {
     vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
-    vec3 n = texture(materialParams_normalMap, uv).xyz * 2.0 - 1.0;
+    vec4 texel = texture(materialParams_normalMap, uv);
+    vec3 n = texel.xyz * 2.0 - 1.0;
     n.xy = vectorOfVertex(n.xy, materialConstants_normalFrame, uv, materialParams.normalUvMatrix);
-    return vec3(n.xy * materialParams.normalScale, n.z);
+    return vec4(n.xy * materialParams.normalScale, n.z,
+            materialConstants_normalWidth ? texel.a * materialParams.normalScale : 0.0);
+}
+
+// Sets the normal. Returns its width.
+float gltfSurfaceNormal(inout MaterialInputs material) {
+    if (!materialConstants_hasNormalMap) return 0.0;
+    vec4 normal = gltfNormal();
+    material.normal = normal.xyz;
+    return normal.w;
+}
+
+float widenedRoughness(float roughness, float width) {
+    return materialConstants_normalWidth ? widenedPerceptualRoughness(roughness, width) : roughness;
 }
 
 float gltfOcclusion() {

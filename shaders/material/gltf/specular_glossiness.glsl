@@ -5,7 +5,7 @@
 #include "shaders/material/gltf/maps.glsl"
 
 void material(inout MaterialInputs material) {
-    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
+    float width = gltfSurfaceNormal(material);
     prepareMaterial(material);
     gltfBump();
     material.baseColor = gltfBaseColor();
@@ -17,6 +17,7 @@ void material(inout MaterialInputs material) {
         material.specularColor *= map.rgb;
         material.glossiness *= map.a;
     }
+    if (materialConstants_normalWidth) material.glossiness = 1.0 - widenedRoughness(1.0 - material.glossiness, width);
     if (materialConstants_hasOcclusionMap) material.ambientOcclusion = occlusionOf(gltfOcclusion());
     material.emissive = gltfEmissive();
 }

@@ -4,7 +4,8 @@
 #include "shaders/material/gltf/base_color.glsl"
 #include "shaders/material/gltf/maps.glsl"
 
-void gltfSurface(inout MaterialInputs material) {
+// width: of the normal.
+void gltfSurface(inout MaterialInputs material, float width) {
     material.baseColor = gltfBaseColor();
     material.metallic = materialParams.metallicFactor;
     material.roughness = materialParams.roughnessFactor;
@@ -16,6 +17,7 @@ void gltfSurface(inout MaterialInputs material) {
         material.roughness *= surface.g;
         material.metallic *= surface.b;
     }
+    material.roughness = widenedRoughness(material.roughness, width);
     if (materialConstants_hasOcclusionMap || materialConstants_occlusionInMetallicRoughness) {
         float occlusion = surface.r;
         if (materialConstants_hasOcclusionMap) occlusion = gltfOcclusion();

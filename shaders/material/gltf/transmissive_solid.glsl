@@ -4,11 +4,11 @@
 #include "shaders/material/gltf/transmission.glsl"
 
 void material(inout MaterialInputs material) {
-    gltfNormals(material);
+    vec2 widths = gltfNormals(material);
     prepareMaterial(material);
     gltfBump();
-    gltfSurface(material);
-    gltfLayers(material);
+    gltfSurface(material, widths.x);
+    gltfLayers(material, widths.y);
     vec2 amounts = gltfTransmission();
     material.transmission = amounts.x;
     material.thickness = amounts.y;

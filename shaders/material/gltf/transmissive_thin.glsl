@@ -4,10 +4,10 @@
 #include "shaders/material/gltf/transmission.glsl"
 
 void material(inout MaterialInputs material) {
-    gltfNormals(material);
+    vec2 widths = gltfNormals(material);
     prepareMaterial(material);
     gltfBump();
-    gltfSurface(material);
-    gltfLayers(material);
+    gltfSurface(material, widths.x);
+    gltfLayers(material, widths.y);
     material.transmission = gltfTransmission().x;
 }

@@ -86,5 +86,24 @@ TEST(Normals, ReorientingIsARotation) {
     }
 }
 
+TEST(Normals, WidthsAreThoseOfALobeWithTheSameMean) {
+    EXPECT_EQ(normalWidth(1.0), 0);
+    EXPECT_EQ(normalWidth(1.0 + 1e-9), 0) << "rounding";
+    EXPECT_EQ(normalWidth(0.0), 1) << "they cancel out";
+    for (const double length : { 0.9, 0.99, 0.999 }) // 1 - length is about the variance of slopes along an axis
+        EXPECT_NEAR(normalWidth(length) * normalWidth(length), 2 * (1 - length), 2 * (1 - length) * (1 - length));
+    EXPECT_GT(normalWidth(0.8), normalWidth(0.9));
+}
+
+TEST(Normals, WidthsAddToRoughnessAsVariances) {
+    for (const double roughness : { 0.0, 0.3, 0.7, 1.0 }) {
+        EXPECT_NEAR(widenedPerceptualRoughness(roughness, 0.0), roughness, 1e-12);
+        const double alpha = std::pow(widenedPerceptualRoughness(roughness, 0.2), 2);
+        EXPECT_NEAR(alpha * alpha, std::min(std::pow(roughness, 4) + 0.04, 1.0), 1e-12);
+    }
+    EXPECT_EQ(widenedPerceptualRoughness(0.5, 1.0), 1);
+    EXPECT_EQ(widenedPerceptualRoughness(0.5, -0.2), widenedPerceptualRoughness(0.5, 0.2)) << "mirrored slopes";
+}
+
 } // namespace
 } // namespace filament_core::shader::lib64

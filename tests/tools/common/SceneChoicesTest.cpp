@@ -18,21 +18,29 @@ SceneOptions sunny() {
 
 /// What the choices change, as one text.
 std::string stateOf(SceneOptions const& o) {
-    return fmt::format(
-            "{} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows, o.sun->angularRadiusDegrees,
-            o.sun->haloSize, o.sun->haloFalloff, o.exactShaders, static_cast<int>(o.environmentOptions.format),
-            static_cast<int>(o.environmentOptions.roughnessMapping), static_cast<int>(o.modelOptions.positions),
-            static_cast<int>(o.modelOptions.tangents), o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels);
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows,
+                       o.sun->angularRadiusDegrees, o.sun->haloSize, o.sun->haloFalloff, o.exactShaders,
+                       static_cast<int>(o.environmentOptions.format),
+                       static_cast<int>(o.environmentOptions.roughnessMapping),
+                       static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
+                       o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels, o.modelOptions.normalMapRoughness);
 }
 
 TEST(SceneChoices, ChangeWhatTheyName) {
     const std::pair<const char*, const char*> kChanges[] = {
-        { "sun.showsDisc", "on" },           { "sun.contactShadows", "on" },
-        { "sun.angularRadiusDegrees", "2" }, { "sun.haloSize", "3" },
-        { "sun.haloFalloff", "7" },          { "exact", "off" },
-        { "environment.format", "RGBM" },    { "environment.roughnessMapping", "linear" },
-        { "model.positions", "half" },       { "model.tangents", "float" },
-        { "model.filesFromAnywhere", "on" }, { "model.allLevels", "on" },
+        { "sun.showsDisc", "on" },
+        { "sun.contactShadows", "on" },
+        { "sun.angularRadiusDegrees", "2" },
+        { "sun.haloSize", "3" },
+        { "sun.haloFalloff", "7" },
+        { "exact", "off" },
+        { "environment.format", "RGBM" },
+        { "environment.roughnessMapping", "linear" },
+        { "model.positions", "half" },
+        { "model.tangents", "float" },
+        { "model.filesFromAnywhere", "on" },
+        { "model.allLevels", "on" },
+        { "model.normalMapRoughness", "on" },
     };
     for (auto const& [name, value] : kChanges) {
         SceneOptions options = sunny();

@@ -116,6 +116,7 @@ template <> struct Fields<GltfLoadOptions> {
                                              field("tangents", &GltfLoadOptions::tangents),
                                              field("deformable", &GltfLoadOptions::deformable),
                                              field("allLevels", &GltfLoadOptions::allLevels),
+                                             field("normalMapRoughness", &GltfLoadOptions::normalMapRoughness),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress
 };

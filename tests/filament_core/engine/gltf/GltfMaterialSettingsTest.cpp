@@ -53,6 +53,18 @@ TEST(GltfMaterialSettings, AMaterialWithoutExtensionsKeepsThePackageWithoutLayer
     EXPECT_EQ(settingsOf(material, {}).package, "gltf_unlit_blended");
 }
 
+TEST(GltfMaterialSettings, WidthsOfNormalsAreReadWhereTheLoaderFilledThem) {
+    MaterialData material;
+    material.normal = { .image = 0, .hasWidths = true };
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasNormalMap", "normalWidth"));
+    EXPECT_THAT(constantsOf(settingsOf(material, { .hasTangents = false })), IsEmpty());
+    material.normal.hasWidths = false;
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasNormalMap"));
+    material.clearCoat = { .factor = 1, .normal = { .image = 0, .hasWidths = true } };
+    EXPECT_THAT(constantsOf(settingsOf(material, {})),
+                UnorderedElementsAre("hasNormalMap", "hasClearCoat", "hasClearCoatNormalMap", "clearCoatNormalWidth"));
+}
+
 TEST(GltfMaterialSettings, ExtensionsWhoseFactorsAreNeutralAreNotUsed) {
     MaterialData material;
     material.clearCoat.roughness = 0.5f;
