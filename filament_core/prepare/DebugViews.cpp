@@ -46,6 +46,7 @@ constexpr std::array kDebugViews{
     unlit(DebugView::TransparentLayers, Shows::Count),
     DebugViewRow{ DebugView::Wireframe, Shows::Edges },
     unlit(DebugView::WireframeAlone, Shows::Edges),
+    unlit(DebugView::Plausibility, Shows::Material),
 };
 
 static_assert(kDebugViews.size() == kDebugViewCount &&

@@ -397,7 +397,8 @@ Result<std::string> debugFragment(MaterialDefinition const& definition, Material
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done)
-        done = includeAll(out, { "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });
+        done = includeAll(out, { "shaders/lib/color.glsl", "shaders/lib/brdf.glsl", "shaders/lib/plausible.glsl",
+                                 "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });
     if (!done) return done.error();
     return std::move(out).take();
 }

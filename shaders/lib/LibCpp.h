@@ -50,6 +50,7 @@ namespace {
 #include "shaders/lib/normals.glsl"
 #include "shaders/lib/occlusion.glsl"
 #include "shaders/lib/parallax.glsl"
+#include "shaders/lib/plausible.glsl"
 #include "shaders/lib/profiles.glsl"
 #include "shaders/lib/reflection.glsl"
 #include "shaders/lib/refraction.glsl"

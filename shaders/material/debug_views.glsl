@@ -12,6 +12,7 @@ const int kViewEmissive = 23;
 const int kViewMipLevel = 24;
 const int kViewOverdraw = 25;
 const int kViewTransparentLayers = 26;
+const int kViewPlausibility = 29;
 
 // Alpha of the output: for a value; for a material without such an input. Without a surface: 0.
 const float kHasValue = 1.0;

@@ -141,6 +141,8 @@ void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--costs", words.costs, "FILE: the cost table for --budget (the library's own)");
     app.option("--measure-costs", words.measureCosts,
                "FILE: measure what every quality choice costs in this scene, for --costs");
+    app.flag("--check-asset", options.checkAsset,
+             "draw nothing; print which texels of the model's materials have values that no real material has");
     app.flag("--list-devices", options.listDevices, "print the devices of every backend");
     app.option("--require-device", words.requireDevice, "fail unless the device's name contains this");
 }

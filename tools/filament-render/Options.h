@@ -35,7 +35,7 @@ struct Options : SceneOptions {
     ThreadAffinity affinity = ThreadAffinity::None;
     int driverCore = -1; ///< -1: the driver thread is not pinned
     bool repinAfterWaits = false;
-    bool listDevices = false;
+    bool listDevices = false, checkAsset = false;
     std::optional<double> budgetMilliseconds; ///< device time of a frame: the quality is chosen to fit
     std::filesystem::path costs;              ///< its cost table; empty: the library's
     std::filesystem::path saveLook;           ///< .cube file for grading and tone mapper; empty: none

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-render [MODEL] [options]: draws the picture of one command line on one or two backends and compares the two.
-// Exit status 0: everything was drawn and, with two backends, all pixels are equal (within --tolerance).
+// Exit status 0: everything was drawn and, with two backends, all pixels are equal (within --tolerance). With
+// --check-asset: no material breaks a rule.
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
@@ -9,6 +10,7 @@
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
+#include "tools/filament-render/CheckAsset.h"
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/filament-render/SaveFrame.h"
@@ -142,7 +144,20 @@ int render(Options const& options) {
     return comparison && !comparison->within(options.tolerance) ? 1 : 0;
 }
 
-int run(Options const& options) { return options.listDevices ? listAllDevices() : render(options); }
+int check(Options const& options) {
+    const Result<AssetFindings> findings =
+            checkAsset(options.model, options.modelOptions.filesFromAnywhere ? assets::FilesFrom::Anywhere
+                                                                             : assets::FilesFrom::Folder);
+    if (!findings) return failed(findings.error());
+    for (std::string const& warning : findings->warnings) printWarning(warning);
+    std::fputs(textOf(*findings).c_str(), stdout);
+    return findings->isPlausible() ? 0 : 1;
+}
+
+int run(Options const& options) {
+    if (options.listDevices) return listAllDevices();
+    return options.checkAsset ? check(options) : render(options);
+}
 
 } // namespace
 } // namespace filament_core::tools

@@ -40,6 +40,28 @@ using NumericsCounts = std::array<uint64_t, kNumericsMarks>;
 /// colours count as None.
 NumericsCounts countNumerics(std::span<const std::byte> rgba);
 
+/// What DebugView::Plausibility and `filament-render --check-asset` mark: values that no real material has. Of a texel
+/// that breaks several rules, the first one. docs/debug-views.md has their limits.
+enum class PlausibilityRule : uint8_t {
+    None,
+    MixedMetallic,  ///< neither a dielectric nor a metal
+    DarkAlbedo,     ///< of a dielectric
+    BrightAlbedo,   ///< of a dielectric
+    DarkMetal,      ///< a metal that reflects too little
+    LowReflectance, ///< of a dielectric
+    BrightEmission, ///< brighter than white
+};
+inline constexpr size_t kPlausibilityRules = 7;
+
+/// "none", "mixedMetallic", "darkAlbedo", "brightAlbedo", "darkMetal", "lowReflectance" and "brightEmission".
+const char* toString(PlausibilityRule rule);
+/// A sentence without its full stop: what real materials have. Empty for None.
+const char* meaningOf(PlausibilityRule rule);
+/// None: grey stands for all greys.
+DebugColor plausibilityColor(PlausibilityRule rule);
+/// Of a pixel of DebugView::Plausibility; none: no such view has this colour.
+std::optional<PlausibilityRule> plausibilityRuleOf(DebugColor color);
+
 /// Of DebugView::Luminance: `stops` above middle grey, a linear luminance of 0.18 before tone mapping. From 7 on:
 /// white; up to -7: black.
 DebugColor luminanceColor(int stops);

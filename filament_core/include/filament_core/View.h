@@ -55,10 +55,12 @@ enum class DebugView : uint8_t {
     TransparentLayers, ///< visible transparent surfaces in each pixel
     Wireframe,         ///< the edges of visible triangles, over the image
     WireframeAlone,    ///< without the image
+    // Another result of the code of materials:
+    Plausibility, ///< values that no real material has, by the rule that they break
 };
 template <>
 struct EnumNames<DebugView> {
-    static constexpr std::array<std::string_view, 29> values{ "none",
+    static constexpr std::array<std::string_view, 30> values{ "none",
                                                               "cascades",
                                                               "atlas",
                                                               "froxels",
@@ -86,7 +88,8 @@ struct EnumNames<DebugView> {
                                                               "overdraw",
                                                               "transparentLayers",
                                                               "wireframe",
-                                                              "wireframeAlone" };
+                                                              "wireframeAlone",
+                                                              "plausibility" };
 };
 inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 

@@ -26,6 +26,34 @@ vec4 debugCoordinates() {
 #endif
 }
 
+#if defined(SHADING_MODEL_LIT) || defined(SHADING_MODEL_SUBSURFACE)
+// Of dielectrics, as lit_surface.glsl has it.
+float debugF0(MaterialInputs inputs) {
+#if defined(HAS_IOR) && !defined(HAS_REFLECTANCE)
+    float f0 = f0FromIor(inputs.ior);
+#else
+    float f0 = f0FromReflectance(inputs.reflectance);
+#endif
+#if defined(HAS_SPECULAR_FACTOR)
+    f0 *= saturate(inputs.specularFactor);
+#endif
+#if defined(HAS_SPECULAR_COLOR_FACTOR)
+    f0 *= max3(inputs.specularColorFactor);
+#endif
+    return f0;
+}
+
+// Red: the rule, green: the luminance of the base colour. Both are exact, or nearly, in half floats.
+vec4 debugPlausibility(MaterialInputs inputs) {
+    vec3 color = inputs.baseColor.rgb;
+#if defined(BLEND_MODE_TRANSPARENT)
+    color /= max(inputs.baseColor.a, 6.103515625e-5); // it is multiplied by alpha
+#endif
+    vec3 emissive = inputs.emissive.rgb * mix(1.0, getExposure(), inputs.emissive.a);
+    return vec4(implausibleRule(color, inputs.metallic, debugF0(inputs), emissive), luminance(color), 0.0, kHasValue);
+}
+#endif
+
 vec4 debugShading(MaterialInputs inputs, int view) {
     vec4 shown = vec4(vec3(0.0), kHasNone);
 #if !defined(SHADING_MODEL_UNLIT)
@@ -36,6 +64,7 @@ vec4 debugShading(MaterialInputs inputs, int view) {
 #endif
 #if defined(SHADING_MODEL_LIT) || defined(SHADING_MODEL_SUBSURFACE)
     if (view == kViewMetallic) shown = vec4(vec3(inputs.metallic), kHasValue);
+    if (view == kViewPlausibility) shown = debugPlausibility(inputs);
 #endif
     if (view == kViewMaterialOcclusion) shown = vec4(vec3(inputs.ambientOcclusion), kHasValue);
 #endif

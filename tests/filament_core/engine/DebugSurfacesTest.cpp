@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kMaterialViews{
     DebugView::BaseColor, DebugView::Roughness,          DebugView::Metallic,          DebugView::Normals,
     DebugView::Tangents,  DebugView::TextureCoordinates, DebugView::MaterialOcclusion, DebugView::Emissive,
-    DebugView::MipLevel,  DebugView::Overdraw,           DebugView::TransparentLayers
+    DebugView::MipLevel,  DebugView::Overdraw,           DebugView::TransparentLayers, DebugView::Plausibility
 };
 
 /// Squares before a camera that looks along -z from the origin and sees 2 m at a distance of 1 m.
@@ -146,10 +146,52 @@ TEST(DebugMaterials, HaveStripesWhereTheyHaveNoSuchValue) {
     });
     for (size_t i = 0; i < kMaterialViews.size(); ++i) {
         const bool hasValue = kMaterialViews[i] == DebugView::BaseColor || kMaterialViews[i] == DebugView::Emissive ||
-                              kMaterialViews[i] >= DebugView::Overdraw; // counts have none, either
+                              kMaterialViews[i] == DebugView::Overdraw ||
+                              kMaterialViews[i] == DebugView::TransparentLayers; // counts have none, either
         EXPECT_EQ(isStriped(images[i]), !hasValue) << toString(kMaterialViews[i]);
     }
     EXPECT_EQ(debugColorAt(images[7], 16, 16), kBlackPixel) << "no emission is black";
+}
+
+/// Code of a material, and the rule that it breaks.
+struct Implausible {
+    const char* code;
+    PlausibilityRule rule;
+};
+
+TEST(DebugMaterials, ShowWhichRuleOfRealMaterialsTheyBreak) {
+    using Rule = PlausibilityRule;
+    const std::array cases{
+        Implausible{ "baseColor.rgb = vec3(0.2);", Rule::None },
+        Implausible{ "baseColor.rgb = vec3(0.5); material.metallic = 1.0;", Rule::None },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.metallic = 0.5;", Rule::MixedMetallic },
+        Implausible{ "baseColor.rgb = vec3(0.02); material.metallic = 0.5;", Rule::MixedMetallic },
+        Implausible{ "baseColor.rgb = vec3(0.02);", Rule::DarkAlbedo },
+        Implausible{ "baseColor.rgb = vec3(0.95);", Rule::BrightAlbedo },
+        Implausible{ "baseColor.rgb = vec3(0.95); material.metallic = 1.0;", Rule::None },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.metallic = 1.0;", Rule::DarkMetal },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.reflectance = 0.3;", Rule::LowReflectance },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.reflectance = 0.35;", Rule::None },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.ior = 1.2;", Rule::LowReflectance },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.specularFactor = 0.25;", Rule::LowReflectance },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.emissive = vec4(0.0, 1.5, 0.0, 0.0);", Rule::BrightEmission },
+        Implausible{ "baseColor.rgb = vec3(0.2); material.emissive = vec4(1.0, 1.0, 1.0, 0.0);", Rule::None },
+    };
+    const auto images = test::sameOnBothApis<SurfaceStage>([&](SurfaceStage& stage) {
+        std::vector<Image> all;
+        for (Implausible const& each : cases) {
+            const Renderable square =
+                    stage.add(stage.material(test::text("shadingModel : lit", std::string("material.") + each.code)));
+            all.push_back(stage.draw(DebugView::Plausibility));
+            stage.scene.remove(square);
+        }
+        return all;
+    });
+    for (size_t i = 0; i < cases.size(); ++i)
+        EXPECT_EQ(plausibilityRuleOf(debugColorAt(images[i], 16, 16)), cases[i].rule) << cases[i].code;
+    const DebugColor grey = debugColorAt(images[0], 16, 16), brighter = debugColorAt(images[1], 16, 16);
+    EXPECT_GT(grey[0], 51) << "the base colour in grey";
+    EXPECT_GT(brighter[0], grey[0]);
 }
 
 TEST(DebugMaterials, ShowNormalsAndTangentsInTheWorld) {

@@ -63,6 +63,19 @@ TEST(DebugColors, OfMarksAreCounted) {
     EXPECT_THAT(countNumerics({}), testing::Each(0u));
 }
 
+TEST(DebugColors, OfRulesAreFoundAgainAndHaveNamesAndMeanings) {
+    std::set<std::string> words;
+    for (size_t i = 1; i < kPlausibilityRules; ++i) {
+        const auto rule = static_cast<PlausibilityRule>(i);
+        EXPECT_EQ(plausibilityRuleOf(plausibilityColor(rule)), rule) << toString(rule);
+        words.insert({ toString(rule), meaningOf(rule) });
+    }
+    EXPECT_EQ(words.size(), 2 * (kPlausibilityRules - 1));
+    EXPECT_STREQ(toString(PlausibilityRule::None), "none");
+    EXPECT_EQ(plausibilityRuleOf({ 77, 77, 77 }), PlausibilityRule::None);
+    EXPECT_EQ(plausibilityRuleOf({ 77, 77, 78 }), std::nullopt);
+}
+
 TEST(DebugColors, OfStopsGetLighterButForMiddleGrey) {
     EXPECT_EQ(luminanceColor(0), (DebugColor{ 153, 153, 153 }));
     for (const int stops : { -7, -8, -1000, std::numeric_limits<int>::min() })

@@ -129,6 +129,28 @@ TEST_F(RenderProgram, ASavedFrameHoldsThePictureAndATraceOfEachApiThatDrawsIt) {
     expectRefused("triangle.gltf --size 80x45 --out saved --save-frame triangle.gltf", { "triangle.gltf" });
 }
 
+TEST_F(RenderProgram, CheckingAnAssetDrawsNothingAndEndsWithWhetherItIsPlausible) {
+    const std::string triangle = triangleGltf();
+    const auto withColor = [&](const char* file, const char* color) {
+        std::string text = triangle;
+        text.replace(text.find(R"("POSITION":0}})"), 14, R"("POSITION":0},"material":0})");
+        text.insert(text.size() - 1, std::string(R"(,"materials":[{"name":"paint","pbrMetallicRoughness":)") +
+                                             R"({"metallicFactor":0,"baseColorFactor":)" + color + "}}]");
+        writeText(sFolder / file, text);
+    };
+    withColor("fine.gltf", "[0.5,0.5,0.5,1]");
+    withColor("coal.gltf", "[0.01,0.01,0.01,1]");
+    const Outcome fine = run("fine.gltf --check-asset --out none"), coal = run("coal.gltf --check-asset --out none");
+    EXPECT_EQ(fine.status, 0) << fine.errors;
+    EXPECT_EQ(fine.output, "fine.gltf: 1 materials: 0 with values that no real material has, 0 not checked\n");
+    EXPECT_EQ(coal.status, 1) << coal.errors;
+    EXPECT_EQ(coal.errors, "");
+    EXPECT_THAT(coal.output, HasSubstr("material 'paint': 100.0 % of its texels: darkAlbedo: "));
+    EXPECT_FALSE(std::filesystem::exists(sFolder / "none"));
+    expectRefused("--check-asset", { "--check-asset", "name the model" });
+    expectRefused("missing.glb --check-asset", { "missing.glb" });
+}
+
 TEST_F(RenderProgram, AFullStandardOutputIsAnError) {
     for (const char* arguments : { "--list-devices", "--help" }) {
         const std::string command = (tools::buildDir() / "bin/filament-render ").string() + arguments +
@@ -431,28 +453,12 @@ TEST_F(RenderProgram, AModelStandsUnderItsOwnSkyUnlessAnotherIsNamed) {
 TEST_F(RenderProgram, HelpListsTheOptionsAndSucceeds) {
     const Outcome outcome = run("--help");
     EXPECT_EQ(outcome.status, 0);
-    for (const char* option : { "--variant",
-                                "--environment",
-                                "--backend",
-                                "--size",
-                                "--frames",
-                                "--no-fit",
-                                "--eye",
-                                "--at",
-                                "--fov",
-                                "--exposure",
-                                "--ibl-intensity",
-                                "--sun",
-                                "--skybox",
-                                "--tone-mapper",
-                                "--dither",
-                                "--out",
-                                "--format",
-                                "--timing",
-                                "--explain",
-                                "--list-devices",
-                                "--require-device",
-                                "--tolerance" }) {
+    for (const char* option : { "--variant",      "--environment",    "--backend",       "--size",
+                                "--frames",       "--no-fit",         "--eye",           "--at",
+                                "--fov",          "--exposure",       "--ibl-intensity", "--sun",
+                                "--skybox",       "--tone-mapper",    "--dither",        "--out",
+                                "--format",       "--timing",         "--explain",       "--check-asset",
+                                "--list-devices", "--require-device", "--tolerance" }) {
         EXPECT_THAT(outcome.output, HasSubstr(option));
     }
 }

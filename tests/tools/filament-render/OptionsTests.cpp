@@ -187,6 +187,7 @@ TEST(Options, AllReachTheirFields) {
                                      "x/y",
                                      "--format",
                                      "exr",
+                                     "--check-asset",
                                      "--timing",
                                      "--explain",
                                      "--trace",
@@ -225,7 +226,7 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.tolerance, 2u);
     EXPECT_EQ(options.out, "x/y");
     EXPECT_EQ(options.format, PictureFormat::Exr);
-    EXPECT_TRUE(options.timing && options.explain && options.trace);
+    EXPECT_TRUE(options.timing && options.explain && options.trace && options.checkAsset);
     EXPECT_EQ(options.copies, 9u);
     EXPECT_EQ(options.traceJobs, "jobs.json");
     EXPECT_EQ(options.saveFrame, "frame");

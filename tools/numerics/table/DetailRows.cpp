@@ -151,6 +151,35 @@ std::vector<Row> normalRows() {
     };
 }
 
+// The values between the limits of the rules.
+std::vector<Row> plausibleRows() {
+    const Limits exact = absolute(0, 0, "the number of a rule");
+    const auto row = [&](std::string_view part, Call call, double rule) {
+        return Row{ .file = "plausible",
+                    .function = "implausibleRule(vec3, float, float, vec3)",
+                    .part = part,
+                    .call = call,
+                    .s = { unit("metallic"), unit("f0") },
+                    .u = colour("baseColor", 1),
+                    .v = colour("emissive", 1),
+                    .range = { rule, rule },
+                    .limits = exact };
+    };
+    return {
+        row("none", NUMERICS_CALL(implausibleRule(u * vec3(0.25f) + vec3(0.25f), s.x * 0.0625f, s.y + 0.03125f, v)), 0),
+        row("mixed", NUMERICS_CALL(implausibleRule(u, s.x * 0.5f + 0.25f, s.y, v)), 1),
+        row("dark", NUMERICS_CALL(implausibleRule(u * vec3(0.015625f), s.x * 0.0625f, s.y, v)), 2),
+        row("bright", NUMERICS_CALL(implausibleRule(u + vec3(0.9375f), s.x * 0.0625f, s.y, v)), 3),
+        row("dark metal", NUMERICS_CALL(implausibleRule(u * vec3(0.25f), s.x * 0.0625f + 0.9375f, s.y, v)), 4),
+        row("reflectance",
+            NUMERICS_CALL(implausibleRule(u * vec3(0.25f) + vec3(0.25f), s.x * 0.0625f, s.y * 0.015625f, v)), 5),
+        row("emission",
+            NUMERICS_CALL(
+                    implausibleRule(u * vec3(0.25f) + vec3(0.25f), s.x * 0.0625f, s.y + 0.03125f, v + vec3(2.0f))),
+            6),
+    };
+}
+
 std::vector<Row> parallaxRows() {
     const std::string_view kCoordinates = "coordinates of textures";
     const Limits flat = absolute(1e-6, 0, "nothing moves where no height is given");
@@ -193,7 +222,7 @@ std::vector<Row> parallaxRows() {
 
 std::vector<Row> detailRows() {
     std::vector<Row> rows = iridescenceRows();
-    for (std::vector<Row> const& more : { occlusionRows(), normalRows(), parallaxRows() })
+    for (std::vector<Row> const& more : { occlusionRows(), normalRows(), plausibleRows(), parallaxRows() })
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

@@ -95,7 +95,7 @@ std::span<const Row> rows();
 std::vector<Row> mathRows();
 std::vector<Row> brdfRows();
 std::vector<Row> scatterRows(); ///< cloth, refraction, specular, subsurface
-std::vector<Row> detailRows();  ///< iridescence, normals, occlusion, parallax
+std::vector<Row> detailRows();  ///< iridescence, normals, occlusion, parallax, plausible
 std::vector<Row> layerRows();   ///< anisotropic GGX, coat, sheen
 std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl

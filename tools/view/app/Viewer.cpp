@@ -21,7 +21,7 @@ constexpr uint32_t kFramesOfHistory = 64;  ///< until temporal anti-aliasing has
 constexpr double kLongWait = 0.25, kShortWait = 0.002;
 constexpr double kProgressSeconds = 0.25; ///< between frames that show only how far loading has come
 constexpr double kFovDegrees = 40;        ///< of a camera that was parallel
-constexpr DebugView kLastDebugView = DebugView::WireframeAlone;
+constexpr DebugView kLastDebugView = DebugView::Plausibility;
 
 constexpr float4 kBetweenPanels{ 0.06f, 0.06f, 0.06f, 1 }; ///< of the window; panels lie over it
 
