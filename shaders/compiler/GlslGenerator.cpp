@@ -192,7 +192,8 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     const bool isOfDepth = (variantKey & kVariantDepth) != 0 && !shapesDepth(definition, needs);
     defineIf(out, isOfMotion, "VARIANT_MOTION");
     defineIf(out, isOfDepth, "POSITION_ALONE");
-    defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
+    const bool hasBlock = definition.vertex.has_value() && !(isOfDepth && definition.useDefaultDepthVariant);
+    defineIf(out, hasBlock, "HAS_MATERIAL_VERTEX");
     defineVariableMacros(out, definition);
     Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl",
                                           "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
@@ -208,7 +209,7 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     if (deforms)
         done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface/deform.glsl" });
     if (done) done = out.include("shaders/material/surface/vertex_api.glsl");
-    if (done && definition.vertex) done = authorsBlock(out, *definition.vertex, needs, false);
+    if (done && hasBlock) done = authorsBlock(out, *definition.vertex, needs, false);
     if (done) done = out.include("shaders/material/surface/vertex_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();

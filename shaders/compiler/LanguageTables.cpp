@@ -5,6 +5,7 @@
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/EngineNames.h"
 #include "shaders/compiler/GlslOutline.h"
+#include "shaders/compiler/IgnoredNames.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/ParameterProperties.h"
 #include "shaders/compiler/StateProperties.h"
@@ -31,7 +32,7 @@ constexpr std::string_view kHeads[] = { "", "blending : masked", "blending : tra
 
 /// What an author gets who writes nothing but this.
 MaterialDefinition definitionWith(std::string_view head) {
-    const std::string text = fmt::format("material {{ {} }} fragment {{}}", head);
+    const std::string text = fmt::format("material {{ {} }} fragment {{ void code(); }}", head);
     Result<MaterialText> parsed = parseMaterialText(text, "defaults", {});
     FILAMENT_ASSERT(parsed, "heads of materials can be parsed");
     Result<MaterialDefinition> definition = defineMaterial(std::move(*parsed), "defaults");
@@ -69,6 +70,15 @@ std::string listTable() {
             fields += fmt::format("{}`{}`", fields.empty() ? "" : ", ", field);
         fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} | {} | {} |\n", list.name, list.meaning, list.limit,
                        fields, list.inCode);
+    }
+    return text;
+}
+
+std::string ignoredTable() {
+    std::string text = "| of a | name | without a warning | why it has no effect |\n|---|---|---|---|\n";
+    for (IgnoredName const& each : ignoredNames()) {
+        const std::string silent = each.asItIs.empty() ? "" : fmt::format("`{}`", each.asItIs);
+        fmt::format_to(std::back_inserter(text), "| {} | `{}` | {} | {} |\n", each.of, each.name, silent, each.reason);
     }
     return text;
 }
@@ -276,6 +286,7 @@ void addWords(std::string_view text, std::set<std::string>& out) {
 
 std::vector<std::pair<std::string, std::string>> languageTables() {
     return { { "properties", propertyTable() },
+             { "ignored", ignoredTable() },
              { "lists", listTable() },
              { "types", nameListOf(parameterTypeNames()) },
              { "attributes", nameListOf(attributeNames()) },

@@ -66,7 +66,8 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
 /// For shadow maps and the TAA history, which are kept while nothing changes their contents.
 void describeInputs(Prepared& prepared) {
     MaterialPackage& package = prepared.definition.package;
-    package.depthReadsParameters = prepared.definition.vertex || cutsHoles(prepared.definition, prepared.needs);
+    const bool placesDepth = prepared.definition.vertex && !prepared.definition.useDefaultDepthVariant;
+    package.depthReadsParameters = placesDepth || cutsHoles(prepared.definition, prepared.needs);
     static constexpr std::string_view kOfFrame[] = { "getTime",
                                                      "getUserTime",
                                                      "getUserTimeMod",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/MaterialDefinition.h"
 
+#include "shaders/compiler/CodeScan.h"
 #include "shaders/compiler/DefinitionRules.h"
 #include "shaders/compiler/GlslSuggestions.h"
+#include "shaders/compiler/IgnoredNames.h"
 #include "shaders/compiler/ParameterProperties.h"
 #include "shaders/compiler/PropertyReader.h"
 #include "shaders/compiler/StateProperties.h"
@@ -13,10 +15,12 @@ namespace filament_core::shader {
 namespace {
 
 Error unknownProperty(std::string const& name, JsonValue const& value) {
+    if (const std::string_view reason = reasonAgainst(name); !reason.empty())
+        return errorAt(value.at, fmt::format("there is no property '{}': {}", name, reason), ErrorCode::Unsupported);
     std::vector<std::string_view> known;
     for (StateProperty const& property : stateProperties()) known.push_back(property.name);
     for (ListProperty const& property : listProperties()) known.push_back(property.name);
-    return errorAt(value.at, fmt::format("there is no property '{}'{}", name, cureForUnknown(name, known)));
+    return errorAt(value.at, fmt::format("there is no property '{}'{}", name, suggestion(name, known)));
 }
 
 Result<void> readProperty(std::string const& name, JsonValue const& value, MaterialDefinition& out) {
@@ -26,7 +30,9 @@ Result<void> readProperty(std::string const& name, JsonValue const& value, Mater
     const auto lists = listProperties();
     const auto list = std::ranges::find(lists, name, &ListProperty::name);
     if (list != lists.end()) return readList(value, *list, out);
-    return unknownProperty(name, value);
+    const Result<bool> isIgnored = ignores("property", name, value, out.warnings);
+    if (!isIgnored) return isIgnored.error();
+    return *isIgnored ? Result<void>{} : unknownProperty(name, value);
 }
 
 Result<void> readProperties(JsonValue const& material, MaterialDefinition& out) {
@@ -69,6 +75,12 @@ void completeDefaults(MaterialDefinition& out) {
     if (needsDoubleSidedParameter(out)) addHiddenParameter(out, kDoubleSidedParameter, ParameterType::Bool);
 }
 
+/// What a surface does that has no fragment block, or an empty one: its members keep their initial values.
+constexpr std::string_view kDefaultFragment =
+        "void material(inout MaterialInputs material) { prepareMaterial(material); }";
+
+bool hasCode(std::optional<GlslBlock> const& block) { return block && !CodeScan(block->text).words().empty(); }
+
 } // namespace
 
 SourcePosition const* MaterialDefinition::find(std::string_view property) const {
@@ -85,9 +97,13 @@ Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fi
     MaterialDefinition definition;
     definition.fileName = fileName;
     if (Result<void> read = readProperties(text.material, definition); !read) return read.error();
-    if (!text.fragment) return errorAt(text.material.at, "there is no fragment block");
-    definition.fragment = std::move(*text.fragment);
-    definition.vertex = std::move(text.vertex);
+    if (hasCode(text.vertex)) definition.vertex = std::move(text.vertex);
+    if (hasCode(text.fragment))
+        definition.fragment = std::move(*text.fragment);
+    else if (definition.package.domain == MaterialDomain::Surface)
+        definition.fragment = { std::string(kDefaultFragment), text.material.at };
+    else
+        return errorAt(text.material.at, "there is no fragment block, and without one an effect has no colour");
     completeDefaults(definition);
     leaveOutReflections(definition);
     if (Result<void> checked = checkRules(definition); !checked) return checked.error();

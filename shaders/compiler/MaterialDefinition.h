@@ -62,6 +62,7 @@ struct MaterialDefinition {
     bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
     SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;
     bool customSurfaceShading = false;
+    bool useDefaultDepthVariant = false; ///< depth alone is drawn without the vertex block
     ClothDistribution clothDistribution = ClothDistribution::Charlie;
     SpecularAntiAliasing specularAntiAliasing;
     std::vector<std::string> warnings{}; ///< "file:line: what is odd" of the material block

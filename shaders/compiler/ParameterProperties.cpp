@@ -120,11 +120,12 @@ struct NamedEntry {
     JsonValue const* type = nullptr;
 };
 
-Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_view> fields, std::string_view what) {
+Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_view> fields, std::string_view what,
+                             std::vector<std::string>& warnings) {
     NamedEntry entry;
     JsonValue const* name = nullptr;
     Result<void> done = expectKind(item, JsonValue::Kind::Object, what);
-    if (done) done = expectOnly(item, fields, what);
+    if (done) done = expectOnly(item, fields, what, warnings);
     if (done) done = requireMember(item, "name", what, name);
     if (done) done = requireMember(item, "type", what, entry.type);
     if (done) done = readIdentifier(*name, what, entry.name);
@@ -148,7 +149,7 @@ constexpr std::string_view kConstantFields[] = { "type", "name", "default" };
 constexpr std::string_view kVariableFields[] = { "name", "precision" };
 
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
-    Result<NamedEntry> entry = readEntry(item, kParameterFields, "parameter");
+    Result<NamedEntry> entry = readEntry(item, kParameterFields, "parameter", out.warnings);
     if (!entry) return entry.error();
     if (out.package.findParameter(entry->name)) {
         return errorAt(item.at, fmt::format("there are two parameters '{}'", entry->name));
@@ -197,7 +198,7 @@ Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
         { "int", ConstantType::Int },
         { "float", ConstantType::Float },
     };
-    Result<NamedEntry> entry = readEntry(item, kConstantFields, "constant");
+    Result<NamedEntry> entry = readEntry(item, kConstantFields, "constant", out.warnings);
     if (!entry) return entry.error();
     if (out.package.findConstant(entry->name)) {
         return errorAt(item.at, fmt::format("there are two constants '{}'", entry->name));
@@ -216,7 +217,7 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
     Result<void> done;
     if (item.kind == JsonValue::Kind::Object) {
         JsonValue const* name = nullptr;
-        done = expectOnly(item, kVariableFields, "variable");
+        done = expectOnly(item, kVariableFields, "variable", out.warnings);
         if (done) done = requireMember(item, "name", "variable", name);
         if (done) done = readIdentifier(*name, "variable", variable.name);
         if (JsonValue const* precision = findMember(item, "precision"); done && precision)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/PropertyReader.h"
 
+#include "shaders/compiler/IgnoredNames.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -66,19 +68,14 @@ JsonValue const* findMember(JsonValue const& object, std::string_view key) {
     return nullptr;
 }
 
-std::string cureForUnknown(std::string_view name, std::span<const std::string_view> known) {
-    // Of later versions of the language; nothing is lost without them.
-    static constexpr std::string_view kLater[] = {
-        "apiLevel", "mutable", "stages", "shader", "stereoscopicType", "filterable", "useDefaultDepthVariant"
-    };
-    if (std::ranges::count(kLater, name) > 0) return ", which later versions of the language have; leave it out";
-    return suggestion(name, known);
-}
-
-Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what) {
+Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what,
+                        std::vector<std::string>& warnings) {
     for (auto const& [name, value] : object.members) {
         if (std::ranges::count(known, name) > 0) continue;
-        return errorAt(value.at, fmt::format("{} has no field '{}'{}", what, name, cureForUnknown(name, known)));
+        const Result<bool> isIgnored = ignores(what, name, value, warnings);
+        if (!isIgnored) return isIgnored.error();
+        if (!*isIgnored)
+            return errorAt(value.at, fmt::format("{} has no field '{}'{}", what, name, suggestion(name, known)));
     }
     return {};
 }

@@ -23,12 +23,11 @@ Result<void> readNumber(JsonValue const& value, std::string_view what, float low
 /// A GLSL identifier that does not collide with the engine's prefixes.
 Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::string& out);
 Result<void> readPrecision(JsonValue const& value, Precision& out);
-/// What follows the name of an unknown property or field: what was probably meant, or that it can be left out.
-std::string cureForUnknown(std::string_view name, std::span<const std::string_view> known);
 /// The member of an object, or null.
 JsonValue const* findMember(JsonValue const& object, std::string_view key);
-/// An error for members of `object` that are not listed.
-Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what);
+/// An error for members of `object` that are not listed; a warning for those that the engine does without.
+Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what,
+                        std::vector<std::string>& warnings);
 
 Error unknownName(JsonValue const& value, std::string_view what, std::span<const std::string_view> known);
 

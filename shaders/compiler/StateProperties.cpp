@@ -244,7 +244,7 @@ Result<void> readBlendFunction(JsonValue const& value, std::string_view name, Ma
     static constexpr std::string_view kNames[] = { kBlendFields[0].name, kBlendFields[1].name, kBlendFields[2].name,
                                                    kBlendFields[3].name };
     if (Result<void> isObject = expectKind(value, JsonValue::Kind::Object, name); !isObject) return isObject;
-    if (Result<void> known = expectOnly(value, kNames, name); !known) return known;
+    if (Result<void> known = expectOnly(value, kNames, name, out.warnings); !known) return known;
     for (BlendField const& field : kBlendFields) {
         JsonValue const* factor = findMember(value, field.name);
         if (!factor) return errorAt(value.at, fmt::format("blendFunction needs the field '{}'", field.name));
@@ -337,6 +337,9 @@ constexpr std::array kProperties{
     property<&SpecularAntiAliasing::variance>("specularAntiAliasingVariance",
                                               "how strongly the variation of normals widens them"),
     property<&SpecularAntiAliasing::threshold>("specularAntiAliasingThreshold", "the most by which it does"),
+    property<&MaterialDefinition::useDefaultDepthVariant>(
+            "useDefaultDepthVariant",
+            "shadow maps are drawn without the vertex block; only if it leaves `worldPosition` as it is"),
     property<&MaterialDefinition::customSurfaceShading>(
             "customSurfaceShading", "the fragment block defines `surfaceShading()`, which shades for each light"),
     property<&MaterialDefinition::clothDistribution>("clothDistribution", "of the fibres of `shadingModel : cloth`"),

@@ -22,7 +22,8 @@ struct Broken {
 constexpr Broken kSyntax[] = {
     { "", "a.mat:1: there is no material block" },
     { "material", "a.mat:1: expected '{', found the end of the file" },
-    { "material {}", "a.mat:1: there is no fragment block" },
+    { "material { domain : postprocess }",
+      "a.mat:1: there is no fragment block, and without one an effect has no colour" },
     { "material {}\nmaterial {}", "a.mat:2: there are two material blocks" },
     { "materiel {}", "a.mat:1: expected 'material', 'vertex' or 'fragment', found 'materiel'" },
     { "material {\n name stone }", "a.mat:2: expected ':', found 'stone'" },
@@ -197,9 +198,14 @@ constexpr Broken kForeign[] = {
       "a.mat:2: 'type' cannot be 'vec3'; did you mean 'float3'?" },
     { "material {\n parameters : [ { name : half, type : float } ] }" GOOD_FRAGMENT,
       "a.mat:2: parameter \"half\" is a word that GLSL reserves; choose another name" },
-    { "material {\n apiLevel : 2,\n constants : [ { name : wet, type : bool, mutable : true } ] }" GOOD_FRAGMENT,
-      "a.mat:2: there is no property 'apiLevel', which later versions of the language have; leave it out\n"
-      "a.mat:3: constant has no field 'mutable', which later versions of the language have; leave it out" },
+    { "material {\n linearFog : yes,\n constants : [ { name : wet, type : bool, mutable : 1 } ] }" GOOD_FRAGMENT,
+      "a.mat:2: 'linearFog' must be a boolean, not a string\na.mat:3: 'mutable' must be a boolean, not a number" },
+    { "material {\n buffers : [],\n groupSize : [ 1, 1, 1 ],\n subpasses : [] }" GOOD_FRAGMENT,
+      "a.mat:2: there is no property 'buffers': materials have no storage buffers; use parameters that are arrays, or "
+      "a "
+      "texture\n"
+      "a.mat:3: there is no property 'groupSize': there are no materials of compute stages\n"
+      "a.mat:4: there is no property 'subpasses': declare it as a parameter of the type subpassInput" },
     { "material {}\nvertex {\nvoid materialVertex(inout MaterialVertexInputs m) {\n"
       "m.worldNormal = objectUniforms.worldFromModelNormalMatrix * m.worldNormal; } }\n" GOOD_FRAGMENT,
       "a.mat:4: 'worldFromModelNormalMatrix' : no such field in structure 'objectUniforms'; what is in there is the "
@@ -246,7 +252,8 @@ constexpr Broken kSeveral[] = {
 };
 
 constexpr Broken kCode[] = {
-    { "material {}\nfragment {\n}", "a.mat:2: this block must define void material(inout MaterialInputs material)" },
+    { "material {}\nfragment {\nfloat f;\n}",
+      "a.mat:2: this block must define void material(inout MaterialInputs material)" },
     { "material {}\nfragment {\n\nvoid material(MaterialInputs a, float b) {} }",
       "a.mat:4: material() must be void material(inout MaterialInputs material)" },
     { "material { customSurfaceShading : true }\nfragment {\nvoid material(inout MaterialInputs m) {}\n"
@@ -264,7 +271,7 @@ constexpr Broken kCode[] = {
     { "material { shadingModel : unlit }\nfragment {\nfloat wait() {\n for (int i = 0;; ++i) {\n if (i > 3) continue;"
       "\n }\n return 1.0;\n}\nvoid material(inout MaterialInputs material) {\n material.baseColor.r = wait(); } }",
       "a.mat:4: this loop never ends; give it a condition that becomes false, a break or a return" },
-    { "material { shadingModel : unlit }\nvertex {\n}\n" GOOD_FRAGMENT,
+    { "material { shadingModel : unlit }\nvertex {\nfloat f;\n}\n" GOOD_FRAGMENT,
       "a.mat:2: this block must define void materialVertex(inout MaterialVertexInputs material)" },
 };
 

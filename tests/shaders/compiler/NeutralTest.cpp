@@ -57,6 +57,7 @@ constexpr Default kDefaults[] = {
     { "specularAntiAliasing", "false" },
     { "specularAntiAliasingVariance", "0.15" },
     { "specularAntiAliasingThreshold", "0.2" },
+    { "useDefaultDepthVariant", "false" },
     { "customSurfaceShading", "false" },
     { "clothDistribution", "" }, // only with shadingModel : cloth
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials that compile and say something odd; and that our own say nothing odd.
+#include "shaders/compiler/IgnoredNames.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "tools/paths/Paths.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -48,6 +50,19 @@ TEST(Warnings, NameAMaterialThatIsNeverPrepared) {
 }
 
 // The engine prepares it, with the normal that material() sets.
+// Without code, the members keep their initial values.
+TEST(Warnings, AreNotGivenForAMaterialWithoutCode) {
+    const std::string head = "material { shadingModel : lit, blending : masked }\n";
+    const auto whole = compileMaterial(head + fragment("prepareMaterial(material);"), "a.mat", {});
+    ASSERT_TRUE(whole);
+    for (const char* rest : { "", "fragment {\n}", "fragment {\n// later\n/* much\nlater */ }", "vertex {\n}" }) {
+        EXPECT_EQ(warningsOf(head + rest), Lines{}) << rest;
+        const auto package = compileMaterial(head + rest, "a.mat", {});
+        ASSERT_TRUE(package) << rest << package.error().message;
+        EXPECT_EQ(package->variants, whole->variants) << rest;
+    }
+}
+
 TEST(Warnings, LeaveAnUnpreparedMaterialLikeOneThatIsPreparedLast) {
     const std::string set = "material.normal = vec3(0.6, 0.0, 0.8); material.roughness = 0.3; ";
     CompileOptions options;
@@ -79,6 +94,46 @@ TEST(Warnings, NameAnAttributeThatIsRequiredTwice) {
     EXPECT_EQ(warningsOf("material {\nrequires : [ uv0,\nuv0 ] }" +
                          fragment("prepareMaterial(material); material.baseColor.rg = getUV0();")),
               Lines{ "a.mat:3: 'uv0' is required twice" });
+}
+
+TEST(Warnings, NamePropertiesThatTheEngineDoesWithout) {
+    const std::string text = "material {\nlinearFog : true,\nshadowFarAttenuation : true,\ncoloredPenumbra : true,\n"
+                             "legacyMorphing : true,\ndefines : [ WET ],\napiLevel : 2,\nframebufferFetch : true,\n"
+                             "stereoscopicType : multiview,\nstereoscopicEyeCount : 2,\n"
+                             "constants : [ {\nname : wet, type : bool, mutable : true } ],\n"
+                             "parameters : [ {\nname : tint, type : float, stages : [ fragment ] } ] }" +
+                             fragment("prepareMaterial(material); material.roughness = materialParams.tint;");
+    EXPECT_EQ(
+            warningsOf(text),
+            (Lines{ "a.mat:2: the property 'linearFog' has no effect: fog is that of the view for all materials",
+                    "a.mat:3: the property 'shadowFarAttenuation' has no effect: shadows of the sun do not fade with "
+                    "the distance from the camera",
+                    "a.mat:4: the property 'coloredPenumbra' has no effect: the edge of a shadow has the colour of "
+                    "its light",
+                    "a.mat:5: the property 'legacyMorphing' has no effect: morph targets are those of the renderable, "
+                    "any number of them",
+                    "a.mat:6: the property 'defines' has no effect: macros are given with `matc -D NAME=VALUE`, or by "
+                    "`#define` in a block",
+                    "a.mat:7: the property 'apiLevel' has no effect: there is one level of functions",
+                    "a.mat:8: the property 'framebufferFetch' has no effect: a parameter with `currentPixel : true` "
+                    "reads the pixel that is written",
+                    "a.mat:9: the property 'stereoscopicType' has no effect: a view has one eye",
+                    "a.mat:10: the property 'stereoscopicEyeCount' has no effect: a view has one eye",
+                    "a.mat:12: the field 'mutable' of a constant has no effect: constants are set when the material is "
+                    "loaded; load it once for each value",
+                    "a.mat:14: the field 'stages' of a parameter has no effect: both blocks can read every "
+                    "parameter" }));
+}
+
+TEST(Warnings, AreNotGivenForWhatTheEngineDoesAnyway) {
+    size_t count = 0;
+    for (IgnoredName const& each : ignoredNames()) {
+        if (each.asItIs.empty() || each.of != "property") continue;
+        const std::string text = fmt::format("material {{ {} : {} }}", each.name, each.asItIs);
+        EXPECT_EQ(warningsOf(text), Lines{}) << text;
+        ++count;
+    }
+    EXPECT_GE(count, 8u);
 }
 
 TEST(Warnings, AreNotGivenForOurOwnSamples) {
