@@ -107,7 +107,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), 0,
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
     frame.time = shaderTime(view.timeSeconds);
-    frame.jitter = float4(2.0f * view.jitterPixels / float2(view.size), 0, 0);
+    frame.jitter = float4(2.0f * view.jitterPixels / float2(view.size), 0, view.band);
     frame.materialGlobals = view.materialGlobals;
     frame.froxelGrid = frame.froxelPlaces = float4(0); // one list of lights, until Froxels.h writes a grid
 

@@ -37,6 +37,8 @@ constexpr Contradiction kContradictions[] = {
       "a material of the domain postprocess has no vertex block" },
     { [](MaterialDefinition const& d) { return isPost(d) && (d.requiredAttributes != 0 || !d.variables.empty()); },
       "domain", "a material of the domain postprocess reads no attributes and has no variables" },
+    { [](MaterialDefinition const& d) { return !isPost(d) && !d.outputs.empty(); }, "outputs",
+      "outputs are for the domain postprocess; a surface writes its colour and depth" },
     { [](MaterialDefinition const& d) { return d.halfPrecision && !hasStandardText(d); }, "halfPrecision",
       "halfPrecision is only for lit materials and specularGlossiness: no others are computed in 16 bits" },
     { [](MaterialDefinition const& d) {

@@ -15,17 +15,23 @@ namespace {
 
 constexpr std::string_view kColors = "shaders/lib/color.glsl";
 
-constexpr std::array<std::string_view, 12> kHelpers{ "HALF_PI",
+constexpr std::array<std::string_view, 18> kHelpers{ "HALF_PI",
                                                      "PI",
+                                                     "cofactor",
+                                                     "heatmap",
                                                      "inverseTonemap",
                                                      "inverseTonemapSRGB",
+                                                     "isPerspectiveProjection",
                                                      "luminance",
                                                      "max3",
+                                                     "min3",
                                                      "mulMat3x3Float3",
                                                      "mulMat4x4Float3",
                                                      "pow5",
                                                      "saturate",
                                                      "sq",
+                                                     "vmax",
+                                                     "vmin",
                                                      "ycbcrToRgb" };
 
 /// What the engine calls or passes by these names.

@@ -12,6 +12,7 @@ namespace filament_core::shader {
 namespace {
 
 constexpr uint32_t kFirstVariableLocation = 5; // after those of shaders/material/varyings.glsl
+constexpr uint32_t kInstanceIndexLocation = 9, kEndOfLocations = 15;
 
 const char* glslType(ParameterType type) {
     // clang-format off
@@ -133,22 +134,28 @@ bool isSubpassInput(Parameter const& parameter, uint16_t variantKey) {
     return isMerged || parameter.type == ParameterType::SubpassInput;
 }
 
-void declareVariables(StageText& out, MaterialDefinition const& definition) {
+// 15 vectors are what OpenGL ES 3.1 has everywhere (MAX_VARYING_VECTORS).
+std::vector<uint32_t> freeLocations(MaterialNeeds const& needs) {
+    std::vector<uint32_t> locations;
+    for (uint32_t i = kFirstVariableLocation; i < kEndOfLocations; ++i) {
+        if (i != kInstanceIndexLocation || !needs.instanceIndex) locations.push_back(i);
+    }
+    return locations;
+}
+
+void declareVariables(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    const std::vector<uint32_t> locations = freeLocations(needs);
     for (uint32_t i = 0; i < definition.variables.size(); ++i) {
         Variable const& variable = definition.variables[i];
         out.originate(variable.at);
-        out.line(fmt::format("layout(location = {}) INTERPOLATION VARYING {}vec4 variable_{};",
-                             kFirstVariableLocation + i, glslPrecision(variable.precision), variable.name));
+        out.line(fmt::format("layout(location = {}) INTERPOLATION VARYING {}vec4 variable_{};", locations[i],
+                             glslPrecision(variable.precision), variable.name));
     }
 }
 
-// 15 vectors are what OpenGL ES 3.1 has everywhere (MAX_VARYING_VECTORS).
 std::vector<uint32_t> customLocations(MaterialDefinition const& definition, MaterialNeeds const& needs) {
-    constexpr uint32_t kInstanceIndex = 9, kEnd = 15;
-    std::vector<uint32_t> locations;
-    for (uint32_t i = kFirstVariableLocation + static_cast<uint32_t>(definition.variables.size()); i < kEnd; ++i) {
-        if (i != kInstanceIndex || !needs.instanceIndex) locations.push_back(i);
-    }
+    std::vector<uint32_t> locations = freeLocations(needs);
+    locations.erase(locations.begin(), locations.begin() + static_cast<std::ptrdiff_t>(definition.variables.size()));
     return locations;
 }
 
@@ -163,6 +170,33 @@ void declareCustomVaryings(StageText& out, MaterialDefinition const& definition,
         write += fmt::format("vertex_custom{0} = mesh_custom{0}; ", i);
     }
     out.define("MATERIAL_WRITE_CUSTOMS", write);
+}
+
+void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32_t firstLocation) {
+    static constexpr const char* kTypes[] = { "float", "vec2", "vec3", "vec4" };
+    const std::vector<Output> usual(1);
+    std::string members, clear, write;
+    for (Output const& output : definition.outputs.empty() ? usual : definition.outputs) {
+        const char* const type = kTypes[output.components - 1];
+        const std::string target = output.isDepth ? "gl_FragDepth" : "fragment_" + output.name;
+        members += fmt::format("{} {}; ", type, output.name);
+        clear += fmt::format("inputs.{} = {}; ", output.name,
+                             output.components == 4 ? "vec4(0.0, 0.0, 0.0, 1.0)" : fmt::format("{}(0.0)", type));
+        write += fmt::format("{} = inputs.{}; ", target, output.name);
+        if (!output.isDepth)
+            out.line(fmt::format("layout(location = {}) out {}{} {};", firstLocation + output.location,
+                                 glslPrecision(output.precision), type, target));
+    }
+    out.define("POST_OUTPUT_MEMBERS", members);
+    out.define("POST_CLEAR_OUTPUTS(inputs)", clear);
+    out.define("POST_WRITE_OUTPUTS(inputs)", write);
+}
+
+void declareTransforms(StageText& out, MaterialDefinition const& definition) {
+    for (ParameterSource const& source : definition.parameterSources) {
+        if (!source.transformName.empty())
+            out.line(fmt::format("const mat3 materialParams_{} = mat3(1.0);", source.transformName));
+    }
 }
 
 void defineVariableMacros(StageText& out, MaterialDefinition const& definition) {

@@ -21,8 +21,12 @@ void declareInterface(StageText& out, MaterialDefinition const& definition, uint
 /// Whether the parameter is a subpass input of such a variant.
 bool isSubpassInput(Parameter const& parameter, uint16_t variantKey);
 
-/// `VARYING vec4 variable_name` from location 5 on; `VARYING` is defined by the stage.
-void declareVariables(StageText& out, MaterialDefinition const& definition);
+/// `VARYING vec4 variable_name` from location 5 on, past that of the instance index; `VARYING` is defined by the stage.
+void declareVariables(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs);
+/// What an effect writes, from this location on, and the macros with which shaders/post uses it.
+void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32_t firstLocation);
+/// `materialParams_name` of ParameterSource::transformName.
+void declareTransforms(StageText& out, MaterialDefinition const& definition);
 
 /// Free locations for custom attributes on their way to the fragment stage.
 std::vector<uint32_t> customLocations(MaterialDefinition const& definition, MaterialNeeds const& needs);

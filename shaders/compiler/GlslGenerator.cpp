@@ -71,16 +71,24 @@ StageText newStageText(MaterialNeeds const& needs, IncludeResolver const& includ
 constexpr std::string_view kUndeclarable[] = { "max3", "mid3", "min3" };
 
 /// After the helpers that the author's names have hidden.
-Result<void> authorsBlock(StageText& out, GlslBlock const& block, MaterialNeeds const& needs, bool isFragment) {
+Result<void> authorsBlock(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
+                          bool isFragment) {
     const auto& own = isFragment ? needs.fragmentDeclarations : needs.vertexDeclarations;
+    declareTransforms(out, definition);
     std::string end;
     for (const std::string_view name : kUndeclarable) {
-        if (std::ranges::count(own, name, &GlslDeclaration::name) == 0) continue;
+        const auto declared = std::ranges::find(own, name, &GlslDeclaration::name);
+        if (declared == own.end() || declared->kind == GlslDeclaration::Kind::Macro) continue;
         out.asItIs(fmt::format("#define {0} author_{0}\n", name));
         end += fmt::format("#undef {}\n", name);
     }
     out.asItIs(restoredHelpers(needs.prefixed, own, isFragment && needs.colors));
-    Result<void> done = out.block(block);
+    const size_t begin = out.text().size();
+    Result<void> done = out.block(isFragment ? definition.fragment : *definition.vertex);
+    for (ParameterSource const& source : definition.parameterSources) {
+        if (!source.transformName.empty())
+            out.rename(begin, "materialParams." + source.transformName, "materialParams_" + source.transformName);
+    }
     out.asItIs(end);
     return done;
 }
@@ -116,6 +124,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) defineIf(out, (needs.terms & termBit(i)) != 0, members[i].term);
     defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
+    defineIf(out, needs.clipSpacePosition, "HAS_CLIP_SPACE_POSITION");
     defineIf(out, !needs.callsPrepare && package.shading != ShadingModel::Unlit, "PREPARE_AFTER_MATERIAL");
 }
 
@@ -202,14 +211,15 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     if (!done) return done.error();
     declareInterface(out, definition);
     if (hasVaryings) {
-        declareVariables(out, definition);
+        declareVariables(out, definition, needs);
         declareCustomVaryings(out, definition, needs);
     }
     declareCustomAttributes(out, definition);
-    if (deforms)
+    if (needs.words.contains("toTangentFrame")) done = out.include("shaders/material/tangents.glsl");
+    if (done && deforms)
         done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface/deform.glsl" });
     if (done) done = out.include("shaders/material/surface/vertex_api.glsl");
-    if (done && hasBlock) done = authorsBlock(out, *definition.vertex, needs, false);
+    if (done && hasBlock) done = authorsBlock(out, definition, needs, false);
     if (done) done = out.include("shaders/material/surface/vertex_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
@@ -343,7 +353,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
                                           "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
     if (!done) return done;
     declareInterface(out, definition);
-    declareVariables(out, definition);
+    declareVariables(out, definition, needs);
     declareCustomVaryings(out, definition, needs);
     for (uint32_t i = 0; i < 8; ++i) {
         if ((needs.fragmentCustoms >> i & 1) != 0)
@@ -354,6 +364,8 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
     if (done) done = out.include("shaders/material/surface/fragment_api.glsl");
     if (done && definition.package.hasTextures()) done = out.include("shaders/material/surface/texture_bias.glsl");
+    if (done && needs.bump) done = out.include("shaders/material/bump.glsl");
+    if (done && needs.words.contains("toTangentFrame")) done = out.include("shaders/material/tangents.glsl");
     return done;
 }
 
@@ -372,7 +384,7 @@ Result<std::string> depthFragment(MaterialDefinition const& definition, Material
         done = beginSurfaceFragment(out, definition, needs, variantKey);
         defineIf(out, castsThroughDither(definition), "DITHERS_DEPTH");
         if (done) done = out.include("shaders/lib/noise.glsl");
-        if (done) done = authorsBlock(out, definition.fragment, needs, true);
+        if (done) done = authorsBlock(out, definition, needs, true);
         if (done && transmitsLight(definition.package)) done = includeTransmission(out);
     } else {
         beginStage(out, "in");
@@ -396,7 +408,7 @@ Result<std::string> debugFragment(MaterialDefinition const& definition, Material
                                   IncludeResolver const& includes) {
     StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
-    if (done) done = authorsBlock(out, definition.fragment, needs, true);
+    if (done) done = authorsBlock(out, definition, needs, true);
     if (done)
         done = includeAll(out, { "shaders/lib/color.glsl", "shaders/lib/brdf.glsl", "shaders/lib/plausible.glsl",
                                  "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });
@@ -412,7 +424,7 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
     StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
-    if (done) done = authorsBlock(out, definition.fragment, needs, true);
+    if (done) done = authorsBlock(out, definition, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
     const bool isShadowed = mayHave(definition, kVariantShadowReceiver) && !isLit;
     if (isShadowed) {
@@ -444,14 +456,14 @@ Result<std::string> postFragment(MaterialDefinition const& definition, MaterialN
     const auto inputs = std::ranges::count_if(definition.package.parameters, [&](Parameter const& parameter) {
         return isSubpassInput(parameter, variantKey);
     });
-    out.define("POST_OUTPUT_LOCATION", fmt::format("{}", inputs));
     defineIf(out, (variantKey & kVariantMerged) != 0, "VARIANT_MERGED");
     Result<void> done = includeAll(
             out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
     if (!done) return done.error();
     declareInterface(out, definition, variantKey);
+    declareOutputs(out, definition, static_cast<uint32_t>(inputs));
     done = out.include("shaders/post/post_fragment_api.glsl");
-    if (done) done = authorsBlock(out, definition.fragment, needs, true);
+    if (done) done = authorsBlock(out, definition, needs, true);
     if (done) done = out.include("shaders/post/post_fragment_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
@@ -483,7 +495,7 @@ Result<std::string> generateProbe(MaterialDefinition const& definition, Material
     StageText out = newStageText(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
     declareProbe(out, definition);
-    if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
+    if (Result<void> done = authorsBlock(out, definition, needs, true); !done) return done.error();
     defineProbeMain(out, definition);
     return std::move(out).take();
 }
@@ -494,7 +506,7 @@ Result<std::string> generateObserver(MaterialDefinition const& definition, Mater
     if (definition.customSurfaceShading) return surfaceFragment(definition, needs, 0, includes);
     StageText out = newStageText(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
-    if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
+    if (Result<void> done = authorsBlock(out, definition, needs, true); !done) return done.error();
     defineObserverMain(out, definition);
     return std::move(out).take();
 }

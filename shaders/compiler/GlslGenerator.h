@@ -16,7 +16,8 @@ namespace filament_core::shader {
 /// What the author's code requires; equal for all variants.
 struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
-    bool clipSpaceTransform = false;
+    bool clipSpaceTransform = false, clipSpacePosition = false;
+    bool bump = false;           ///< calls applyBump()
     bool instanceIndex = false;  ///< getInstanceIndex() in the fragment stage
     bool colors = false;         ///< calls a function of the colour library (materials guide, 4.5.7)
     bool vertexTextures = false; ///< the vertex block reads textures

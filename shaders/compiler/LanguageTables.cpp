@@ -131,13 +131,14 @@ struct ApiFile {
 constexpr ApiFile kApiFiles[] = { { "shaders/material/api.glsl", "all" },
                                   { "shaders/material/surface/vertex_api.glsl", "vertex" },
                                   { "shaders/material/surface/fragment_api.glsl", "fragment, of surfaces" },
+                                  { "shaders/material/bump.glsl", "fragment, of surfaces" },
                                   { "shaders/post/post_fragment_api.glsl", "fragment, of effects" } };
 
 std::vector<GlslDeclaration> apiFunctions(std::string_view path) {
     std::vector<GlslDeclaration> found;
     for (GlslDeclaration& each : outlineOf(*embeddedSource(path), path)) {
-        const bool isApi =
-                each.name.starts_with("get") || each.name == "prepareMaterial" || each.name == "uvToRenderTargetUV";
+        static constexpr std::string_view kOthers[] = { "applyBump", "prepareMaterial", "uvToRenderTargetUV" };
+        const bool isApi = each.name.starts_with("get") || std::ranges::count(kOthers, each.name) > 0;
         const bool isCallable =
                 each.kind == GlslDeclaration::Kind::Function || each.kind == GlslDeclaration::Kind::Macro;
         const auto isSame = [&](GlslDeclaration const& known) { return known.name == each.name; };
@@ -177,7 +178,8 @@ constexpr std::pair<std::string_view, std::string_view> kMeanings[] = {
     { "getMaterialGlobal3", "the fourth" },
     { "getPosition", "the vertex as it is in the mesh, skinned and morphed; w is 1" },
     { "getVertexIndex", "the number of the vertex" },
-    { "getEyeIndex", "0" },
+    { "getEyeIndex", "0: a view has one eye" },
+    { "getEyeFromViewMatrix", "the identity: a view has one eye" },
     { "getInstanceIndex", "the number of the instance, with `instanced : true`" },
     { "getWorldFromModelMatrix", "from the space of the mesh to the world" },
     { "getWorldFromModelNormalMatrix", "the same for normals: not normalised, right for uneven scales and mirrors" },
@@ -193,7 +195,11 @@ constexpr std::pair<std::string_view, std::string_view> kMeanings[] = {
     { "getUV0", "the first texture coordinates" },
     { "getUV1", "the second texture coordinates" },
     { "getMaskThreshold", "the threshold of `blending : masked`" },
-    { "getNormalizedViewportCoord", "the place in the target, [0, 1], with y down, and the depth" },
+    { "getNormalizedPhysicalViewportCoord", "the place in the target, [0, 1], with y down, and the depth" },
+    { "getNormalizedViewportCoord",
+      "the place in the picture, with y down, and the depth: [0, 1], and beyond in a [guard band](resolution.md)" },
+    { "applyBump", "tilts the normal by a map of heights, metres times its red channel, at these coordinates; after "
+                   "`prepareMaterial()`" },
     { "uvToRenderTargetUV", "coordinates for a texture that was drawn: the same, row 0 is the top row on both APIs" },
     { "prepareMaterial", "computes what depends on the members that are normals" },
     { "getPixel", "the pixel that is written" },

@@ -180,6 +180,7 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
     const std::vector<Arrival> arrivals = arrivalsIn(*spirv, probed.size());
     for (size_t i = 0; i < probed.size(); ++i) {
         MaterialMember const& member = materialMembers()[probed[i]];
+        if (needs.bump && member.term == "HAS_NORMAL") needs.terms |= termBit(probed[i]); // applyBump() sets it
         if (!isTermIn(member, definition, arrivals[i])) continue;
         needs.terms |= termBit(probed[i]);
         needs.tangent |= member.isTangential;

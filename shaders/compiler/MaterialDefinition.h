@@ -25,12 +25,22 @@ struct ParameterSource {
     SourcePosition at;
     std::vector<NamedAt> usedIf{}; ///< names of constants: Parameter::usedIf has their ids
     bool isExternal = false;       ///< written as samplerExternal: counts as two samplers
+    std::string transformName{};   ///< the code's name of the matrix of its coordinates, here the identity
 };
 
 struct Variable {
     std::string name;
     Precision precision = Precision::Default;
     SourcePosition at;
+};
+
+/// What an effect writes: a colour attachment, or the depth.
+struct Output {
+    std::string name = "color";
+    uint32_t components = 4; ///< floats
+    bool isDepth = false;
+    uint32_t location = 0; ///< of the colour attachment
+    Precision precision = Precision::Default;
 };
 
 struct SpecularAntiAliasing {
@@ -52,6 +62,7 @@ struct MaterialDefinition {
     MaterialPackage package; ///< the compiler adds attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
+    std::vector<Output> outputs;     ///< of effects; none: one colour
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`
     bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
@@ -85,7 +96,7 @@ inline bool refracts(MaterialDefinition const& definition) {
     return definition.package.refractionMode != RefractionMode::None;
 }
 
-inline constexpr size_t kMaxVariables = 4;
+inline constexpr size_t kMaxVariables = 5;
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);
 

@@ -147,6 +147,7 @@ Result<void> checkVariableNames(MaterialDefinition const& definition, MaterialNe
         { "uv1", definition.needsAttribute(kAttributeUv1) },
         { "worldNormal", needs.normal },
         { "clipSpaceTransform", needs.clipSpaceTransform },
+        { "clipSpacePosition", needs.clipSpacePosition },
         { "worldPosition", true },
         { "lineWidth", definition.wideLines },
         { "lineEnd", definition.wideLines },
@@ -193,6 +194,9 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
     needs.clipSpaceTransform =
             definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
+    needs.clipSpacePosition = vertex.mentions("clipSpacePosition");
+    needs.bump = isLit && mentionsAny(fragment, { "applyBump", "gltfBump" }) &&
+                 !declares(needs.fragmentDeclarations, "applyBump");
     needs.colors = mentionsAny(fragment, { "luminance", "inverseTonemap", "inverseTonemapSRGB", "ycbcrToRgb" });
     needs.instanceIndex = definition.package.instanced && fragment.mentions("getInstanceIndex");
     needs.vertexTextures = vertexText->find("materialParams_") != std::string::npos;

@@ -18,6 +18,7 @@ namespace {
 constexpr uint32_t kMaxBlockBytes = 16384;  // every device offers this much
 constexpr size_t kMaxParameterCount = 1024; // of a package (docs/package-format.md)
 constexpr size_t kMaxConstantCount = 256;
+constexpr size_t kMaxOutputs = 8;
 
 using TypeName = std::pair<std::string_view, ParameterType>;
 // clang-format off
@@ -144,23 +145,63 @@ Result<void> checkKeyword(JsonValue const& item, std::string_view what, std::str
 /// guide's budget counts it as two.
 bool isExternal(JsonValue const& type) { return equalIgnoringCase(type.text, "samplerExternal"); }
 
-constexpr std::string_view kParameterFields[] = { "type", "name", "precision", "format", "usedIf", "currentPixel" };
+constexpr std::string_view kParameterFields[] = { "type",         "name",        "precision",  "format",       "usedIf",
+                                                  "currentPixel", "multisample", "filterable", "transformName" };
 constexpr std::string_view kConstantFields[] = { "type", "name", "default" };
 constexpr std::string_view kVariableFields[] = { "name", "precision" };
+constexpr std::string_view kOutputFields[] = { "name", "target", "type", "precision", "location", "qualifier" };
+
+/// What programs that sample textures say of them.
+Result<void> readSampling(JsonValue const& item, Parameter& out) {
+    bool isMultisampled = false, isFilterable = false;
+    JsonValue const *const samples = findMember(item, "multisample"), *const filter = findMember(item, "filterable");
+    for (JsonValue const* value : { samples, filter }) {
+        if (value && !isTexture(out.type))
+            return errorAt(value->at,
+                           fmt::format("only samplers are multisampled or filterable, and '{}' is not one", out.name));
+    }
+    Result<void> done = samples ? readBool(*samples, "multisample", isMultisampled) : Result<void>{};
+    if (done && filter) done = readBool(*filter, "filterable", isFilterable);
+    if (!done) return done;
+    if (isFilterable && out.format != SamplerFormat::Float)
+        return errorAt(filter->at,
+                       fmt::format("'{}' has whole numbers, which no device filters; leave out filterable", out.name));
+    if (!isMultisampled) return {};
+    const bool isImage = out.type == ParameterType::Sampler2D || out.type == ParameterType::Sampler2DMS;
+    if (!isImage || out.currentPixel)
+        return errorAt(samples->at,
+                       fmt::format("only a sampler2d without currentPixel can be multisampled, and '{}' is not one",
+                                   out.name));
+    out.type = ParameterType::Sampler2DMS;
+    return {};
+}
+
+/// `materialParams.NAME` in the code. The images of this engine are not turned: the matrix is a constant.
+Result<void> readTransformName(JsonValue const& item, MaterialDefinition const& definition, ParameterSource& out) {
+    JsonValue const* name = findMember(item, "transformName");
+    if (!name) return {};
+    if (!out.isExternal) return errorAt(name->at, "transformName is for parameters of the type samplerExternal");
+    Result<void> done = readIdentifier(*name, "transformName", out.transformName);
+    if (done && definition.package.findParameter(out.transformName))
+        return errorAt(name->at, fmt::format("there are two parameters '{}'", out.transformName));
+    return done;
+}
 
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     Result<NamedEntry> entry = readEntry(item, kParameterFields, "parameter", out.warnings);
     if (!entry) return entry.error();
-    if (out.package.findParameter(entry->name)) {
+    if (out.package.findParameter(entry->name) ||
+        std::ranges::count(out.parameterSources, entry->name, &ParameterSource::transformName) > 0)
         return errorAt(item.at, fmt::format("there are two parameters '{}'", entry->name));
-    }
     Parameter parameter{ .name = entry->name };
     Result<void> done = readType(*entry->type, parameter);
     if (JsonValue const* precision = findMember(item, "precision"); done && precision)
         done = readPrecision(*precision, parameter.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
     if (JsonValue const* own = findMember(item, "currentPixel"); done && own) done = readCurrentPixel(*own, parameter);
+    if (done) done = readSampling(item, parameter);
     ParameterSource source{ .at = item.at, .isExternal = isExternal(*entry->type) };
+    if (done) done = readTransformName(item, out, source);
     if (JsonValue const* conditions = findMember(item, "usedIf"); done && conditions)
         done = readUsedIf(*conditions, parameter, source);
     if (done && !isTexture(parameter.type)) done = checkKeyword(item, "parameter", parameter.name);
@@ -233,6 +274,50 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
         return errorAt(item.at, fmt::format("there are two variables '{}'", variable.name));
     }
     out.variables.push_back(std::move(variable));
+    return {};
+}
+
+/// { name, target, type, precision, location }
+Result<void> readOutput(JsonValue const& item, MaterialDefinition& out) {
+    static constexpr std::pair<std::string_view, bool> kTargets[] = { { "color", false }, { "depth", true } };
+    static constexpr std::pair<std::string_view, uint32_t> kOutputTypes[] = {
+        { "float", 1 }, { "float2", 2 }, { "float3", 3 }, { "float4", 4 }
+    };
+    Output output;
+    JsonValue const* name = nullptr;
+    Result<void> done = expectKind(item, JsonValue::Kind::Object, "output");
+    if (done) done = expectOnly(item, kOutputFields, "output", out.warnings);
+    if (done) done = requireMember(item, "name", "output", name);
+    if (done) done = readIdentifier(*name, "output", output.name);
+    if (done) done = checkKeyword(item, "output", output.name);
+    if (JsonValue const* target = findMember(item, "target"); done && target)
+        done = readEnum(*target, "target", kTargets, output.isDepth);
+    if (output.isDepth) output.components = 1;
+    if (JsonValue const* type = findMember(item, "type"); done && type)
+        done = readEnum(*type, "type", kOutputTypes, output.components);
+    if (JsonValue const* precision = findMember(item, "precision"); done && precision)
+        done = readPrecision(*precision, output.precision);
+    if (JsonValue const* qualifier = findMember(item, "qualifier"); done && qualifier) {
+        if (!equalIgnoringCase(qualifier->text, "out"))
+            return errorAt(qualifier->at, "an output is only written; to read the pixel, declare a parameter with "
+                                          "currentPixel : true");
+    }
+    if (!done) return done;
+    if (output.isDepth && output.components != 1) return errorAt(item.at, "the output of depth is a float");
+    output.location = static_cast<uint32_t>(std::ranges::count(out.outputs, false, &Output::isDepth));
+    if (JsonValue const* location = findMember(item, "location")) {
+        float number = 0;
+        if (Result<void> isNumber = readNumber(*location, "location", 0, kMaxOutputs - 1, number); !isNumber)
+            return isNumber;
+        output.location = static_cast<uint32_t>(number);
+    }
+    for (Output const& other : out.outputs) {
+        const bool isSame = other.isDepth == output.isDepth && (output.isDepth || other.location == output.location);
+        if (other.name == output.name || isSame)
+            return errorAt(item.at, fmt::format("the outputs '{}' and '{}' have the same name or place", other.name,
+                                                output.name));
+    }
+    out.outputs.push_back(std::move(output));
     return {};
 }
 
@@ -324,6 +409,9 @@ constexpr ListProperty kLists[] = {
       readRequirement },
     { "variables", kVariableFields, "a value that the vertex block gives to the fragment block; or its name alone",
       "`material.NAME` in the vertex block, `variable_NAME` in the fragment block", kMaxVariables, readVariable },
+    { "outputs", kOutputFields,
+      "of effects: a colour attachment, or with `target : depth` the depth; `color` alone if there are none",
+      "`inputs.NAME`", kMaxOutputs, readOutput },
     { "variantFilter",
       {},
       "a [variant](#variants) that is left out, which makes the package smaller",

@@ -72,6 +72,15 @@ std::string besides(std::string_view file, std::string_view path) {
     return isAlone ? std::string(path) : std::string(file.substr(0, slash + 1)) + std::string(path);
 }
 
+void replaceWhole(std::string& text, size_t from, std::string_view name, std::string_view replacement) {
+    for (size_t at = text.find(name, from); at != std::string::npos; at = text.find(name, at + 1)) {
+        const size_t end = at + name.size();
+        const bool isWhole =
+                (at == 0 || !isGlslWordPart(text[at - 1])) && (end == text.size() || !isGlslWordPart(text[end]));
+        if (isWhole) text.replace(at, name.size(), replacement);
+    }
+}
+
 /// The names that OpenGL has and Vulkan's GLSL does not. The engine merges draw calls, so that gl_InstanceIndex would
 /// reveal which renderables share one.
 std::string withVulkanNames(std::string_view line) {
@@ -79,13 +88,7 @@ std::string withVulkanNames(std::string_view line) {
         { "gl_VertexID", "gl_VertexIndex" }, { "gl_InstanceID", "filament_instanceId()" }
     };
     std::string out(line);
-    for (auto const& [name, replacement] : kNames) {
-        for (size_t at = out.find(name); at != std::string::npos; at = out.find(name, at + 1)) {
-            const bool isWhole = (at == 0 || !isGlslWordPart(out[at - 1])) &&
-                                 (at + name.size() == out.size() || !isGlslWordPart(out[at + name.size()]));
-            if (isWhole) out.replace(at, name.size(), replacement);
-        }
-    }
+    for (auto const& [name, replacement] : kNames) replaceWhole(out, 0, name, replacement);
     return out;
 }
 
@@ -98,6 +101,10 @@ void StageText::line(std::string_view text) {
 
 void StageText::define(std::string_view name, std::string_view value) {
     line(fmt::format("#define {} {}", name, value));
+}
+
+void StageText::rename(size_t from, std::string_view name, std::string_view replacement) {
+    replaceWhole(mText, from, name, replacement);
 }
 
 void StageText::originate(SourcePosition const& at) {

@@ -31,6 +31,8 @@ public:
     void line(std::string_view text);
     void asItIs(std::string_view text) { mText += text; } ///< whole lines, without prefixes
     void define(std::string_view name, std::string_view value = {});
+    /// Every whole `name` behind the first `from` bytes becomes `replacement`.
+    void rename(size_t from, std::string_view name, std::string_view replacement);
     /// The following lines come from `at`, until the next piece. Does nothing for positions without a file.
     void originate(SourcePosition const& at);
     Result<void> include(std::string_view path);

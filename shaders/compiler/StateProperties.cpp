@@ -289,8 +289,8 @@ constexpr std::array kProperties{
     property<&MaterialPackage::vertexDomainDeviceJittered>(
             "vertexDomainDeviceJittered", "positions in clip space follow the jitter of temporal anti-aliasing"),
     property<&MaterialPackage::vertexDomain>("vertexDomain", "the space of the positions in the mesh"),
-    property<&MaterialPackage::interpolation>("interpolation",
-                                              "of variables across a triangle; `flat`: those of its last vertex"),
+    property<&MaterialPackage::interpolation>(
+            "interpolation", "of attributes and variables across a triangle; `flat`: those of its last vertex"),
     property<&MaterialDefinition::fullScreenTriangle>(
             "fullScreenTriangle", "one triangle over the view, without vertices; needs `vertexDomain : device`"),
     property<&MaterialDefinition::wideLines>(

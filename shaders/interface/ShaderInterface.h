@@ -93,7 +93,7 @@ struct FrameUniforms {
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
                                  ///< them
     float4 jitter;               ///< xy: by which clipFromWorld moves the image, times w of clip coordinates; z:
-                                 ///< metres from which on transparencyWeight() falls; w: unused
+                                 ///< metres from which on transparencyWeight() falls; w: pixels of the guard band
 };
 
 // ---- PassUniforms

@@ -3,10 +3,8 @@
 // merged into the previous pass, currentPixel parameters) read colour attachments 0, 1, ... in the order of the
 // parameters; the output is the attachment after the last of them.
 
-layout(location = POST_OUTPUT_LOCATION) out vec4 fragment_color;
-
 struct PostProcessInputs {
-    vec4 color;
+    POST_OUTPUT_MEMBERS
 };
 
 // The pixel being written, or the texel at the same place in a texture of the target's size.

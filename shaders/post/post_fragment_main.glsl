@@ -3,7 +3,7 @@
 
 void main() {
     PostProcessInputs inputs;
-    inputs.color = vec4(0.0, 0.0, 0.0, 1.0);
+    POST_CLEAR_OUTPUTS(inputs)
     postProcess(inputs);
-    fragment_color = inputs.color;
+    POST_WRITE_OUTPUTS(inputs)
 }

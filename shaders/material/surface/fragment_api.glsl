@@ -61,8 +61,13 @@ int getInstanceIndex() { return vertex_instanceIndex; }
 #if defined(BLEND_MODE_MASKED)
 float getMaskThreshold() { return materialParams._maskThreshold; }
 #endif
-vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * passUniforms.target.zw, gl_FragCoord.z); }
-vec2 uvToRenderTargetUV(vec2 uv) { return uv; } // row 0 is the top row on both APIs
+vec3 getNormalizedPhysicalViewportCoord() { return vec3(gl_FragCoord.xy * passUniforms.target.zw, gl_FragCoord.z); }
+// Without a guard band (frameUniforms.jitter.w pixels on every side) the same, to the bit.
+vec3 getNormalizedViewportCoord() {
+    highp vec3 place = getNormalizedPhysicalViewportCoord();
+    highp vec2 inside = passUniforms.target.xy - 2.0 * frameUniforms.jitter.w;
+    return vec3(place.xy * (passUniforms.target.xy / inside) - frameUniforms.jitter.w / inside, place.z);
+}
 
 #if defined(NEEDS_WORLD_POSITION)
 // The camera is the origin; a parallel projection looks along the same direction everywhere.

@@ -48,6 +48,9 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_POST_LIGHTING_COLOR)
     vec4 above = material.postLightingColor;
     float surfaceAlpha = color.a;
+#if defined(HAS_POST_LIGHTING_MIX)
+    vec4 lit = color;
+#endif
 #if defined(POST_LIGHTING_OPAQUE)
     color = above;
 #elif defined(POST_LIGHTING_TRANSPARENT)
@@ -58,6 +61,9 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
     color *= above;
 #elif defined(POST_LIGHTING_SCREEN)
     color += above * (1.0 - color);
+#endif
+#if defined(HAS_POST_LIGHTING_MIX)
+    color = mix(lit, color, material.postLightingMixFactor);
 #endif
 #if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
     color.a = surfaceAlpha; // what lies above an opaque surface cannot make it transparent

@@ -38,7 +38,6 @@ uint objectIndex() { return mesh_instance; }
 
 vec4 getPosition() { return vec4(meshPosition(), 1.0); }
 int getVertexIndex() { return gl_VertexIndex; }
-int getEyeIndex() { return 0; }
 #if defined(INSTANCED)
 // The index that the application gave the renderable; it does not reveal which renderables share a draw call.
 int getInstanceIndex() { return int(objectUniforms.objects[objectIndex()].flags.y); }
@@ -136,6 +135,9 @@ struct MaterialVertexInputs {
     vec4 lineEnd;    // with wideLines: the other end of the segment, in the space of worldPosition
 #endif
     MATERIAL_VARIABLES_AS_MEMBERS
+#if defined(HAS_CLIP_SPACE_POSITION)
+    vec4 clipSpacePosition; // where the vertex is drawn, instead of at worldPosition, if the code uses it
+#endif
     vec4 worldPosition; // in the world, also where the mesh has other positions; w is not used
 };
 

@@ -64,6 +64,11 @@ MaterialVertexInputs materialVertexInputs() {
     inputs.lineEnd = worldPositionOf(vec4(mesh_custom0.xyz, 1.0));
 #endif
 
+#if defined(HAS_CLIP_SPACE_POSITION) && defined(VERTEX_DOMAIN_DEVICE)
+    inputs.clipSpacePosition = getPosition();
+#elif defined(HAS_CLIP_SPACE_POSITION)
+    inputs.clipSpacePosition = getClipFromWorldMatrix() * vec4(inputs.worldPosition.xyz, 1.0);
+#endif
 #if defined(HAS_MATERIAL_VERTEX)
     materialVertex(inputs);
 #endif
@@ -71,7 +76,9 @@ MaterialVertexInputs materialVertexInputs() {
 }
 
 vec4 clipPosition(MaterialVertexInputs inputs, mat4 clipFromWorld) {
-#if defined(HAS_CLIP_SPACE_TRANSFORM)
+#if defined(HAS_CLIP_SPACE_POSITION)
+    vec4 clip = inputs.clipSpacePosition;
+#elif defined(HAS_CLIP_SPACE_TRANSFORM)
     vec4 clip = inputs.clipSpaceTransform * getPosition();
 #elif defined(VERTEX_DOMAIN_DEVICE)
     vec4 clip = getPosition();

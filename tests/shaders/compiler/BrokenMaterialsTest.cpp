@@ -49,7 +49,7 @@ constexpr Broken kValues[] = {
     { "material {\n name : a,\n name : b }" GOOD_FRAGMENT, "a.mat:3: the property 'name' is given twice" },
     { "material {\n requires : [ custom8 ] }" GOOD_FRAGMENT,
       "a.mat:2: 'requires' cannot be 'custom8'; did you mean 'custom0'?" },
-    { "material {\n variables : [ a, b, c, d, e ] }" GOOD_FRAGMENT, "a.mat:2: 'variables' has more than 4 entries" },
+    { "material {\n variables : [ a, b, c, d, e, f ] }" GOOD_FRAGMENT, "a.mat:2: 'variables' has more than 5 entries" },
     { "material {\n parameters : [ { name : 2x, type : float } ] }" GOOD_FRAGMENT,
       "a.mat:2: parameter \"2x\" is not a usable GLSL identifier" },
     { "material {\n parameters : [ { name : x } ] }" GOOD_FRAGMENT, "a.mat:2: a parameter needs the field 'type'" },

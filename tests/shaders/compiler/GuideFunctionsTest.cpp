@@ -71,6 +71,17 @@ const Call kBothStages[] = {
     { "UserTimeMod", "getUserTimeMod(3.0)", "float" },
     { "Exposure", "getExposure()", "float" },
     { "Ev100", "getEV100()", "float" },
+    // Later than the guide, or in none.
+    { "EyeIndex", "getEyeIndex()", "int" },
+    { "EyeFromView", "getEyeFromViewMatrix() * getEyeFromViewMatrix(0)", "float4x4" },
+    { "ClipFromWorldOfEye", "getClipFromWorldMatrix(0)", "float4x4" },
+    { "IsPerspective", "isPerspectiveProjection()", "bool" },
+    { "RenderTargetUv", "uvToRenderTargetUV(float2(0.5))", "float2" },
+    { "Heatmap", "heatmap(0.5)", "float3" },
+    { "Min3", "min3(float3(1.0, 2.0, 3.0))", "float" },
+    { "Largest", "vmax(float2(1.0)) + vmax(float3(1.0)) + vmax(float4(1.0))", "float" },
+    { "Smallest", "vmin(float2(1.0)) + vmin(float3(1.0)) + vmin(float4(1.0))", "float" },
+    { "Cofactor", "cofactor(float3x3(1.0))", "float3x3" },
 };
 INSTANTIATE_TEST_SUITE_P(Both, GuideFunctions, ::testing::ValuesIn(kBothStages), nameOf);
 INSTANTIATE_TEST_SUITE_P(Both, GuideVertexFunctions, ::testing::ValuesIn(kBothStages), nameOf);
@@ -85,8 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Vertex, GuideVertexFunctions,
                                            Call{ "UserPosition", "getUserWorldPosition()", "float3" },
                                            Call{ "VertexId", "gl_VertexID + gl_InstanceID", "int" },
                                            Call{ "InstanceId", "gl_InstanceID", "int", ", instanced : true" },
-                                           Call{ "VertexIndex", "getVertexIndex()", "int" },
-                                           Call{ "EyeIndex", "getEyeIndex()", "int" }),
+                                           Call{ "VertexIndex", "getVertexIndex()", "int" }),
                          nameOf);
 
 // Table 4.5.7.
@@ -111,8 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                           Call{ "InverseTonemap", "inverseTonemap(float3(0.5))", "float3" },
                           Call{ "InverseTonemapSrgb", "inverseTonemapSRGB(float3(0.5))", "float3" },
                           Call{ "Luminance", "luminance(float3(0.5))", "float" },
-                          Call{ "YcbcrToRgb", "ycbcrToRgb(0.5, float2(0.5))", "float3" },
-                          Call{ "RenderTargetUv", "uvToRenderTargetUV(float2(0.5))", "float2" }),
+                          Call{ "YcbcrToRgb", "ycbcrToRgb(0.5, float2(0.5))", "float3" }),
         nameOf);
 
 std::string withParameters(std::string const& head, std::string const& entries) {

@@ -64,7 +64,8 @@ constexpr Default kDefaults[] = {
 
 /// The lists of the guide, empty or with default contents.
 constexpr Default kLists[] = { { "parameters", "[]" }, { "constants", "[]" },          { "variantFilter", "[]" },
-                               { "requires", "[]" },   { "requires", "[ position ]" }, { "variables", "[]" } };
+                               { "requires", "[]" },   { "requires", "[ position ]" }, { "variables", "[]" },
+                               { "outputs", "[]" } };
 
 std::string materialOf(std::string_view properties, std::string_view code) {
     return fmt::format("material {{\n{}\n}}\nfragment {{ void material(inout MaterialInputs m) {{ {} }} }}", properties,

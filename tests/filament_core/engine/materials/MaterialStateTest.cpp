@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A material's blending, passes, faces and interpolation as images whose colours follow from simple arithmetic; the
-// same bits on both APIs.
+// A material's blending, passes, faces, interpolation and functions as images whose colours follow from simple
+// arithmetic; the same bits on both APIs.
 #include "base/Log.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 namespace filament_core {
 namespace {
@@ -155,26 +157,26 @@ TEST(DestroyedMaterial, LeavesItsPlaceToOneThatDrawsItself) {
 
 // ------------------------------------------------------------------------------------------ flat
 
-TEST(FlatInterpolation, ATriangleHasTheColorAndTheVariablesOfItsLastVertex) {
-    const std::string text = R"(material { shadingModel : unlit, requires : [ color ], interpolation : flat,
-    variables : [ position ] }
+TEST(FlatInterpolation, ATriangleHasTheAttributesAndTheVariablesOfItsLastVertex) {
+    const std::string text = R"(material { shadingModel : unlit, requires : [ color, uv0 ], interpolation : flat,
+    variables : [ position ], flipUV : false }
 vertex { void materialVertex(inout MaterialVertexInputs material) { material.position = getPosition(); } }
 fragment { void material(inout MaterialInputs material) {
     prepareMaterial(material);
-    material.baseColor = vec4(getColor().rg, variable_position.x, 1.0);
+    material.baseColor = vec4(getColor().r, getColor().g + getUV0().y, variable_position.x + getUV0().x, 1.0);
 } })";
     const Image picture = onBothApis([&](MaterialStage& stage) {
         // Each triangle ends at its own vertex; the far ends are out of view, so clipping cuts there.
         const std::vector<test::StageVertex> vertices{
             { .position = { -64, -64, 0 }, .color = { 1, 0, 0, 1 } },
             { .position = { 64, -64, 0 }, .color = { 0, 1, 0, 1 } },
-            { .position = { 64, 64, 0 }, .color = { 0.25f, 0.5f, 0, 1 } },
-            { .position = { -64, 64, 0 }, .color = { 0.75f, 0.125f, 0, 1 } },
+            { .position = { 64, 64, 0 }, .color = { 0.25f, 0.5f, 0, 1 }, .uv = { 1, 0.25f } },
+            { .position = { -64, 64, 0 }, .color = { 0.75f, 0.125f, 0, 1 }, .uv = { 2, 0.5f } },
         };
         stage.add(stage.material(text), vertices, { 0, 1, 2, 0, 2, 3 }, double4x4(1.0));
     });
-    EXPECT_EQ(halfPixel(picture, 6, 5), float4(0.25f, 0.5f, 64, 1)) << "below the diagonal";
-    EXPECT_EQ(halfPixel(picture, 1, 2), float4(0.75f, 0.125f, -64, 1)) << "above it";
+    EXPECT_EQ(halfPixel(picture, 6, 5), float4(0.25f, 0.75f, 65, 1)) << "below the diagonal";
+    EXPECT_EQ(halfPixel(picture, 1, 2), float4(0.75f, 0.625f, -62, 1)) << "above it";
 }
 
 TEST(FlatInterpolation, LitTrianglesHaveOneNormalEach) {
@@ -195,6 +197,141 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
     EXPECT_NEAR(halfPixel(picture, 4, 6).x, below.x, 1e-3f);
     EXPECT_NEAR(halfPixel(picture, 1, 4).x, above.x, 1e-3f);
     EXPECT_GT(below.x, 0.01f);
+}
+
+// ------------------------------------------------------------------------------------------ what code can set and call
+
+std::string unlitText(std::string_view properties, std::string_view code, std::string_view vertex = "") {
+    const std::string block =
+            vertex.empty()
+                    ? ""
+                    : fmt::format("vertex {{ void materialVertex(inout MaterialVertexInputs material) {{ {} }} }}\n",
+                                  vertex);
+    return fmt::format("material {{ shadingModel : unlit, culling : none{} }}\n{}fragment {{ void material(inout "
+                       "MaterialInputs material) {{ prepareMaterial(material);\n{}\n}} }}",
+                       properties, block, code);
+}
+
+Image drawnText(std::string const& text) {
+    return onBothApis([&](MaterialStage& stage) { stage.add(stage.material(text), { {} }); });
+}
+
+void expectNearly(float4 found, float4 wanted, float tolerance, char const* what) {
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << what << ": component " << i;
+}
+
+TEST(AuthorFunctions, PlaceVerticesInClipSpace) {
+    const char* const place = "vec4 p = getPosition(); material.clipSpacePosition = vec4(p.x / 16.0 - 0.5, p.y / 8.0, "
+                              "0.5, 1.0);"; // the left half of the picture
+    for (const char* domain : { "", ", vertexDomain : world", ", vertexDomain : device" }) {
+        const Image picture = drawnText(unlitText(domain, "material.baseColor = vec4(0.25, 0.5, 1.0, 1.0);", place));
+        for (uint32_t x = 0; x < 8; ++x)
+            EXPECT_EQ(halfPixel(picture, x, 3), x < 4 ? float4(0.25f, 0.5f, 1, 1) : float4(0, 0, 0, 1)) << domain << x;
+    }
+}
+
+TEST(AuthorFunctions, PlaceInClipSpaceBeginsAsThatOfTheMesh) {
+    const std::string color = "material.baseColor = vec4(gl_FragCoord.z, 0.5, 1.0, 1.0);";
+    const Image plain = drawnText(unlitText("", color));
+    EXPECT_EQ(drawnText(unlitText("", color, "material.clipSpacePosition *= 1.0;")).pixels, plain.pixels);
+}
+
+TEST(AuthorFunctions, MixWhatPostLightingMakesOfTheColor) {
+    const auto mixed = [](float4 above, std::string_view blending, float factor) {
+        return centerPixel(drawnText(unlitText(fmt::format(", postLightingBlending : {}", blending),
+                                               fmt::format("material.baseColor = vec4(0.25, 0.5, 0.75, 1.0);\n"
+                                                           "material.postLightingColor = vec4({}, {}, {}, {});\n"
+                                                           "material.postLightingMixFactor = {};",
+                                                           above.x, above.y, above.z, above.w, factor))));
+    };
+    EXPECT_EQ(mixed({ 1, 0, 0, 1 }, "opaque", 0.25f), float4(0.4375f, 0.375f, 0.5625f, 1));
+    EXPECT_EQ(mixed({ 1, 0, 0, 1 }, "opaque", 0), float4(0.25f, 0.5f, 0.75f, 1));
+    EXPECT_EQ(mixed({ 1, 0, 0, 1 }, "opaque", 1), float4(1, 0, 0, 1));
+    EXPECT_EQ(mixed({ 0.5f, 0, 0.25f, 0.5f }, "transparent", 0.5f), float4(0.4375f, 0.375f, 0.6875f, 1));
+    EXPECT_EQ(mixed({ 0.5f, 0.5f, 0, 1 }, "multiply", 0.5f), float4(0.1875f, 0.375f, 0.375f, 1));
+}
+
+TEST(AuthorFunctions, CarryFiveVariablesBesideEverythingElse) {
+    const Image picture = drawnText(
+            unlitText(", instanced : true, requires : [ color, uv0, custom0, custom5 ], variables : [ a, b, c, d, e ]",
+                      "material.baseColor = vec4(variable_a.x + variable_b.y, variable_c.z + variable_d.w,\n"
+                      "variable_e.x * getColor().x + float(getInstanceIndex()), getCustom0().w);",
+                      "material.a = vec4(0.25); material.b = vec4(0.5); material.c = vec4(0.0625);\n"
+                      "material.d = vec4(0.125); material.e = vec4(0.375);"));
+    EXPECT_EQ(centerPixel(picture), float4(0.75f, 0.1875f, 0.375f, 1));
+}
+
+TEST(AuthorFunctions, ShowHeatInFalseColors) {
+    for (const float value : { 0.0f, 1.0f / 7, 0.25f, 0.5f, 6.0f / 7, 1.0f }) {
+        const Image picture = drawnText(
+                unlitText("", fmt::format("material.baseColor = vec4(heatmap({:.9f}) * 0.125 + 0.5, 1.0);", value)));
+        const float3 off = (float3(value) - float3(6, 3.8f, 1) / 7.0f) * 2.1f;
+        expectNearly(centerPixel(picture), float4((1.0f - off * off) * 0.125f + 0.5f, 1), 1e-3f, "heat");
+    }
+}
+
+TEST(AuthorFunctions, DecodeTangentFrames) {
+    const std::string decode = "vec3 n, t; toTangentFrame(vec4(0.0, 0.29552021, 0.0, 0.95533649), n, t); ";
+    const float sine = std::sin(0.6f), cosine = std::cos(0.6f);
+    const Image fragment = drawnText(unlitText("", decode + "material.baseColor = vec4(n.xz, -t.z, 1.0);"));
+    expectNearly(centerPixel(fragment), { sine, cosine, sine, 1 }, 1e-3f, "fragment");
+    const Image vertex = drawnText(unlitText(", variables : [ frame ]", "material.baseColor = variable_frame;",
+                                             decode + "material.frame = vec4(n.xz, t.x, 1.0);"));
+    expectNearly(centerPixel(vertex), { sine, cosine, cosine, 1 }, 1e-3f, "vertex");
+}
+
+TEST(AuthorFunctions, KnowTheViewBesideItsGuardBand) {
+    constexpr uint32_t kBandSide = 32;
+    const auto picture = [](bool hasBand) {
+        return onBothApis([&](MaterialStage& stage) {
+            stage.view.size = { kBandSide, kBandSide };
+            stage.view.effects.ambientOcclusion.enabled = true; // looks beside a pixel
+            stage.view.effects.guardBand = { .enabled = hasBand, .width = 0.25f };
+            stage.add(stage.material("material { }"), { { .z = -1 } });
+            stage.add(stage.material(unlitText("", "material.baseColor = vec4(getNormalizedViewportCoord().xy, "
+                                                   "getNormalizedPhysicalViewportCoord().x, 1.0);")),
+                      { {} });
+        });
+    };
+    const Image with = picture(true), without = picture(false);
+    for (uint32_t at = 0; at < kBandSide; ++at) {
+        const float place = (static_cast<float>(at) + 0.5f) / kBandSide;
+        EXPECT_EQ(halfPixel(without, at, at), float4(place, place, place, 1));
+        const float4 found = halfPixel(with, at, at);
+        expectNearly(found, float4(place, place, (place * kBandSide + 8) / (kBandSide + 16), 1), 1e-3f, "in the band");
+    }
+}
+
+/// A texture whose red channel grows by 32 / 255 a texel along u.
+Texture heightRamp(MaterialStage& stage) {
+    std::vector<std::byte> texels;
+    for (int i = 0; i < 64; ++i) texels.insert(texels.end(), 4, static_cast<std::byte>(i % 8 * 32));
+    return stage.own(stage.engine.create(
+            TextureDesc{ .format = Format::RGBA8, .width = 8, .height = 8, .pixels = texels, .name = "heights" }));
+}
+
+/// Nothing shines on it: its light is its normal.
+TEST(AuthorFunctions, TiltTheNormalByTheSlopeOfHeights) {
+    const char* const text = R"(material { requires : [ uv0 ], culling : none,
+    parameters : [ { type : sampler2d, name : heights }, { type : float, name : metres } ] }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    applyBump(materialParams_heights, getUV0(), materialParams.metres);
+    material.baseColor.rgb = vec3(0.0);
+    material.emissive = vec4(getWorldNormalVector() * 0.5 + 0.5, 0.0);
+} })";
+    for (const float metres : { 0.0f, 16.0f, -8.0f }) {
+        const Image picture = onBothApis([&](MaterialStage& stage) {
+            const MaterialInstance instance = stage.material(text, test::kNoLights);
+            const Sampler linear{ .magFilter = Filter::Linear, .minFilter = Filter::Linear };
+            EXPECT_TRUE(stage.engine.set(instance, "heights", heightRamp(stage), linear));
+            EXPECT_TRUE(stage.engine.set(instance, "metres", metres));
+            stage.add(instance, { {} });
+        });
+        const float slope = metres * (32.0f * 8 / 255) / 16; // the square is 16 metres wide
+        const float3 normal = glm::normalize(float3(-slope, 0, 1));
+        expectNearly(centerPixel(picture), float4(normal * 0.5f + 0.5f, 1), 2e-3f, "normal");
+    }
 }
 
 // ------------------------------------------------------------------------------------------ whole numbers
