@@ -32,7 +32,7 @@ struct DeviceLimits {
     uint32_t maxColorAttachments = 4;
     uint32_t maxUniformBlockBytes = 16384;
     uint32_t uniformOffsetAlignment = 256;  ///< power of two
-    uint32_t maxTextureUnits = 16;          ///< sampled textures of one program
+    uint32_t maxTextureUnits = 16;          ///< sampled textures of one stage
     uint32_t maxStorageBuffers = 4;         ///< of one program
     uint32_t maxFragmentStorageBuffers = 4; ///< of those, in the fragment stage; OpenGL ES 3.1 guarantees none
     uint32_t maxStorageBlockBytes = 1u << 27;

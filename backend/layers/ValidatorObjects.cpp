@@ -197,18 +197,20 @@ void Validator::execute(CmdCreateProgram const& command) {
     if (!mayCreate(mPrograms, command, desc.debugName)) return;
     checkStages(desc);
     const bool isCompute = !desc.compute.empty();
-    uint32_t textures = 0, storage = 0;
+    uint32_t textures = 0, vertexTextures = 0, storage = 0; // units are those of a stage
     for (uint32_t group = 0; group < kMaxBindGroups; ++group) {
         if (!checkBindGroupLayout(desc.layout[group], fmt::format("group {}", group))) return;
         for (uint32_t i = 0; i < desc.layout[group].count; ++i) {
             BindingDesc const& binding = desc.layout[group].bindings[i];
             checkBindingStages(binding, isCompute, group);
-            textures += binding.type == BindingType::SampledTexture;
+            const bool isOfVertex = binding.stages == ShaderStage::Vertex;
+            (isOfVertex ? vertexTextures : textures) += binding.type == BindingType::SampledTexture;
             storage += binding.type == BindingType::StorageBuffer;
         }
     }
     const uint32_t mostStorage = isCompute ? mInfo.limits.maxStorageBuffers : mInfo.limits.maxFragmentStorageBuffers;
     require(storage <= mostStorage, Harm::Crash, "{} storage buffers; this device has {} blocks", storage, mostStorage);
+    textures = std::max(textures, vertexTextures);
     require(textures <= mInfo.limits.maxTextureUnits, Harm::Crash, "{} sampled textures; this device has {} units",
             textures, mInfo.limits.maxTextureUnits);
     for (size_t i = 0; i < desc.constants.size(); ++i) {

@@ -14,8 +14,10 @@ namespace {
 
 using namespace backend;
 
-constexpr uint32_t kBoneWindow = sizeof(shader::BoneUniforms), kMorphWindow = sizeof(shader::MorphUniforms);
-constexpr uint32_t kTail = std::max(kBoneWindow, kMorphWindow); // a window may start at the last block
+constexpr uint32_t kWindow = sizeof(shader::DeformationUniforms); // also the tail: one may start at the last block
+constexpr uint32_t kRowTexels = shader::kBonesPerRow * sizeof(shader::BoneData) / sizeof(float4);
+
+uint32_t rowsOf(uint32_t bones) { return (bones + shader::kBonesPerRow - 1) / shader::kBonesPerRow; }
 
 } // namespace
 
@@ -34,9 +36,44 @@ void DeformationBuffer::reserve(CommandStream& stream, CommandBuffer& commands, 
     const uint32_t grown = std::max(bytes, mBytes * 2);
     mBytes = 0;
     NewHandle handle(stream, stream.allocateBuffer());
-    commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } + kTail, BufferUsage::Uniform, "deformations" } });
+    commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } + kWindow, BufferUsage::Uniform, "deformations" } });
     mBuffer = handle.keep();
     mBytes = grown;
+}
+
+void DeformationBuffer::reserveRows(CommandStream& stream, CommandBuffer& commands, uint32_t rows, uint32_t most) {
+    if (rows <= mRows) return;
+    dropUnused(stream, commands, 0);
+    if (mBones) stream.destroy(commands, std::exchange(mBones, {}));
+    const uint32_t grown = std::min(std::max(rows, mRows * 2), most);
+    mRows = 0;
+    NewHandle texture(stream, stream.allocateTexture());
+    commands.record(CmdCreateTexture{ texture,
+                                      { .format = Format::RGBA32F,
+                                        .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
+                                        .width = kRowTexels,
+                                        .height = grown,
+                                        .debugName = "bones" } });
+    mBones = texture.keep();
+    mRows = grown;
+}
+
+/// Whole rows, or the used part of the only one. Returns how many bones this device has room for.
+uint32_t DeformationBuffer::uploadBones(CommandStream& stream, jobs::JobSystem& jobs, CommandBuffer& commands,
+                                        prepare::DeformationList const& list) {
+    const uint32_t most = stream.info().limits.maxTextureSize, rows = std::min(rowsOf(list.boneCount), most);
+    if (rows == 0) return 0;
+    reserveRows(stream, commands, rows, most);
+    const uint32_t bones = rows == 1 ? list.boneCount : rows * shader::kBonesPerRow;
+    const size_t bytes = bones * sizeof(shader::BoneData);
+    const std::span<std::byte> memory = commands.allocate(bytes, jobs::kCacheLineBytes);
+    const std::span records(reinterpret_cast<shader::BoneData*>(memory.data()), bones);
+    const uint32_t used = std::min(bones, list.boneCount);
+    prepare::writeBones(jobs, list, records.first(used));
+    std::ranges::fill(records.subspan(used), shader::BoneData{});
+    const uint32_t width = rows == 1 ? bones * kRowTexels / shader::kBonesPerRow : kRowTexels;
+    commands.recordAdopted(CmdUploadTexture{ mBones, 0, 0, 1, { 0, 0, width, rows }, memory });
+    return bones;
 }
 
 void DeformationBuffer::makeFixed(CommandStream& stream, CommandBuffer& commands) {
@@ -45,17 +82,17 @@ void DeformationBuffer::makeFixed(CommandStream& stream, CommandBuffer& commands
         commands.record(CmdCreateSampler{ sampler, {} });
         mNearest = sampler.keep();
     }
-    if (mNoDeltas) return;
+    if (mNoTexels) return;
     constexpr std::array<float, 4> kZero{};
     NewHandle texture(stream, stream.allocateTexture());
     AllOrNothing both(commands);
     commands.record(CmdCreateTexture{ texture,
                                       { .format = Format::RGBA32F,
                                         .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
-                                        .debugName = "no morph targets" } });
+                                        .debugName = "no bones or morph targets" } });
     commands.record(CmdUploadTexture{ texture, 0, 0, 1, { 0, 0, 1, 1 }, std::as_bytes(std::span(kZero)) });
     both.complete();
-    mNoDeltas = texture.keep();
+    mNoTexels = texture.keep();
 }
 
 BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer& commands, TextureHandle deltas,
@@ -66,12 +103,11 @@ BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer
         known->lastUse = mFrame;
         return known->handle;
     }
-    const std::array<BindGroupEntry, 5> entries{ {
-            { .binding = shader::kBindingBones, .buffer = mBuffer, .size = kBoneWindow },
-            { .binding = shader::kBindingMorph, .buffer = mBuffer, .size = kMorphWindow },
+    const std::array<BindGroupEntry, 4> entries{ {
+            { .binding = shader::kBindingBones, .texture = mBones ? mBones : mNoTexels, .sampler = mNearest },
+            { .binding = shader::kBindingDeformation, .buffer = mBuffer, .size = kWindow },
             { .binding = shader::kBindingMorphDeltas, .texture = deltas, .sampler = mNearest },
-            { .binding = shader::kBindingLastBones, .buffer = mBuffer, .size = kBoneWindow },
-            { .binding = shader::kBindingLastMorph, .buffer = mBuffer, .size = kMorphWindow },
+            { .binding = shader::kBindingLastDeformation, .buffer = mBuffer, .size = kWindow },
     } };
     const BindGroupLayout layout = shader::deformationGroupLayout(isOfMotion);
     mGroups.reserve(mGroups.size() + 1);
@@ -91,8 +127,9 @@ void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, Com
     if (list.bytes == 0) return;
     makeFixed(stream, commands);
     reserve(stream, commands, list.bytes);
+    const uint32_t boneRoom = uploadBones(stream, jobs, commands, list);
     const std::span<std::byte> memory = commands.allocate(list.bytes, jobs::kCacheLineBytes);
-    prepare::writeDeformations(jobs, list, memory);
+    prepare::writeDeformations(jobs, list, boneRoom, memory);
     commands.recordAdopted(CmdUpdateBuffer{ mBuffer, 0, memory });
     mBinds.resize(list.places.size());
     mLastBinds.resize(list.last.size());
@@ -102,24 +139,22 @@ void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, Com
 // Offsets are in the order of the layout.
 void DeformationBuffer::bind(CommandStream& stream, CommandBuffer& commands, prepare::DeformationPlace const& place,
                              size_t slot) {
-    const TextureHandle deltas = place.deltas ? place.deltas : mNoDeltas;
+    const TextureHandle deltas = place.deltas ? place.deltas : mNoTexels;
     if (place.weights != prepare::kNowhere) {
-        mBinds[slot] = {
-            groupFor(stream, commands, deltas, false), shader::kGroupDeformation, 2, { place.bones, place.weights }
-        };
+        mBinds[slot] = { groupFor(stream, commands, deltas, false), shader::kGroupDeformation, 1, { place.weights } };
     }
     if (place.lastWeights != prepare::kNowhere) {
-        mLastBinds[slot] = { groupFor(stream, commands, deltas, true),
-                             shader::kGroupDeformation,
-                             4,
-                             { place.bones, place.weights, place.lastBones, place.lastWeights } };
+        mLastBinds[slot] = {
+            groupFor(stream, commands, deltas, true), shader::kGroupDeformation, 2, { place.weights, place.lastWeights }
+        };
     }
 }
 
 void DeformationBuffer::destroy(CommandStream& stream, CommandBuffer& commands) {
     dropUnused(stream, commands, 0);
     if (mBuffer) stream.destroy(commands, std::exchange(mBuffer, {}));
-    if (mNoDeltas) stream.destroy(commands, std::exchange(mNoDeltas, {}));
+    if (mBones) stream.destroy(commands, std::exchange(mBones, {}));
+    if (mNoTexels) stream.destroy(commands, std::exchange(mNoTexels, {}));
     if (mNearest) stream.destroy(commands, std::exchange(mNearest, {}));
     *this = {};
 }

@@ -2,9 +2,10 @@
 /// DeformationBuffer: skins and morph weights of one frame on the device, and their bind groups: one for each texture
 /// of morph targets in use, with windows of the buffer as dynamic offsets.
 ///   In      a DeformationList.   Out: what to bind, by slot of scene::Deformations.
-///   Memory  a sampler, a texel, and a buffer that grows to the largest frame and stays; none before the first frame
-///           with deformations. A group that no frame used for kKeptFrames frames is dropped, with everything known
-///           about its texture.
+///   Memory  a sampler, a texel, and a buffer and a texture of bones that grow to the largest frame and stay; none
+///           before the first frame with deformations. A group that no frame used for kKeptFrames frames is
+///           dropped, with everything known about its texture.
+///   Limits  the bones that fit into a texture of the device: at least a million. Meshes of more are drawn at rest.
 ///   Fails   std::bad_alloc; recorded commands and remembered objects still agree.
 ///   Thread  the app thread, with the workers for the data. Records outside of passes.
 #pragma once
@@ -39,6 +40,9 @@ private:
     };
 
     void reserve(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t bytes);
+    void reserveRows(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t rows, uint32_t most);
+    uint32_t uploadBones(backend::CommandStream& stream, jobs::JobSystem& jobs, backend::CommandBuffer& commands,
+                         prepare::DeformationList const& list);
     backend::BindGroupHandle groupFor(backend::CommandStream& stream, backend::CommandBuffer& commands,
                                       backend::TextureHandle deltas, bool isOfMotion);
     void bind(backend::CommandStream& stream, backend::CommandBuffer& commands, prepare::DeformationPlace const& place,
@@ -46,10 +50,12 @@ private:
     void makeFixed(backend::CommandStream& stream, backend::CommandBuffer& commands);
     void dropUnused(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t keptFrames);
 
-    backend::TextureHandle mNoDeltas; ///< replaces missing morph targets
+    backend::TextureHandle mNoTexels; ///< replaces missing bones and morph targets
     backend::SamplerHandle mNearest;
     backend::BufferHandle mBuffer;
     uint32_t mBytes = 0; ///< capacity for blocks
+    backend::TextureHandle mBones;
+    uint32_t mRows = 0; ///< of bones
     uint32_t mFrame = 0;
     std::vector<Group> mGroups; // a few: searched
     std::vector<backend::CmdBindGroup> mBinds, mLastBinds;

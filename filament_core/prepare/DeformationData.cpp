@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/DeformationData.h"
 
+#include "filament_core/prepare/HashWords.h"
+
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <limits>
 
 namespace filament_core::prepare {
 namespace {
@@ -12,6 +18,7 @@ using scene::Deformation;
 // A uniform offset that every device accepts.
 constexpr uint32_t kAlignment = 256;
 constexpr size_t kBlocksPerJob = 32;
+constexpr size_t kHeaderWords = offsetof(shader::DeformationUniforms, targets) / sizeof(float4);
 
 bool isVisible(scene::Renderables const& renderables, Deformation const& deformation,
                std::span<const VisibleItems> views) {
@@ -22,34 +29,79 @@ bool isVisible(scene::Renderables const& renderables, Deformation const& deforma
     });
 }
 
-uint32_t activeTargets(std::span<const float> weights) {
-    const auto active = weights.size() - static_cast<size_t>(std::ranges::count(weights, 0.0f));
-    return static_cast<uint32_t>(std::min<size_t>(active, shader::kMaxMorphTargets));
+/// The smallest magnitude of a weight that is kept, and how many of exactly this magnitude are.
+struct Threshold {
+    float magnitude = 0;
+    size_t ties = 0;
+};
+
+size_t countLarger(std::span<const float> weights, float magnitude) {
+    return static_cast<size_t>(
+            std::ranges::count_if(weights, [&](float weight) { return std::abs(weight) > magnitude; }));
+}
+
+/// Of the kMaxActiveTargets weights of the largest magnitude; bisects the bits of floats, which are in their order.
+Threshold thresholdOf(std::span<const float> weights) {
+    if (weights.size() <= shader::kMaxActiveTargets || countLarger(weights, 0) <= shader::kMaxActiveTargets) return {};
+    uint32_t below = 0, enough = std::bit_cast<uint32_t>(std::numeric_limits<float>::max());
+    while (enough - below > 1) {
+        const uint32_t middle = below + (enough - below) / 2;
+        const bool fits = countLarger(weights, std::bit_cast<float>(middle)) <= shader::kMaxActiveTargets;
+        (fits ? enough : below) = middle;
+    }
+    const auto magnitude = std::bit_cast<float>(enough);
+    return { magnitude, shader::kMaxActiveTargets - countLarger(weights, magnitude) };
+}
+
+/// Skin and targets of a deformation, now or in the last frame.
+struct Shape {
+    Deformation const& deformation;
+    std::span<const float> weights;
+    uint32_t firstBone;
+    size_t boneCount;
+};
+
+/// The targets whose weight is not 0, in their order; see DeformationUniforms.
+uint32_t writeTargets(std::span<const float> weights, std::span<float4> targets) {
+    Threshold kept = thresholdOf(weights);
+    uint32_t next = 0;
+    for (size_t target = 0; target < weights.size(); ++target) {
+        const float magnitude = std::abs(weights[target]);
+        const bool isTie = kept.ties > 0 && magnitude == kept.magnitude;
+        if (!(magnitude > kept.magnitude) && !isTie) continue;
+        kept.ties -= isTie;
+        targets[next++] = float4(weights[target], static_cast<float>(target), 0, 0);
+    }
+    return next;
+}
+
+/// Fills `block`, which has the size that deformationBlock() says.
+void writeBlock(Shape const& shape, uint32_t boneRoom, std::span<std::byte> block) {
+    const std::span words(reinterpret_cast<float4*>(block.data()), block.size() / sizeof(float4));
+    std::memset(block.data(), 0, block.size());
+    const uint32_t active = writeTargets(shape.weights, words.subspan(kHeaderWords));
+    const bool hasRoom = shape.firstBone + shape.boneCount <= boneRoom;
+    const bool isSkinned = shape.deformation.skin && hasRoom;
+    const glm::uvec4 bones(shape.firstBone, isSkinned ? shape.boneCount - 1 : 0, 0, 0);
+    words[0] = float4(active, 0, 0, isSkinned ? static_cast<float>(shape.deformation.jointSets) : 0.0f);
+    if (scene::MorphTargets const* const morph = shape.deformation.morph) {
+        words[0].y = static_cast<float>(morph->texels);
+        words[0].z = static_cast<float>(morph->vertexCount);
+    }
+    std::memcpy(&words[1], &bones, sizeof bones);
 }
 
 } // namespace
 
-uint32_t deformationBlock(size_t bytes) {
+uint32_t deformationBlock(std::span<const float> weights) {
+    const size_t active = std::min<size_t>(countLarger(weights, 0), shader::kMaxActiveTargets);
+    const size_t bytes = (kHeaderWords + active) * sizeof(float4);
     return static_cast<uint32_t>((bytes + kAlignment - 1) / kAlignment * kAlignment);
 }
 
-uint32_t morphBytes(std::span<const float> weights) {
-    return static_cast<uint32_t>(sizeof(float4) * (1 + activeTargets(weights)));
-}
-
-shader::MorphUniforms morphUniforms(Deformation const& deformation, std::span<const float> weights) {
-    shader::MorphUniforms out{};
-    const uint32_t count = activeTargets(weights);
-    const float sets = deformation.skin ? static_cast<float>(deformation.jointSets) : 0.0f;
-    out.shape = float4(static_cast<float>(count), 0, 0, sets);
-    if (!deformation.morph) return out;
-    out.shape.y = static_cast<float>(deformation.morph->texels);
-    out.shape.z = static_cast<float>(deformation.morph->vertexCount);
-    for (size_t target = 0, next = 0; next < count; ++target) {
-        const float weight = weights[target];
-        if (weight != 0) out.targets[next++] = float4(weight, static_cast<float>(target), 0, 0);
-    }
-    return out;
+uint64_t hashWeights(Deformation const& deformation, uint64_t seed) {
+    seed = hashWords(seed, deformation.jointSets, deformation.skin.bits);
+    return hashBytes(std::as_bytes(std::span(deformation.weights)), seed);
 }
 
 DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, std::span<const VisibleItems> views) {
@@ -65,17 +117,17 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     for (size_t i = 0; i < all.size(); ++i) {
         places[i] = {};
         if (!isVisible(scene.renderables, all[i], views)) continue;
-        places[i].bones = 0; // without a skin any window will do: it is not read
+        places[i].bones = 0; // without a skin it is not read
         if (all[i].skin) {
-            uint32_t& block = bones[all[i].skin.index()];
-            if (block == kNowhere) {
-                block = list.bytes;
-                list.bytes += deformationBlock(skins[all[i].skin.index()].bones.size() * sizeof(shader::BoneData));
+            uint32_t& first = bones[all[i].skin.index()];
+            if (first == kNowhere) {
+                first = list.boneCount;
+                list.boneCount += static_cast<uint32_t>(skins[all[i].skin.index()].bones.size());
             }
-            places[i].bones = block;
+            places[i].bones = first;
         }
         places[i].weights = list.bytes;
-        list.bytes += deformationBlock(morphBytes(all[i].weights));
+        list.bytes += deformationBlock(all[i].weights);
         if (all[i].morph) places[i].deltas = all[i].morph->deltas;
     }
     list.places = places;
@@ -83,30 +135,34 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     return list;
 }
 
-void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::span<std::byte> memory) {
-    FILAMENT_ASSERT(memory.size() == list.bytes, "writeDeformations: the memory has the size that the list says");
-    const auto put = [&](uint32_t block, void const* data, size_t bytes) {
-        std::memcpy(memory.data() + block, data, bytes);
-        std::memset(memory.data() + block + bytes, 0, deformationBlock(bytes) - bytes);
+void writeBones(jobs::JobSystem& jobs, DeformationList const& list, std::span<shader::BoneData> bones) {
+    const auto put = [&](uint32_t first, std::span<const shader::BoneData> from) {
+        if (first != kNowhere && first + from.size() <= bones.size())
+            std::ranges::copy(from, bones.subspan(first).begin());
     };
     jobs::parallelFor<"bones">(jobs, list.bones.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            std::vector<shader::BoneData> const& bones = list.skins[i].bones;
-            if (list.bones[i] != kNowhere) put(list.bones[i], bones.data(), bones.size() * sizeof(shader::BoneData));
-        }
+        for (size_t i = begin; i < end; ++i) put(list.bones[i], list.skins[i].bones);
     });
-    const auto putWeights = [&](uint32_t block, Deformation const& deformation, std::span<const float> weights) {
-        const shader::MorphUniforms uniforms = morphUniforms(deformation, weights);
-        put(block, &uniforms, morphBytes(weights));
+    jobs::parallelFor<"last bones">(jobs, list.last.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) put(list.places[i].lastBones, list.last[i].bones);
+    });
+}
+
+void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, uint32_t boneRoom,
+                       std::span<std::byte> memory) {
+    FILAMENT_ASSERT(memory.size() == list.bytes, "writeDeformations: the memory has the size that the list says");
+    const auto put = [&](uint32_t at, Shape const& shape) {
+        writeBlock(shape, boneRoom, memory.subspan(at, deformationBlock(shape.weights)));
     };
     jobs::parallelFor<"morph weights">(jobs, list.places.size(), kBlocksPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             DeformationPlace const& place = list.places[i];
             Deformation const& now = list.deformations[i];
-            if (place.weights != kNowhere) putWeights(place.weights, now, now.weights);
-            if (place.lastWeights == kNowhere) continue;
-            putWeights(place.lastWeights, now, list.last[i].weights);
-            put(place.lastBones, list.last[i].bones.data(), list.last[i].bones.size_bytes());
+            if (place.weights == kNowhere) continue;
+            const size_t bones = now.skin ? list.skins[now.skin.index()].bones.size() : 0;
+            put(place.weights, { now, now.weights, place.bones, bones });
+            if (place.lastWeights != kNowhere)
+                put(place.lastWeights, { now, list.last[i].weights, place.lastBones, bones });
         }
     });
 }

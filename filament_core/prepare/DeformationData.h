@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bones and morph weights of visible objects in the form that the vertex stage reads: one buffer per frame, in which
-/// every visible skin has a block of bones and every visible deformation a block of weights; draws bind windows of it.
+/// Bones and morph weights of visible objects in the form that the vertex stage reads: rows of a texture, in which the
+/// bones of all visible skins follow each other, and a buffer, in which every visible deformation has a block that says
+/// which bones and weights it has; draws bind windows of it.
 ///   In      the deformations of the scene, and which draws culling has seen in each view.
-///   Out     where each block begins; writeDeformations() fills the memory of the upload command.
-///   Thread  placeDeformations(): the app thread. writeDeformations(): jobs over blocks.
+///   Out     where each skin and block begins; the functions that write fill the memory of the upload commands.
+///   Thread  placeDeformations(): the app thread. writeBones(), writeDeformations(): jobs over skins and blocks.
 ///   Memory  the arena: 16 B per slot of Deformations and of skins. None in scenes without deformations.
 ///   Bits    blocks follow the order of the slots; the same for any number of workers.
+///   Limits  kMaxActiveTargets weights of one deformation that are not 0: of more, those of the largest magnitude.
 ///   Fails   never.
 #pragma once
 
@@ -21,15 +23,15 @@ namespace filament_core::prepare {
 /// `views`: everything visible in any of them, each skin and each deformation once.
 DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, std::span<const VisibleItems> views);
 
-/// memory.size() == list.bytes.
-void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::span<std::byte> memory);
+/// bones.size() <= list.boneCount: those that the device has room for.
+void writeBones(jobs::JobSystem& jobs, DeformationList const& list, std::span<shader::BoneData> bones);
+/// memory.size() == list.bytes. Of skins that end behind bone `boneRoom`, the mesh is drawn at rest.
+void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, uint32_t boneRoom,
+                       std::span<std::byte> memory);
 
-/// The vertex stage's data for one deformation and `weights` of its targets: those whose weight is not 0, in their
-/// order.
-shader::MorphUniforms morphUniforms(scene::Deformation const& deformation, std::span<const float> weights);
-/// Its used bytes: up to the last target.
-uint32_t morphBytes(std::span<const float> weights);
-/// What a block of `bytes` occupies.
-uint32_t deformationBlock(size_t bytes);
+/// Bytes of the block of a deformation with these weights of its targets.
+uint32_t deformationBlock(std::span<const float> weights);
+/// Of the weights, and what else determines a block.
+uint64_t hashWeights(scene::Deformation const& deformation, uint64_t seed);
 
 } // namespace filament_core::prepare

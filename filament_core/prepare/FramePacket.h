@@ -53,7 +53,8 @@ struct DrawCall {
 
 inline constexpr uint32_t kNowhere = ~0u;
 
-/// Of one deformation: byte offsets into the buffer of the frame; kNowhere: it is not visible.
+/// Of one deformation: its first bone among those of the frame, and a byte offset into the buffer of the frame;
+/// kNowhere: it is not visible.
 struct DeformationPlace {
     uint32_t bones = kNowhere, weights = kNowhere;
     uint32_t lastBones = kNowhere, lastWeights = kNowhere; ///< of the last frame; kNowhere: unused
@@ -71,8 +72,9 @@ struct DeformationList {
     std::span<const scene::Deformation> deformations;
     std::span<const scene::SkinRecord> skins;
     std::span<const DeformationPlace> places; ///< by slot of `deformations`
-    std::span<const uint32_t> bones;          ///< by index of `skins`: where its block begins, or kNowhere
-    uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
+    std::span<const uint32_t> bones;          ///< by index of `skins`: its first bone, or kNowhere
+    uint32_t boneCount = 0;                   ///< of all skins
+    uint32_t bytes = 0;                       ///< of all blocks of weights; 0: nothing visible is deformed
     std::span<const LastDeformation> last;    ///< by slot; none: no place has a last one
 };
 

@@ -11,10 +11,8 @@ uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
     for (size_t i = 0; i < list.places.size(); ++i) {
         DeformationPlace const& place = list.places[i];
         if (place.weights == kNowhere) continue;
-        std::span<const float> now = list.deformations[i].weights;
-        const shader::MorphUniforms weights = morphUniforms(list.deformations[i], now);
         seed = hashWords(seed, i, place.bones, place.weights, place.deltas.bits);
-        seed = hashBytes(std::as_bytes(std::span(&weights, 1)).first(morphBytes(now)), seed);
+        seed = hashWeights(list.deformations[i], seed);
         if (place.lastWeights == kNowhere) continue;
         seed = hashWords(seed, place.lastBones, place.lastWeights);
         seed = hashBytes(std::as_bytes(list.last[i].bones), seed);

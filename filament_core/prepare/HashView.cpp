@@ -54,8 +54,7 @@ uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {
 
 uint64_t hashDeformation(scene::SceneData const& scene, uint32_t slot, uint64_t seed) {
     scene::Deformation const& deformation = scene.deformations.all()[slot];
-    const shader::MorphUniforms weights = morphUniforms(deformation, deformation.weights);
-    seed = hashBytes(std::as_bytes(std::span(&weights, 1)).first(morphBytes(deformation.weights)), seed);
+    seed = hashWeights(deformation, seed);
     if (deformation.morph) seed = hashWords(seed, deformation.morph->deltas.bits);
     if (deformation.skin) {
         std::vector<shader::BoneData> const& bones = scene.deformations.skins()[deformation.skin.index()].bones;

@@ -117,10 +117,10 @@ void placeLastDeformations(Arena& arena, scene::SceneData const& scene, std::spa
     const auto deformations = arena.array<LastDeformation>(places.size());
     for (const uint32_t slot : slots) {
         deformations[slot] = *last.deformation(scene, slot);
-        places[slot].lastBones = list.bytes;
-        list.bytes += deformationBlock(deformations[slot].bones.size_bytes());
+        places[slot].lastBones = list.boneCount;
+        list.boneCount += static_cast<uint32_t>(deformations[slot].bones.size());
         places[slot].lastWeights = list.bytes;
-        list.bytes += deformationBlock(morphBytes(deformations[slot].weights));
+        list.bytes += deformationBlock(deformations[slot].weights);
     }
     list.places = places;
     list.last = deformations;

@@ -20,7 +20,7 @@ void placeAll(SceneData& scene, SkinRecord const& skin) {
 
 Skin addSkin(SceneData& scene, SkinRecord data) {
     const size_t bones = data.joints.empty() ? data.bones.size() : data.joints.size();
-    FILAMENT_ASSERT(bones > 0 && bones <= shader::kMaxBones, "a skin has 1 to 256 bones");
+    FILAMENT_ASSERT(bones > 0, "a skin has bones");
     FILAMENT_ASSERT(data.joints.empty() || data.joints.size() == data.jointFromBind.size(),
                     "a skin has one matrix for each of its joints");
     for (const Node joint : data.joints) scene.transforms.slotOf(joint); // asserts that it is there

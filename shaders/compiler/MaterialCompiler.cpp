@@ -143,10 +143,8 @@ Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
 std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },
-             { kGroupDeformation, kBindingBones },
-             { kGroupDeformation, kBindingMorph },
-             { kGroupDeformation, kBindingLastBones },
-             { kGroupDeformation, kBindingLastMorph } };
+             { kGroupDeformation, kBindingDeformation },
+             { kGroupDeformation, kBindingLastDeformation } };
 }
 
 Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, CompileOptions const& options) {

@@ -185,33 +185,33 @@ inline constexpr uint32_t kMaxProfileWords = 1u << 22; ///< of the tables of a v
 
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
 enum DeformationBinding : uint8_t {
-    kBindingBones = 0,       ///< BoneUniforms, dynamic
-    kBindingMorph = 1,       ///< MorphUniforms, dynamic
-    kBindingMorphDeltas = 2, ///< sampler2D, RGBA32F: see kMorphTextureWidth
-    kBindingLastBones = 3,   ///< BoneUniforms of the previous frame, dynamic; of variants with kVariantMotion only
-    kBindingLastMorph = 4,   ///< MorphUniforms of the previous frame, dynamic; with kVariantMotion only
+    kBindingBones = 0,           ///< sampler2D, RGBA32F: see kBonesPerRow
+    kBindingDeformation = 1,     ///< DeformationUniforms, dynamic
+    kBindingMorphDeltas = 2,     ///< sampler2D, RGBA32F: see kMorphTextureWidth
+    kBindingLastDeformation = 3, ///< DeformationUniforms of the previous frame, dynamic; with kVariantMotion only
 };
-
-inline constexpr uint32_t kMaxBones = 256;
-inline constexpr uint32_t kMaxMorphTargets = 256;
 
 /// The rows of the affine transform from where a vertex was bound to object space.
 struct BoneData {
     float4 row0, row1, row2;
 };
 
-struct BoneUniforms {
-    std::array<BoneData, kMaxBones> bones; // 12 KiB
-};
+/// The bones of all skins of a frame: bone b is texels [3 * (b % kBonesPerRow), + 3) of row b / kBonesPerRow. Such a
+/// row fits into the smallest texture that OpenGL ES guarantees, 2048 texels.
+inline constexpr uint32_t kBonesPerRow = 512;
 
 /// Texel ((target * vertices + vertex) * texels) of the deltas, row after row of kMorphTextureWidth: the position's
 /// difference, then the normal's, then the tangent's, as many as there are.
 inline constexpr uint32_t kMorphTextureWidth = 4096;
 
-struct MorphUniforms {
+/// As many as fit into the smallest uniform block that both APIs guarantee, 16 KiB.
+inline constexpr uint32_t kMaxActiveTargets = 1022;
+
+struct DeformationUniforms {
     float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to
                   ///< 2
-    std::array<float4, kMaxMorphTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
+    glm::uvec4 bones; ///< x: the first bone of the skin; y: bones - 1; zw: unused
+    std::array<float4, kMaxActiveTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
 };
 
 // ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
@@ -294,7 +294,7 @@ inline constexpr std::array kQualityConstants{
 };
 
 // clang-format on
-static_assert(sizeof(BoneUniforms) == 12288 && sizeof(MorphUniforms) <= 16384);
+static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 16384);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
 static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);

@@ -4,32 +4,24 @@
 
 const int kAttributeJoints1 = 13;
 const int kAttributeWeights1 = 14;
-const int kMaxBones = 256;
-const int kMaxMorphTargets = 256;
+const int kBonesPerRow = 512;
+const int kMaxActiveTargets = 1022;
 const int kMorphTextureWidth = 4096;
 
-struct BoneRecord {
-    vec4 row0, row1, row2;
-};
+layout(set = 3, binding = 0) uniform highp sampler2D boneRows;
 
-layout(set = 3, binding = 0, std140) uniform BoneUniforms {
-    BoneRecord bones[kMaxBones];
-} boneUniforms;
-
-layout(set = 3, binding = 1, std140) uniform MorphUniforms {
+layout(set = 3, binding = 1, std140) uniform DeformationUniforms {
     vec4 shape;
-    vec4 targets[kMaxMorphTargets];
-} morphUniforms;
+    uvec4 bones;
+    vec4 targets[kMaxActiveTargets];
+} deformationUniforms;
 
 layout(set = 3, binding = 2) uniform highp sampler2D morphDeltas;
 
 #if defined(VARIANT_MOTION)
-layout(set = 3, binding = 3, std140) uniform LastBoneUniforms {
-    BoneRecord bones[kMaxBones];
-} lastBoneUniforms;
-
-layout(set = 3, binding = 4, std140) uniform LastMorphUniforms {
+layout(set = 3, binding = 3, std140) uniform LastDeformationUniforms {
     vec4 shape;
-    vec4 targets[kMaxMorphTargets];
-} lastMorphUniforms;
+    uvec4 bones;
+    vec4 targets[kMaxActiveTargets];
+} lastDeformationUniforms;
 #endif

@@ -79,13 +79,10 @@ backend::BindGroupLayout deformationGroupLayout(bool isOfMotion) {
     const auto add = [&](uint8_t binding, BindingType type) {
         layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = ShaderStage::Vertex };
     };
-    add(kBindingBones, BindingType::DynamicUniformBuffer);
-    add(kBindingMorph, BindingType::DynamicUniformBuffer);
+    add(kBindingBones, BindingType::SampledTexture);
+    add(kBindingDeformation, BindingType::DynamicUniformBuffer);
     add(kBindingMorphDeltas, BindingType::SampledTexture);
-    if (isOfMotion) {
-        add(kBindingLastBones, BindingType::DynamicUniformBuffer);
-        add(kBindingLastMorph, BindingType::DynamicUniformBuffer);
-    }
+    if (isOfMotion) add(kBindingLastDeformation, BindingType::DynamicUniformBuffer);
     return layout;
 }
 

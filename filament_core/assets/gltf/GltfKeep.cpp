@@ -74,9 +74,9 @@ bool canKeepTargets(GltfPrimitive const& primitive, GltfGeometry const& geometry
     // Flat normals need a vertex for every corner.
     const size_t vertices = std::max(geometry.positions.size(), geometry.normals.empty() ? geometry.indices.size() : 0);
     const uint64_t texels = uint64_t{ 3 } * vertices * primitive.targets.size();
-    if (primitive.targets.size() <= shader::kMaxMorphTargets && texels <= kMaxMorphTexels) return true;
-    diagnostics.warn("{}: {} morph targets of {} vertices are more than {} targets or {} texels: it is drawn at rest",
-                     path, primitive.targets.size(), vertices, shader::kMaxMorphTargets, kMaxMorphTexels);
+    if (texels <= kMaxMorphTexels) return true;
+    diagnostics.warn("{}: {} morph targets of {} vertices are more than {} texels: it is drawn at rest", path,
+                     primitive.targets.size(), vertices, kMaxMorphTexels);
     return false;
 }
 

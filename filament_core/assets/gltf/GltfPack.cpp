@@ -204,15 +204,24 @@ void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive)
 
 struct SkinOffsets {
     std::array<uint16_t, GltfAttributes::kJointSets> joints{}, weights{};
+    bool isWide = false; ///< joints of 16 bits: glTF has no wider ones
 };
+
+bool hasWideJoints(GltfGeometry const& geometry) {
+    return std::ranges::any_of(geometry.joints, [](std::vector<GltfGeometry::JointIndices> const& set) {
+        return std::ranges::any_of(set,
+                                   [](auto joints) { return ((joints.x | joints.y | joints.z | joints.w) >> 8) != 0; });
+    });
+}
 
 SkinOffsets addJoints(GltfGeometry const& geometry, Interleaver& interleaver) {
     constexpr std::array<uint8_t, 2> kJoints{ shader::kAttributeJoints, shader::kAttributeJoints1 };
     constexpr std::array<uint8_t, 2> kWeights{ shader::kAttributeWeights, shader::kAttributeWeights1 };
-    SkinOffsets at;
+    SkinOffsets at{ .isWide = hasWideJoints(geometry) };
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
         if (geometry.joints[set].empty()) continue;
-        at.joints[set] = interleaver.addAttribute(kJoints[set], VertexFormat::UByte4); // a skin has 256 joints at most
+        at.joints[set] =
+                interleaver.addAttribute(kJoints[set], at.isWide ? VertexFormat::UShort4 : VertexFormat::UByte4);
         at.weights[set] = interleaver.addAttribute(kWeights[set], geometry.weightFormat);
     }
     return at;
@@ -222,8 +231,10 @@ void writeJoints(GltfGeometry const& geometry, SkinOffsets const& at, Interleave
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
         interleaver.write(geometry.weights[set], at.weights[set], geometry.weightFormat);
         for (size_t i = 0; i < geometry.joints[set].size(); ++i) {
-            const glm::u8vec4 joints(geometry.joints[set][i]);
-            std::memcpy(interleaver.at(i, at.joints[set]), &joints, sizeof joints);
+            const glm::u16vec4 wide(geometry.joints[set][i]);
+            const glm::u8vec4 narrow(wide);
+            std::memcpy(interleaver.at(i, at.joints[set]), at.isWide ? static_cast<void const*>(&wide) : &narrow,
+                        at.isWide ? sizeof wide : sizeof narrow);
         }
     }
 }

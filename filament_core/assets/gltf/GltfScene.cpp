@@ -110,23 +110,13 @@ public:
         request.keepsTargets = mDeformation == GltfDeformation::Kept;
         if (node.skin != kNone) {
             request.worldFromBind = jointTransforms(mDocument, node.skin, mWorldFromNode, mDiagnostics);
-            request.keepsSkin = keepsSkin(node.skin);
+            request.keepsSkin = mDeformation == GltfDeformation::Kept;
         }
         mScene.meshes.push_back(std::move(request));
         return next;
     }
 
 private:
-    bool keepsSkin(uint32_t skin) {
-        const size_t joints = mDocument.skins[skin].joints.size();
-        if (mDeformation == GltfDeformation::AtRest || joints <= shader::kMaxBones) {
-            return mDeformation == GltfDeformation::Kept;
-        }
-        mDiagnostics.warn("skins[{}]: has {} joints, more than {}: what it moves is drawn at rest", skin, joints,
-                          shader::kMaxBones);
-        return false;
-    }
-
     GltfDocument const& mDocument;
     std::vector<double4x4> const& mWorldFromNode;
     GltfDeformation mDeformation;

@@ -10,7 +10,7 @@
 ///           Of nodes with levels of detail (MSFT_lod), GltfLevels::Finest leaves the coarser ones without meshes and
 ///           lights, like hidden nodes; GltfLevels::All lists the levels of each.
 ///   Thread  one. Cost: linear in the nodes.
-///   Limits  2^20 instances of EXT_mesh_gpu_instancing per node; skins of more than 256 joints are dropped.
+///   Limits  2^20 instances of EXT_mesh_gpu_instancing per node.
 ///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.
 #pragma once
 

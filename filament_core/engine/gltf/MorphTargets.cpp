@@ -59,8 +59,7 @@ scene::MinMax reachOf(MorphTargetDesc const& target) {
 } // namespace
 
 MorphTargets Engine::Impl::createMorphTargets(MorphTargetsDesc const& desc) {
-    FILAMENT_ASSERT(desc.vertexCount > 0 && !desc.targets.empty() && desc.targets.size() <= shader::kMaxMorphTargets,
-                    "morph targets have vertices, and are 1 to 256");
+    FILAMENT_ASSERT(desc.vertexCount > 0 && !desc.targets.empty(), "morph targets have vertices, and are not none");
     for (MorphTargetDesc const& target : desc.targets) checkTarget(target, desc.vertexCount);
     engine::Draft draft(morphTargets);
     engine::MorphTargetsState& state = draft.state();

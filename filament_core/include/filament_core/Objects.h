@@ -131,7 +131,7 @@ struct MorphTargetDesc {
 /// and kind of displacement that any target has.
 struct MorphTargetsDesc {
     uint32_t vertexCount = 0;               ///< > 0, that of the vertex buffer it is used with
-    std::vector<MorphTargetDesc> targets{}; ///< 1 to 256
+    std::vector<MorphTargetDesc> targets{}; ///< at least one; as many as the texels of the device's largest texture
     std::string name{};
 };
 

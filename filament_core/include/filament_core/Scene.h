@@ -26,15 +26,17 @@ namespace filament_core {
 class Model;
 class Environment;
 
-/// A skin of up to 256 bones. Each vertex moves to the weighted mean of the positions that its bones give it; normals
-/// and tangents follow. Bones that collapse geometry keep it finite, and bones that mirror it draw the correct faces.
+/// A skin of any number of bones. Each vertex moves to the weighted mean of the positions that its bones give it;
+/// normals and tangents follow. Bones that collapse geometry keep it finite, and bones that mirror it draw the correct
+/// faces. Visible in one frame are as many bones as 512 times the rows of the device's largest texture, at least a
+/// million; meshes of further ones are drawn at rest.
 struct SkinDesc {
     /// The node whose space is object space. Renderables with this skin are attached to it, and removing it removes the
     /// skin. None: world space, for renderables without a node.
     Node node{};
-    std::span<const Node> joints{};            ///< 1 to 256 nodes that the bones follow; or none
+    std::span<const Node> joints{};            ///< nodes that the bones follow; or none
     std::span<const float4x4> jointFromBind{}; ///< one per joint: from the bind pose of the mesh into the joint's space
-    uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
+    uint32_t boneCount = 0;                    ///< without joints: how many, set by Scene::setBones
 };
 
 /// What a renderable draws.
@@ -65,7 +67,7 @@ struct RenderableDesc {
     /// Without boxes every bone has the bounds above.
     std::vector<Box> boneBounds{};
     MorphTargets morphTargets{};       ///< with as many vertices as the vertex buffer
-    std::vector<float> morphWeights{}; ///< initial weights; missing ones are 0
+    std::vector<float> morphWeights{}; ///< initial weights; missing ones are 0; the 1022 largest have an effect
     bool culled = true;                ///< false: drawn even when its box is out of view
     bool castsShadows = true;          ///< if its material is opaque or masked
     bool receivesShadows = true;

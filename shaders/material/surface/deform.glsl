@@ -11,19 +11,16 @@ layout(location = kAttributeWeights1) in vec4 mesh_weights1;
 #endif
 
 #if defined(VARIANT_MOTION)
-BoneRecord boneAt(uint i) {
-    if (isLastFrame) return lastBoneUniforms.bones[i];
-    return boneUniforms.bones[i];
-}
-vec4 morphShape() { return isLastFrame ? lastMorphUniforms.shape : morphUniforms.shape; }
+uvec4 skinBones() { return isLastFrame ? lastDeformationUniforms.bones : deformationUniforms.bones; }
+vec4 morphShape() { return isLastFrame ? lastDeformationUniforms.shape : deformationUniforms.shape; }
 vec4 morphTarget(int i) {
-    if (isLastFrame) return lastMorphUniforms.targets[i];
-    return morphUniforms.targets[i];
+    if (isLastFrame) return lastDeformationUniforms.targets[i];
+    return deformationUniforms.targets[i];
 }
 #else
-BoneRecord boneAt(uint i) { return boneUniforms.bones[i]; }
-vec4 morphShape() { return morphUniforms.shape; }
-vec4 morphTarget(int i) { return morphUniforms.targets[i]; }
+uvec4 skinBones() { return deformationUniforms.bones; }
+vec4 morphShape() { return deformationUniforms.shape; }
+vec4 morphTarget(int i) { return deformationUniforms.targets[i]; }
 #endif
 
 vec3 deformedPosition;
@@ -45,18 +42,14 @@ vec3 morphed(vec3 value, int part) {
     return value;
 }
 
-void addBone(uint joint, float weight) {
-    BoneRecord bone = boneAt(min(joint, uint(kMaxBones - 1)));
-    skinRow0 += weight * bone.row0;
-    skinRow1 += weight * bone.row1;
-    skinRow2 += weight * bone.row2;
-}
-
 void addBones(uvec4 joints, vec4 weights) {
-    addBone(joints.x, weights.x);
-    addBone(joints.y, weights.y);
-    addBone(joints.z, weights.z);
-    addBone(joints.w, weights.w);
+    for (int k = 0; k < 4; ++k) {
+        uint bone = skinBones().x + min(joints[k], skinBones().y);
+        ivec2 at = ivec2(bone % uint(kBonesPerRow) * 3u, bone / uint(kBonesPerRow));
+        skinRow0 += weights[k] * texelFetch(boneRows, at, 0);
+        skinRow1 += weights[k] * texelFetch(boneRows, at + ivec2(1, 0), 0);
+        skinRow2 += weights[k] * texelFetch(boneRows, at + ivec2(2, 0), 0);
+    }
 }
 
 bool hasSkin() { return morphShape().w > 0.0; }

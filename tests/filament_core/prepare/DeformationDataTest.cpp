@@ -33,6 +33,15 @@ struct DeformationDataTest : testing::Test, BoxScene {
         return prepareFrame(jobs, arena, scene, view);
     }
 
+    shader::DeformationUniforms uniformsAt(DeformationList const& list, uint32_t boneRoom, uint32_t block) {
+        jobs::JobSystem jobs({ .workers = 1 });
+        std::vector<std::byte> memory(list.bytes);
+        writeDeformations(jobs, list, boneRoom, memory);
+        shader::DeformationUniforms uniforms{};
+        std::memcpy(&uniforms, memory.data() + block, std::min(sizeof uniforms, memory.size() - block));
+        return uniforms;
+    }
+
     /// A box attached to one joint.
     Renderable addSkinned(Node joint, Node node) {
         const Skin skin =
@@ -84,22 +93,75 @@ TEST_F(DeformationDataTest, BlocksAreAlignedAndDoNotOverlapAndPrimitivesShareThe
     EXPECT_EQ(a.bones, b.bones);
     EXPECT_NE(a.weights, b.weights);
     EXPECT_EQ(c.deltas, morph.deltas);
-    for (const uint32_t offset : { a.bones, a.weights, b.weights, c.bones, c.weights }) EXPECT_EQ(offset % 256, 0u);
-    EXPECT_EQ(packet.deformations.bytes, 512u + 3 * 256); // 7 bones of 48 bytes
+    for (const uint32_t offset : { a.weights, b.weights, c.weights }) EXPECT_EQ(offset % 256, 0u);
+    EXPECT_EQ(packet.deformations.bytes, 3 * 256u);
+    EXPECT_EQ(packet.deformations.boneCount, 7u);
 
-    std::vector<std::byte> memory(packet.deformations.bytes);
     jobs::JobSystem jobs({ .workers = 1 });
-    writeDeformations(jobs, packet.deformations, memory);
-    shader::BoneData bone{};
-    std::memcpy(&bone, memory.data() + a.bones + 6 * sizeof bone, sizeof bone);
-    EXPECT_EQ(bone.row2, float4(0, 0, 1, -5));
-    std::array<float4, 3> weights{};
-    std::memcpy(weights.data(), memory.data() + c.weights, sizeof weights);
-    EXPECT_EQ(weights[0], float4(2, 2, 8, 0)) << "two active targets, two texels, eight vertices, no skin";
-    EXPECT_EQ(weights[1], float4(0.5f, 1, 0, 0));
-    EXPECT_EQ(weights[2], float4(-2, 3, 0, 0));
-    std::memcpy(weights.data(), memory.data() + a.weights, sizeof(float4));
-    EXPECT_EQ(weights[0], float4(0, 0, 0, 2));
+    std::vector<shader::BoneData> bones(7);
+    writeBones(jobs, packet.deformations, bones);
+    EXPECT_EQ(bones[a.bones + 6].row2, float4(0, 0, 1, -5));
+    const shader::DeformationUniforms morphed = uniformsAt(packet.deformations, 7, c.weights);
+    EXPECT_EQ(morphed.shape, float4(2, 2, 8, 0)) << "two active targets, two texels, eight vertices, no skin";
+    EXPECT_EQ(morphed.targets[0], float4(0.5f, 1, 0, 0));
+    EXPECT_EQ(morphed.targets[1], float4(-2, 3, 0, 0));
+    const shader::DeformationUniforms skinned = uniformsAt(packet.deformations, 7, a.weights);
+    EXPECT_EQ(skinned.shape, float4(0, 0, 0, 2));
+    EXPECT_EQ(skinned.bones, glm::uvec4(0, 6, 0, 0));
+}
+
+// Without room on the device nothing is written or read behind the end.
+TEST_F(DeformationDataTest, SkinsThatTheDeviceHasNoRoomForAreDrawnAtRest) {
+    std::vector<uint32_t> slots;
+    for (const size_t bones : { 5u, 4u, 3u }) {
+        const Skin skin = scene::addSkin(scene, { .bones = std::vector<shader::BoneData>(bones) });
+        scene::setBones(scene, skin, std::vector<float4x4>(bones, float4x4(moved(0, 0, -5))));
+        addDeformed(box(double4x4(1.0), solid, 1), { .skin = skin, .jointSets = 1 });
+    }
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.deformations.boneCount, 12u);
+    std::vector<shader::BoneData> bones(10);
+    jobs::JobSystem jobs({ .workers = 1 });
+    writeBones(jobs, packet.deformations, bones);
+    const auto shapeOf = [&](size_t i) {
+        return uniformsAt(packet.deformations, 10, packet.deformations.places[i].weights);
+    };
+    EXPECT_EQ(shapeOf(0).bones, glm::uvec4(0, 4, 0, 0));
+    EXPECT_EQ(shapeOf(1).bones, glm::uvec4(5, 3, 0, 0));
+    EXPECT_EQ(shapeOf(1).shape.w, 1.0f);
+    EXPECT_EQ(shapeOf(2).shape.w, 0.0f);
+}
+
+// Ties are resolved in the order of the targets.
+TEST_F(DeformationDataTest, OfTooManyActiveTargetsThoseOfTheLargestWeightsStay) {
+    constexpr size_t kCount = 3000, kMost = shader::kMaxActiveTargets;
+    scene::MorphTargets many = morph;
+    many.targetCount = kCount;
+    many.reach.assign(kCount, { float3(0), float3(0) });
+    for (const bool isTied : { false, true }) {
+        std::vector<float> weights(kCount);
+        std::vector<std::pair<float, uint32_t>> order;
+        for (uint32_t i = 0; i < kCount; ++i) {
+            const float size =
+                    isTied ? 0.25f * static_cast<float>(1 + i % 3) : 1e-3f * static_cast<float>(i * 7 % 3001);
+            weights[i] = i % 5 == 0 ? 0.0f : i % 2 ? size : -size;
+            order.emplace_back(-std::abs(weights[i]), i);
+        }
+        std::ranges::sort(order);
+        order.resize(kMost);
+        std::ranges::sort(order, {}, &std::pair<float, uint32_t>::second);
+        const Renderable box =
+                addDeformed(this->box(moved(0, 0, -6), solid, 3), { .morph = &many, .weights = weights });
+        const FramePacket packet = prepare();
+        const shader::DeformationUniforms block =
+                uniformsAt(packet.deformations, 0, packet.deformations.places[0].weights);
+        ASSERT_EQ(block.shape.x, float{ kMost });
+        for (size_t i = 0; i < kMost; ++i) {
+            const uint32_t target = order[i].second;
+            ASSERT_EQ(block.targets[i], float4(weights[target], target, 0, 0)) << i << (isTied ? " tied" : "");
+        }
+        scene::removeRenderable(scene, box);
+    }
 }
 
 TEST_F(DeformationDataTest, TheSameBitsForAnyNumberOfWorkers) {

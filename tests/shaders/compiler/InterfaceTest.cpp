@@ -193,7 +193,8 @@ protected:
         const Result<std::vector<uint32_t>> spirv = spirvFromGlsl("#version 450\n" + text() + R"(
             layout(location = 0) in vec4 position;
             void main() {
-                gl_Position = boneUniforms.bones[1].row0 + morphUniforms.shape + morphUniforms.targets[1]
+                gl_Position = texelFetch(boneRows, ivec2(0), 0) + vec4(deformationUniforms.bones)
+                        + deformationUniforms.shape + deformationUniforms.targets[1]
                         + texelFetch(morphDeltas, ivec2(0), 0);
             })",
                                                                   backend::ShaderStage::Vertex, "deformation");
@@ -203,13 +204,10 @@ protected:
 };
 
 TEST_F(DeformationInterface, BlocksAgree) {
-    const auto& bones = mCompiler.get_type(block(kGroupDeformation, kBindingBones).base_type_id);
-    expectMembers(bones, { MEMBER(BoneUniforms, bones) });
-    EXPECT_EQ(mCompiler.get_declared_struct_size(bones), sizeof(BoneUniforms));
-    expectMembers(record(bones), { MEMBER(BoneData, row0), MEMBER(BoneData, row1), MEMBER(BoneData, row2) });
-    const auto& morph = mCompiler.get_type(block(kGroupDeformation, kBindingMorph).base_type_id);
-    expectMembers(morph, { MEMBER(MorphUniforms, shape), MEMBER(MorphUniforms, targets) });
-    EXPECT_EQ(mCompiler.get_declared_struct_size(morph), sizeof(MorphUniforms));
+    const auto& all = mCompiler.get_type(block(kGroupDeformation, kBindingDeformation).base_type_id);
+    expectMembers(all, { MEMBER(DeformationUniforms, shape), MEMBER(DeformationUniforms, bones),
+                         MEMBER(DeformationUniforms, targets) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(all), sizeof(DeformationUniforms));
 }
 
 TEST_F(DeformationInterface, EveryResourceIsInTheGroupsLayoutForTheVertexStage) {
@@ -234,8 +232,8 @@ TEST_F(DeformationInterface, ConstantsAgree) {
     };
     expect("kAttributeJoints1", kAttributeJoints1);
     expect("kAttributeWeights1", kAttributeWeights1);
-    expect("kMaxBones", kMaxBones);
-    expect("kMaxMorphTargets", kMaxMorphTargets);
+    expect("kBonesPerRow", kBonesPerRow);
+    expect("kMaxActiveTargets", kMaxActiveTargets);
     expect("kMorphTextureWidth", kMorphTextureWidth);
 }
 

@@ -72,13 +72,15 @@ MaterialPackage fourTextures() {
         package.parameters.push_back(parameter);
         group.bindings[group.count++] = { .binding = n, .type = BindingType::SampledTexture };
     }
-    // Units: those of the pass, five of the material, then that of the Deformation group.
+    // Units: those of the pass, five of the material, then those of the Deformation group.
     std::string essl = "layout(binding = 4, std140) uniform MaterialParams\n{ vec4 x; };\n" + samplerAt(2, "passDfg");
     for (int n = 0; n < 4; ++n) essl += samplerAt(firstUnit() + n, names[n]);
     essl += cubeAt(firstUnit() + 4);
-    package.variants.push_back({ .key = kVariantSkinning,
-                                 .vertex = sharedStage({ {}, samplerAt(firstUnit() + 5, "morphDeltas") }),
-                                 .fragment = sharedStage({ module(5), essl }) });
+    package.variants.push_back(
+            { .key = kVariantSkinning,
+              .vertex = sharedStage(
+                      { {}, samplerAt(firstUnit() + 5, "boneRows") + samplerAt(firstUnit() + 6, "morphDeltas") }),
+              .fragment = sharedStage({ module(5), essl }) });
     return package;
 }
 
@@ -126,10 +128,11 @@ TEST(RemoveUnusedTextures, MovesTheUnitsOfOpenGlUpInEveryGroupBehind) {
                                  samplerAt(firstUnit(), "a") + samplerAt(firstUnit() + 1, "b") +
                                  samplerAt(firstUnit(), "c") + cubeAt(firstUnit() + 2);
     EXPECT_EQ(variant.fragment->essl, expected);
-    EXPECT_EQ(variant.vertex->essl, samplerAt(firstUnit() + 3, "morphDeltas"));
+    EXPECT_EQ(variant.vertex->essl, samplerAt(firstUnit() + 3, "boneRows") + samplerAt(firstUnit() + 4, "morphDeltas"));
     const backend::ProgramLayout layout = programLayout(package, kVariantSkinning);
     EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), firstUnit() + 2);
-    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), firstUnit() + 3);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingBones), firstUnit() + 3);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), firstUnit() + 4);
 }
 
 TEST(RemoveUnusedTextures, KeepsOneOfAKindWhereNoneIsUsed) {

@@ -106,17 +106,32 @@ TEST(GltfDeformation, JointsThatTheSkinLacksAreRefused) {
     EXPECT_THAT(errorOf(file), HasSubstr("meshes[0].primitives[0]: names a joint that its skin lacks"));
 }
 
-TEST(GltfDeformation, SkinsOfMoreThan256JointsAreInRestPoseWithAWarning) {
-    TestFile file = namedSkin();
-    for (size_t i = 3; i < 260; ++i) {
-        file.root["nodes"].push_back(Json::object());
-        file.root["skins"][0]["joints"].push_back(i);
+// Vertices keep joints of 8 bits where those are enough, also in a skin of more.
+TEST(GltfDeformation, KeepsSkinsOfAnyNumberOfJoints) {
+    for (const uint16_t last : std::initializer_list<uint16_t>{ 255, 256, 300, 5000, 65535 }) {
+        TestFile file = namedSkin();
+        for (uint32_t i = 3; i < last + 2u; ++i) {
+            file.root["nodes"].push_back(Json::object());
+            file.root["skins"][0]["joints"].push_back(i);
+        }
+        file.attribute("JOINTS_0", std::vector<uint16_t>{ 0, 0, 0, 0, 1, 0, 0, 0, 0, last, 0, 0 }, kUShort, "VEC4", 4);
+        const ModelData model = kept(file);
+        EXPECT_THAT(model.warnings, IsEmpty());
+        ASSERT_EQ(model.skins.size(), 1u);
+        EXPECT_EQ(model.skins[0].joints.size(), last + 1u);
+        PrimitiveData const& primitive = model.meshes[0].primitives[0];
+        EXPECT_TRUE(primitive.isSkinned);
+        EXPECT_EQ(primitive.boneBounds.size(), last + 1u);
+        const auto attributes = std::span(primitive.layout.attributes).first(primitive.layout.attributeCount);
+        const auto joints =
+                std::ranges::find(attributes, shader::kAttributeJoints, &backend::VertexAttribute::location);
+        ASSERT_NE(joints, attributes.end());
+        EXPECT_EQ(joints->format, last < 256 ? VertexFormat::UByte4 : VertexFormat::UShort4);
+        uint16_t stored = 0;
+        std::byte const* const at = &primitive.vertices[2 * primitive.layout.buffers[0].stride + joints->offset];
+        std::memcpy(&stored, at + (last < 256 ? 1 : 2), last < 256 ? 1 : 2);
+        EXPECT_EQ(stored, last);
     }
-    const ModelData model = kept(file);
-    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("skins[0]: has 259 joints, more than 256")));
-    EXPECT_THAT(model.skins, IsEmpty());
-    EXPECT_FALSE(model.meshes[0].primitives[0].isSkinned);
-    EXPECT_EQ(positionOf(model.meshes[0].primitives[0], 1), float3(1, 5, 10)) << "where the joints hold it at rest";
 }
 
 TEST(GltfDeformation, JointsOutsideOfTheSceneComeAlongWithoutTheirMeshes) {
@@ -180,14 +195,36 @@ TEST(GltfDeformation, UnindexedVerticesThatPartLaterAreNotWelded) {
     EXPECT_EQ(kept(file).meshes[0].primitives[0].vertexCount, 3u);
 }
 
-TEST(GltfDeformation, TooManyMorphTargetsAreDrawnAtRest) {
+TestFile triangleWithTargets(size_t count, size_t vertices) {
     TestFile file = TestFile::triangle();
-    const size_t target = file.add(std::vector<float>{ 0, 0, 1, 0, 0, 1, 0, 0, 1 }, kFloat, "VEC3", 3);
+    std::vector<float> positions(vertices * 3), raised(vertices * 3);
+    for (size_t i = 0; i < vertices; ++i) {
+        positions[i * 3] = static_cast<float>(i % 2);
+        positions[i * 3 + 1] = static_cast<float>(i % 3);
+        raised[i * 3 + 2] = 1;
+    }
+    file.attribute("POSITION", positions, kFloat, "VEC3", 3);
+    const size_t target = file.add(raised, kFloat, "VEC3", 3);
     file.primitive()["targets"] = Json::array();
-    for (int i = 0; i < 257; ++i) file.primitive()["targets"].push_back({ { "POSITION", target } });
-    file.root["meshes"][0]["weights"] = { 2.0 };
-    const ModelData model = kept(file);
-    EXPECT_THAT(model.warnings, testing::Contains(HasSubstr("meshes[0].primitives[0]: 257 morph targets")));
+    for (size_t i = 0; i < count; ++i) file.primitive()["targets"].push_back({ { "POSITION", target } });
+    std::vector<double> weights(count);
+    weights[0] = 2;
+    file.root["meshes"][0]["weights"] = weights;
+    return file;
+}
+
+TEST(GltfDeformation, KeepsAnyNumberOfMorphTargets) {
+    for (const size_t count : { 256u, 257u, 1500u }) {
+        const ModelData model = kept(triangleWithTargets(count, 3));
+        EXPECT_THAT(model.warnings, IsEmpty());
+        EXPECT_EQ(model.meshes[0].primitives[0].morphTargets.size(), count);
+    }
+}
+
+TEST(GltfDeformation, MoreTexelsOfMorphTargetsThanATextureHasAreDrawnAtRest) {
+    const ModelData model = kept(triangleWithTargets(1000, 6000));
+    EXPECT_THAT(model.warnings,
+                testing::Contains(HasSubstr("meshes[0].primitives[0]: 1000 morph targets of 6000 vertices")));
     EXPECT_EQ(positionOf(model.meshes[0].primitives[0], 0).z, 2.0f);
 }
 

@@ -100,8 +100,6 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
         if (!std::isfinite(p.boundsMin[axis]) || !(p.boundsMin[axis] <= p.boundsMax[axis])) return "bounds";
         if (!(p.restBounds.min[axis] <= p.restBounds.max[axis])) return "bounds at rest";
     }
-    if (p.boneBounds.size() > shader::kMaxBones || p.morphTargets.size() > shader::kMaxMorphTargets)
-        return "deformation limits";
     for (MorphTargetData const& target : p.morphTargets) {
         for (auto const* list : { &target.positions, &target.normals, &target.tangents }) {
             if (!list->empty() && list->size() != p.vertexCount) return "morph target";
@@ -155,7 +153,7 @@ inline const char* brokenPromise(ModelData const&, CameraData const& camera) {
 }
 
 inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
-    if (skin.joints.empty() || skin.joints.size() > shader::kMaxBones) return "joint count";
+    if (skin.joints.empty()) return "joint count";
     if (skin.joints.size() != skin.jointFromBind.size()) return "bind matrices";
     return std::ranges::all_of(skin.joints, [&](uint32_t joint) { return joint < model.nodes.size(); }) ? nullptr
                                                                                                         : "joints";
