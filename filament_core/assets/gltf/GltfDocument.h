@@ -83,6 +83,8 @@ struct GltfAttributes {
     std::vector<uint32_t> uvSets;                     ///< TEXCOORD_n of the file, by n
     std::array<uint32_t, kJointSets> joints{ kNone, kNone };
     std::array<uint32_t, kJointSets> weights{ kNone, kNone };
+
+    bool operator==(GltfAttributes const&) const = default;
 };
 
 /// KHR_draco_mesh_compression: the same attributes as ids inside the compressed stream.
@@ -104,6 +106,7 @@ struct GltfPrimitive {
     GltfMode mode = GltfMode::Triangles;
     std::vector<GltfMorphTarget> targets;
     std::optional<GltfDraco> draco;
+    bool restarts = false; ///< the largest index of its type begins another strip, loop or fan
 };
 
 struct GltfMesh {

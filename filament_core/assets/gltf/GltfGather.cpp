@@ -155,6 +155,11 @@ void chooseFormats(GltfDocument const& document, GltfAttributes const& attribute
     if (second == kNone || shareFormat(document.accessors[second]) == format) geometry.weightFormat = format;
 }
 
+uint32_t restartIndex(GltfAccessor const& indices) {
+    if (indices.component == ComponentType::UInt) return 0xFFFFFFFF;
+    return indices.component == ComponentType::UShort ? 0xFFFF : 0xFF;
+}
+
 void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive, AttributeSource const& source,
                    GltfGeometry& geometry, Diagnostics& diagnostics) {
     geometry.wasIndexed = source.draco() || primitive.indices != kNone;
@@ -162,6 +167,8 @@ void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive,
         geometry.indices = source.draco()->indices();
     } else if (primitive.indices != kNone) {
         geometry.indices = readIntegerList(document, primitive.indices, 1, "indices", diagnostics);
+        if (primitive.restarts)
+            std::ranges::replace(geometry.indices, restartIndex(document.accessors[primitive.indices]), kNone);
     } else {
         geometry.indices.resize(geometry.positions.size());
         std::iota(geometry.indices.begin(), geometry.indices.end(), 0u);

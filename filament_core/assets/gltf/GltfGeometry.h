@@ -86,8 +86,10 @@ std::vector<BoundsData> boundsOfBones(GltfGeometry const& geometry);
 std::vector<float3> positionsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
                                     std::span<const float4x4> worldFromBind);
 
-/// Checks the indices and turns strips, fans and loops into lists (section 3.7.2.1).
-void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
+/// Checks the indices and turns strips, fans and loops into lists (section 3.7.2.1). Where a
+/// primitive restarts, the index kNone begins another one.
+void makeList(GltfPrimitive const& primitive, std::string const& path, GltfGeometry& geometry,
+              Diagnostics& diagnostics);
 
 /// Exporters often share one vertex array between many primitives: drops unused vertices if there are many.
 void dropUnusedVertices(GltfGeometry& geometry);

@@ -42,7 +42,7 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
                     GeometryStorage const& storage, std::string const& path, Diagnostics& diagnostics) {
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
-    makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
+    makeList(primitive, path, geometry, diagnostics);
     if (diagnostics.ok()) repairDirections(path, geometry, diagnostics);
     if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
     if (!diagnostics.ok() || geometry.indices.empty()) return {};

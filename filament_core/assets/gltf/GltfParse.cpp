@@ -510,7 +510,11 @@ private:
         parseAll(GltfArray::Buffers, mRoot["buffers"], mDocument.buffers, parseBuffer);
         parseAll(GltfArray::Views, mRoot["bufferViews"], mDocument.views, with(parseView));
         parseAll(GltfArray::Accessors, mRoot["accessors"], mDocument.accessors, with(parseAccessor));
-        parseAll(GltfArray::Meshes, mRoot["meshes"], mDocument.meshes, with(parseMesh));
+        parseAll(GltfArray::Meshes, mRoot["meshes"], mDocument.meshes, [&](JsonNode const& node) {
+            GltfMesh mesh = parseMesh(node, mCounts);
+            mergeRestartGroups(node.extension("EXT_mesh_primitive_restart"), mDocument.accessors, mesh);
+            return mesh;
+        });
         parseAll(GltfArray::Nodes, mRoot["nodes"], mDocument.nodes, with(parseNode));
         parseAll(GltfArray::Skins, mRoot["skins"], mDocument.skins, with(parseSkin));
     }

@@ -25,6 +25,9 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount);
 /// KHR_materials_variants of a primitive. A second mapping of the same variant is dropped, with a warning.
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,
                                                    size_t variantCount);
+/// EXT_mesh_primitive_restart: each group of primitives becomes one, at the place of its first; all stay if a group
+/// breaks a rule, with a warning.
+void mergeRestartGroups(JsonNode const& extension, std::vector<GltfAccessor> const& accessors, GltfMesh& mesh);
 Sampler parseGltfSampler(JsonNode const& node);
 /// Nothing for a light of a type that is unknown, with a warning.
 std::optional<LightData> parseGltfLight(JsonNode const& node);

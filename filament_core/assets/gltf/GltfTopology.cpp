@@ -34,6 +34,33 @@ Indices linesFromStrip(Indices const& strip, bool isClosed) {
     return list;
 }
 
+Indices listFrom(GltfMode mode, Indices indices) {
+    switch (mode) {
+    case GltfMode::LineLoop:
+        return linesFromStrip(indices, true);
+    case GltfMode::LineStrip:
+        return linesFromStrip(indices, false);
+    case GltfMode::TriangleStrip:
+        return listFromStrip(indices);
+    case GltfMode::TriangleFan:
+        return listFromFan(indices);
+    default:
+        return indices;
+    }
+}
+
+/// EXT_mesh_primitive_restart: kNone lies between the runs.
+Indices listOfRuns(GltfMode mode, Indices const& indices) {
+    Indices list;
+    for (auto begin = indices.begin(); begin != indices.end();) {
+        const auto end = std::find(begin, indices.end(), kNone);
+        const Indices run = listFrom(mode, { begin, end });
+        list.insert(list.end(), run.begin(), run.end());
+        begin = end == indices.end() ? end : end + 1;
+    }
+    return list;
+}
+
 PrimitiveType topologyOf(GltfMode mode) {
     if (mode == GltfMode::Points) return PrimitiveType::Points;
     return mode <= GltfMode::LineStrip ? PrimitiveType::Lines : PrimitiveType::Triangles;
@@ -68,31 +95,18 @@ void addFlatNormals(GltfGeometry const& geometry, MorphTargetData& target) {
 
 } // namespace
 
-void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
+void makeList(GltfPrimitive const& primitive, std::string const& path, GltfGeometry& geometry,
+              Diagnostics& diagnostics) {
     Indices& indices = geometry.indices;
     if (indices.empty()) return;
-    const uint32_t largest = *std::max_element(indices.begin(), indices.end());
-    if (largest >= geometry.positions.size()) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}.indices: {} is out of range, there are {} vertices", path, largest,
+    for (const uint32_t index : indices) {
+        if (index < geometry.positions.size() || (primitive.restarts && index == kNone)) continue;
+        diagnostics.refuse(ErrorCode::Corrupt, "{}.indices: {} is out of range, there are {} vertices", path, index,
                            geometry.positions.size());
         return;
     }
-    switch (mode) {
-    case GltfMode::LineLoop:
-        indices = linesFromStrip(indices, true);
-        break;
-    case GltfMode::LineStrip:
-        indices = linesFromStrip(indices, false);
-        break;
-    case GltfMode::TriangleStrip:
-        indices = listFromStrip(indices);
-        break;
-    case GltfMode::TriangleFan:
-        indices = listFromFan(indices);
-        break;
-    default:
-        break;
-    }
+    const GltfMode mode = primitive.draco ? GltfMode::Triangles : primitive.mode;
+    indices = primitive.restarts ? listOfRuns(mode, indices) : listFrom(mode, std::move(indices));
     geometry.topology = topologyOf(mode);
     const size_t corners = geometry.topology == PrimitiveType::Triangles ? 3
                            : geometry.topology == PrimitiveType::Lines   ? 2

@@ -64,6 +64,8 @@ struct MorphTargetData {
 struct VariantMaterial {
     uint32_t variant = 0;  ///< into ModelData::variants
     uint32_t material = 0; ///< into ModelData::materials
+
+    bool operator==(VariantMaterial const&) const = default;
 };
 
 /// The geometry of one draw. All attributes are interleaved in one stream.
