@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, reading a KTX 2.0 file, or the codebooks and a slice of
-/// BasisLZ, gives an error of one line, or all texels; and the same twice.
+/// Shared by the fuzzer and the replay test: for any bytes, reading a KTX 2.0 or DDS file, or the codebooks and a slice
+/// of BasisLZ, gives an error of one line, or all texels; and the same twice.
 #pragma once
 
 #include "base/Assert.h"
 #include "filament_core/assets/blocks/BasisLz.h"
+#include "filament_core/assets/image/DdsDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
 #include "filament_core/assets/image/PictureDecoder.h"
 #include "filament_core/assets/image/TextureDecoder.h"
@@ -22,8 +23,36 @@ inline void checkTextureError(Error const& error) {
     FILAMENT_ASSERT(error.message.find('\n') == std::string::npos, "an error is one line");
 }
 
+inline void fuzzUses(std::span<const std::byte> bytes) {
+    for (const uint32_t maxSize : { 0u, 4u }) {
+        if (const Result<DecodedTexture> used = decodeTexture(bytes, "fuzzed", maxSize); !used)
+            checkTextureError(used.error());
+    }
+    if (const Result<Image> picture = decodePicture(bytes, "fuzzed", { .isFull = true }); !picture)
+        checkTextureError(picture.error());
+}
+
+inline bool fuzzDds(std::span<const std::byte> bytes) {
+    const uint2 size = ddsSize(bytes);
+    if (uint64_t{ size.x } * size.y > kMaxFuzzedTexels) return false; // only slow
+    const Result<DdsTexture> texture = decodeDds(bytes, "fuzzed");
+    if (texture) {
+        Image const& image = texture->image;
+        FILAMENT_ASSERT(uint2(image.width, image.height) == size && image.layers == 1,
+                        "the size is that of the header");
+        FILAMENT_ASSERT(image.data.size() == image.levelOffset(image.levels), "every texel is there");
+        const Result<DdsTexture> again = decodeDds(bytes, "fuzzed");
+        FILAMENT_ASSERT(again && again->image.data == image.data, "decoding twice gives the same texels");
+    } else {
+        checkTextureError(texture.error());
+    }
+    fuzzUses(bytes);
+    return texture.ok();
+}
+
 /// Returns whether it was a texture.
 inline bool fuzzTexture(std::span<const std::byte> bytes) {
+    if (isDds(bytes)) return fuzzDds(bytes);
     const Result<Ktx2File> file = readKtx2(bytes, "fuzzed");
     if (!file) {
         checkTextureError(file.error());
@@ -41,12 +70,7 @@ inline bool fuzzTexture(std::span<const std::byte> bytes) {
     } else {
         checkTextureError(texture.error());
     }
-    for (const uint32_t maxSize : { 0u, 4u }) {
-        if (const Result<DecodedTexture> used = decodeTexture(bytes, "fuzzed", maxSize); !used)
-            checkTextureError(used.error());
-    }
-    if (const Result<Image> picture = decodePicture(bytes, "fuzzed", { .isFull = true }); !picture)
-        checkTextureError(picture.error());
+    fuzzUses(bytes);
     return texture.ok();
 }
 

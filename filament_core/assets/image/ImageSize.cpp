@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/ImageSize.h"
 
+#include "filament_core/assets/image/DdsDecoder.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2File.h"
 
@@ -70,6 +71,7 @@ uint2 imageSize(std::span<const std::byte> bytes) {
     if (isWebp(bytes)) return webpSize(bytes);
     if (isAvif(bytes)) return avifSize(bytes);
     if (isKtx2(bytes)) return ktx2Size(bytes);
+    if (isDds(bytes)) return ddsSize(bytes);
     const bool isJpeg = bytes.size() >= 4 && number(bytes, 0, 2) == 0xFFD8;
     return isJpeg ? jpegSize(bytes) : uint2(0);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// imageSize: the size that the header of a PNG, JPEG, WebP, AVIF or KTX 2.0 file states, before anything is decoded.
+/// imageSize: the size that the header of a PNG, JPEG, WebP, AVIF, KTX 2.0 or DDS file states, before anything is
+/// decoded.
 ///   Thread  any; pure. Fails: never, for any bytes; {0, 0} if there is no size in them.
 #pragma once
 

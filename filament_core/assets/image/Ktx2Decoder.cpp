@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/Ktx2Decoder.h"
 
-#include "base/math/Half.h"
 #include "filament_core/assets/blocks/BasisLz.h"
 #include "filament_core/assets/blocks/BlockDecoder.h"
 #include "filament_core/assets/image/Ktx2Formats.h"
@@ -136,12 +135,7 @@ private:
         }
         std::vector<std::byte> halves(texels.size() / 2);
         decodeBlocks(*mFormat.block, mTexture.isSrgb, bytes, width, height, halves);
-        for (size_t i = 0; i < halves.size() / 2; ++i) {
-            uint16_t half;
-            std::memcpy(&half, &halves[2 * i], sizeof(half));
-            const float value = floatFromHalf(half);
-            std::memcpy(&texels[4 * i], &value, sizeof(value));
-        }
+        widenHalves(halves, texels);
     }
 
     /// Blocks have more channels than some textures.

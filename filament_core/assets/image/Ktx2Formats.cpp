@@ -144,7 +144,7 @@ void decodeCodes(Ktx2Format const& format, std::span<const std::byte> bytes, std
         const auto most = static_cast<uint32_t>((uint64_t{ 1 } << channel.bits) - 1);
         for (size_t i = 0; i < count; ++i) {
             std::byte& to = texels[4 * i + c];
-            if (channel.bits == 8) {
+            if (channel.bits == 8 && channel.first % 8 == 0) {
                 to = bytes[i * format.texelBytes + channel.first / 8];
             } else if (channel.bits) { // rounded
                 const auto value = static_cast<uint32_t>(bitsOf(&bytes[i * format.texelBytes], channel));
@@ -171,6 +171,15 @@ void decodeFloats(Ktx2Format const& format, std::span<const std::byte> bytes, bo
                 std::memcpy(to + c * size, &half, size);
             }
         }
+    }
+}
+
+void widenHalves(std::span<const std::byte> halves, std::span<std::byte> floats) {
+    for (size_t i = 0; i < halves.size() / 2; ++i) {
+        uint16_t half;
+        std::memcpy(&half, &halves[2 * i], sizeof(half));
+        const float value = floatFromHalf(half);
+        std::memcpy(&floats[4 * i], &value, sizeof(value));
     }
 }
 

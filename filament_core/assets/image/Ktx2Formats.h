@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ktx2Formats: the VkFormats of KTX 2.0 files that are read, and their texels as floats or 8-bit codes.
+/// Ktx2Formats: the VkFormats of KTX 2.0 and DDS files that are read, and their texels as floats or 8-bit codes.
 ///   Texels  red, green, blue, alpha; channels that a format does not have are 0, alpha is 1 (Vulkan 1.3, "Component
 ///           substitution").
 ///   Sources  Vulkan 1.3, "Formats"; KTX 2.0 Specification, table "Prohibited formats"
@@ -46,5 +46,7 @@ std::optional<Ktx2Format> ktx2Format(uint32_t vkFormat);
 void decodeCodes(Ktx2Format const& format, std::span<const std::byte> bytes, std::span<std::byte> texels);
 /// `texels` are RGBA16F, or RGBA32F if `isFull`. Values that are no numbers are 0; too large ones the largest number.
 void decodeFloats(Ktx2Format const& format, std::span<const std::byte> bytes, bool isFull, std::span<std::byte> texels);
+/// Halves as floats.
+void widenHalves(std::span<const std::byte> halves, std::span<std::byte> floats);
 
 } // namespace filament_core::assets

@@ -5,6 +5,7 @@
 #include "base/math/Half.h"
 #include "filament_core/assets/image/ChannelTransfer.h"
 #include "filament_core/assets/image/ColorProfile.h"
+#include "filament_core/assets/image/DdsDecoder.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
@@ -84,14 +85,25 @@ Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view nam
     return std::move(texture->image);
 }
 
+/// A DDS says only of some formats that their codes are sRGB: of others, the caller knows.
+Result<Image> decodeSurface(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
+    Result<DdsTexture> texture = decodeDds(bytes, name, { .isFull = options.isFull, .isOneLevel = true });
+    if (!texture) return texture.error();
+    if (texture->image.format == backend::Format::RGBA8 && options.isColor)
+        texture->image.format = backend::Format::RGBA8Srgb;
+    return std::move(texture->image);
+}
+
 } // namespace
 
 Result<Image> decodePicture(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
     if (isHdrImage(bytes)) return decodeFloats(bytes, name, options);
     if (isKtx2(bytes)) return decodeLevel(bytes, name, options);
+    if (isDds(bytes)) return decodeSurface(bytes, name, options);
     if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
         return fail(ErrorCode::Unsupported,
-                    "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2, HDR and EXR; convert it to one of them", name);
+                    "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2, DDS, HDR and EXR; convert it to one of them",
+                    name);
     if (const auto space = options.isColor ? foreignColorSpace(bytes) : std::nullopt)
         log(Severity::Warning, "'{}' declares {}, but its colours are taken as those of sRGB; convert it to sRGB", name,
             *space);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/TextureDecoder.h"
 
+#include "filament_core/assets/image/DdsDecoder.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
 #include "filament_core/assets/image/MipMaps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace filament_core::assets {
@@ -17,23 +19,42 @@ Result<void> checkShape(Ktx2File const& file, std::string_view name) {
                 file.isCube ? "a cube" : "an array");
 }
 
-Result<void> checkTexels(Image const& image, std::string_view name) {
+Result<void> checkTexels(Image const& image, std::string_view name, const char* cure) {
     if (image.format != backend::Format::RGBA8 && image.format != backend::Format::RGBA8Srgb)
-        return fail(
-                ErrorCode::Unsupported,
-                "image '{}' has more than 8 bits a channel, which materials of models do not read; export it as UASTC",
-                name);
+        return fail(ErrorCode::Unsupported,
+                    "image '{}' has more than 8 bits a channel, which materials of models do not read; export it as {}",
+                    name, cure);
     return {};
+}
+
+/// Files with two channels hold normals, whose third coordinate is positive: writers of DDS store normal maps as BC5.
+void addThirdCoordinate(std::span<std::byte> texels) {
+    const auto coordinate = [](std::byte code) { return static_cast<float>(code) / 255 * 2 - 1; };
+    for (size_t i = 0; i < texels.size(); i += 4) {
+        const float x = coordinate(texels[i]), y = coordinate(texels[i + 1]);
+        const float z = std::sqrt(std::max(1 - x * x - y * y, 0.0f));
+        texels[i + 2] = static_cast<std::byte>(std::lround((z + 1) / 2 * 255));
+    }
+}
+
+Result<DecodedTexture> decodeDdsTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize) {
+    Result<DdsTexture> texture = decodeDds(bytes, name, { .maxSize = maxSize });
+    if (!texture) return texture.error();
+    if (Result<void> checked = checkTexels(texture->image, name, "BC7"); !checked) return checked.error();
+    texture->image.format = backend::Format::RGBA8;
+    if (texture->isRg) addThirdCoordinate(texture->image.data);
+    return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };
 }
 
 } // namespace
 
 Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize,
                                      TextureDepth depth) {
+    if (isDds(bytes)) return decodeDdsTexture(bytes, name, maxSize);
     if (!isKtx2(bytes)) {
         if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
             return fail(ErrorCode::Unsupported,
-                        "image '{}' is none of PNG, JPEG, WebP, AVIF and KTX2; convert it to one of them", name);
+                        "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2 and DDS; convert it to one of them", name);
         if (depth == TextureDepth::AllBits && isDeepImage(bytes)) {
             Result<DeepImage> deep = decodeDeepImage(bytes, name);
             if (!deep) return deep.error();
@@ -50,7 +71,7 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
     const bool isWhole = file->levels.size() == all;
     Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole });
     if (!texture) return texture.error();
-    if (Result<void> checked = checkTexels(texture->image, name); !checked) return checked.error();
+    if (Result<void> checked = checkTexels(texture->image, name, "UASTC"); !checked) return checked.error();
     texture->image.format = backend::Format::RGBA8;
     return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };
 }

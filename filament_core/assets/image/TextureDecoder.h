@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// decodeTexture: an image of a model as texels, with the levels that its file has.
-///   In      the bytes of a PNG, JPEG, WebP, AVIF or KTX 2.0 file; `name` is used in error messages.
+///   In      the bytes of a PNG, JPEG, WebP, AVIF, KTX 2.0 or DDS file; `name` is used in error messages.
 ///   Out     RGBA8; of images with more bits a channel (PNG of 16, AVIF of 10 and 12) all of them, if they are
-///           requested. One level of images; of KTX 2.0 the levels of the file if they end with 1 x 1, otherwise its
-///           first.
+///           requested. One level of images; of KTX 2.0 and DDS the levels of the file if they end with 1 x 1,
+///           otherwise its first. A DDS of two channels is a normal map: blue becomes the third coordinate.
 ///   Thread  any; no shared state.
-///   Limits, fails  as decodeImage() and decodeKtx2(). Cubes, arrays, and texels of KTX 2.0 with more than 8 bits are
-///           Unsupported.
+///   Limits, fails  as decodeImage(), decodeKtx2() and decodeDds(). Cubes, arrays, and texels of KTX 2.0 and DDS with
+///           more than 8 bits are Unsupported.
 #pragma once
 
 #include "base/Result.h"

@@ -38,10 +38,10 @@ struct ImageLoadOptions {
 ///   8 bits     of PNG, JPEG, WebP, AVIF: RGBA8Srgb, or RGBA8 of data. Missing alpha is 255; grey is copied to all
 ///              colours; colour profiles are ignored; alpha is not multiplied in.
 ///   10 to 16   bits of PNG, AVIF: RGBA16F, colours as linear light, data as code / 65535.
-///   KTX2       its first level: RGBA8Srgb or RGBA8, as the file says; RGBA16F where 8 bits do not hold it.
+///   KTX2, DDS  the first level: RGBA8Srgb or RGBA8, as the file says; RGBA16F where 8 bits do not hold it.
 ///   HDR, EXR   RGBA16F: linear, without alpha. Negative or not a number becomes 0; what a half cannot hold, 65504.
 ///   Limits     16384 a side; of AVIF, HDR, EXR 2^26 pixels; single-part EXR, scan lines or tiles; no cubes, arrays of
-///              KTX2.
+///              KTX2 and DDS.
 ///   Fails      NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with the file, the reason and the
 ///              cure.
 Result<Image> loadImage(std::filesystem::path const& path, ImageLoadOptions const& options = {});

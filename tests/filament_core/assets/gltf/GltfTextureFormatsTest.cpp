@@ -179,7 +179,7 @@ TEST(GltfTextureFormats, WhatMaterialsDoNotReadIsAnError) {
     EXPECT_THAT(refusal(deep.file()),
                 HasSubstr("has more than 8 bits a channel, which materials of models do not read"));
     EXPECT_THAT(refusal(Bytes(30, std::byte{ 1 })),
-                HasSubstr("is none of PNG, JPEG, WebP, AVIF and KTX2; convert it to one of them"));
+                HasSubstr("is none of PNG, JPEG, WebP, AVIF, KTX2 and DDS; convert it to one of them"));
     Bytes cut = uastcOf(4, 1).file();
     cut.pop_back();
     EXPECT_THAT(refusal(cut), HasSubstr("image 'images[0]' cannot be decoded: its level 0 is 16 bytes from byte"));

@@ -190,7 +190,7 @@ const Case kCases[] = {
       "accessors[3]" },
     { "ACCESSOR_JOINTS_INDEX_OOB", "[]", kError, "joint that its skin lacks", "3 0 1.4e-45" },
     { "IMAGE_UNRECOGNIZED_FORMAT", R"([{"op":"replace","path":"/images/0/uri","value":"data:;base64,AAAA"}])", kError,
-      "none of PNG, JPEG, WebP, AVIF and KTX2" },
+      "none of PNG, JPEG, WebP, AVIF, KTX2 and DDS" },
     { "IMAGE_UNEXPECTED_EOS",
       R"([{"op":"replace","path":"/images/0/uri","value":"data:;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAA="}])",
       kError, "cut short" },

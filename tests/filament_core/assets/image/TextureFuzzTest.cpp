@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The body of tests/fuzz/TextureFuzz.cpp, on damaged files of every kind.
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
+#include "tests/filament_core/assets/image/DdsWriter.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tests/fuzz/TextureFuzzBody.h"
 
@@ -46,6 +47,11 @@ std::vector<FuzzBytes> textureFiles(std::mt19937& random) {
     };
     basis.globalData = writer.globalData({ { .length = static_cast<uint32_t>(slice.size()) } });
     files.push_back(basis.file());
+    for (const uint32_t dxgi : { 0u, 2u, 26u, 28u, 65u, 71u, 83u, 95u, 98u })
+        files.push_back(
+                DdsWriter{ .dxgi = dxgi, .width = 4, .height = 4, .levels = 3, .texels = fuzzNoise(16 * 21, random) }
+                        .file());
+    files.push_back(DdsWriter{ .fourCc = "DXT5", .width = 4, .height = 4, .texels = fuzzNoise(16, random) }.file());
     return files;
 }
 
