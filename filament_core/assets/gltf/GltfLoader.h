@@ -6,7 +6,7 @@
 ///           is loaded: unused meshes, materials and images are skipped.
 ///   Knows   the extensions of GltfExtensions.h. Another one is an error if the file requires it; otherwise it is named
 ///           in ModelData::warnings, once, and the material without it is drawn.
-///   Images  PNG, JPEG, WebP, AVIF and KTX 2.0 (image/TextureDecoder.h); their first bytes, not their MIME types, say
+///   Images  PNG, JPEG, WebP, AVIF, KTX 2.0, DDS (image/TextureDecoder.h); their first bytes, not their MIME types, say
 ///           which.
 ///   Thread  any; images and primitives are decoded as jobs, and this thread takes part. The result does not depend on
 ///           the number of workers.

@@ -119,7 +119,7 @@ private:
         GltfTexture const& texture = mDocument.textures[info.texture];
         if (texture.image == kNone) {
             mDiagnostics.refuse(ErrorCode::Unsupported,
-                                "textures[{}]: has no PNG, JPEG, WebP, AVIF or KTX2 image; export it as one",
+                                "textures[{}]: has no PNG, JPEG, WebP, AVIF, KTX2 or DDS image; export it as one",
                                 info.texture);
             return reference;
         }

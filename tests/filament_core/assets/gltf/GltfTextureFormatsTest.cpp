@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_texture_basisu, EXT_texture_webp and EXT_texture_avif: which image a texture reads, and what of it reaches the
-// model.
+// KHR_texture_basisu, EXT_texture_astc, EXT_texture_webp, EXT_texture_avif and MSFT_texture_dds: which image a texture
+// reads, and what of it reaches the model.
 #include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/Ktx2File.h"
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/assets/image/AvifFile.h"
+#include "tests/filament_core/assets/image/DdsWriter.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tests/filament_core/assets/image/PictureFiles.h"
 
@@ -68,18 +69,38 @@ TestFile texturedBy(std::vector<Bytes> const& images, const char* texture, bool 
     else
         material["occlusionTexture"]["index"] = 0;
     file.root["materials"] = { material };
-    file.root["extensionsUsed"] = { "KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif" };
+    file.root["extensionsUsed"] = { "KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "EXT_texture_astc",
+                                    "MSFT_texture_dds" };
     file.primitive()["material"] = 0;
     return file;
 }
 
+/// A texel of ASTC: a block of one colour (void extent), of 16 bits a channel.
+Bytes astcOf(uint8_t red, uint32_t format = 158) {
+    Bytes block{ std::byte{ 0xFC }, std::byte{ 0xFD } };
+    block.resize(8, std::byte{ 0xFF });
+    for (const uint8_t code : { red, uint8_t{ 0 }, uint8_t{ 0 }, uint8_t{ 255 } })
+        block.insert(block.end(), 2, static_cast<std::byte>(code));
+    return Ktx2Writer{
+        .format = format,
+        .model = 162,
+        .transfer = static_cast<uint8_t>(format % 2 == 0 ? Ktx2Description::kSrgb : 1),
+        .levels = { block }
+    }.file();
+}
+
+Bytes ddsOf(uint8_t red) {
+    return DdsWriter{ .dxgi = 28, .texels = { static_cast<std::byte>(red), {}, {}, std::byte{ 255 } } }.file();
+}
+
+constexpr const char* kAstc = R"({ "extensions": { "EXT_texture_astc": { "source": 0 } } })";
 constexpr const char* kBasis = R"({ "extensions": { "KHR_texture_basisu": { "source": 0 } } })";
 
 TEST(GltfTextureFormats, TheImageOfAnExtensionTakesThePlaceOfTheCoreOne) {
     const Bytes webp(reinterpret_cast<const std::byte*>(kWebpPixel.data()),
                      reinterpret_cast<const std::byte*>(kWebpPixel.data() + kWebpPixel.size()));
     const test::AvifFile avif{ .width = 1, .height = 1, .code = [](uint32_t, uint2) { return 60u; } };
-    const std::vector<Bytes> images{ pngPixel(1), webp, uastcOf(4, 1).file(), avif.file() };
+    const std::vector<Bytes> images{ pngPixel(1), webp, uastcOf(4, 1).file(), avif.file(), astcOf(170), ddsOf(30) };
     const auto red = [&](const char* texture) {
         const ModelData model = loaded(texturedBy(images, texture));
         EXPECT_THAT(model.warnings, testing::IsEmpty());
@@ -96,8 +117,24 @@ TEST(GltfTextureFormats, TheImageOfAnExtensionTakesThePlaceOfTheCoreOne) {
     EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_webp": { "source": 1 },
                                                     "KHR_texture_basisu": { "source": 2 } } })"),
               100);
-    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "MSFT_texture_dds": { "source": 2 } } })"), 1)
+    EXPECT_EQ(red(R"({ "extensions": { "EXT_texture_astc": { "source": 4 } } })"), 170);
+    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "EXT_texture_astc": { "source": 4 },
+                                                    "EXT_texture_webp": { "source": 1 } } })"),
+              170);
+    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "MSFT_texture_dds": { "source": 5 } } })"), 30);
+    EXPECT_EQ(red(R"({ "extensions": { "MSFT_texture_dds": { "source": 5 }, "EXT_texture_avif": { "source": 3 } } })"),
+              60);
+    EXPECT_EQ(red(R"({ "source": 0, "extensions": { "VENDOR_texture": { "source": 2 } } })"), 1)
             << "a format that is not read has its fallback";
+}
+
+TEST(GltfTextureFormats, EverySizeOfAstcBlocksIsRead) {
+    for (uint32_t format = 157; format < 185; ++format) { // VK_FORMAT_ASTC_4x4_UNORM_BLOCK and on
+        const ModelData model = loaded(texturedBy({ astcOf(90, format) }, kAstc, format % 2 == 0));
+        EXPECT_THAT(model.warnings, testing::IsEmpty());
+        ASSERT_EQ(model.images.size(), 1u);
+        EXPECT_EQ(std::to_integer<int>(model.images[0].data[0]), 90) << format;
+    }
 }
 
 // A PNG of 16 bits and an AVIF of 10 keep them in a texture of their own; two maps in one texture have 8 bits.
