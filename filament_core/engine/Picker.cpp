@@ -79,11 +79,11 @@ Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view
 }
 
 PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
-                       FrameResourceCache& resources, uint2 pixel) {
+                       FrameResourceCache& resources, uint2 pixel, PickAim aim) {
     const jobs::AdoptedThread seat(mEngine.jobs);
     mArena.reset();
     mGraph.reset();
-    const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel);
+    const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel, aim);
     const Ticket ticket = mEngine.stream->nextTicket();
     mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
     if (pick.renderables.empty()) return { ticket.value }; // nothing to draw

@@ -31,7 +31,7 @@ public:
 
     /// `input`: of the view, without jitter.
     PickTicket ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
-                   FrameResourceCache& resources, uint2 pixel);
+                   FrameResourceCache& resources, uint2 pixel, PickAim aim);
     std::optional<PickHit> take(PickTicket ticket);
     Result<PickHit> wait(PickTicket ticket);
 

@@ -354,11 +354,11 @@ struct Renderer::Impl final : engine::Dependent {
         return *picker;
     }
 
-    PickTicket pick(Scene const& scene, View const& view, uint2 pixel) {
+    PickTicket pick(Scene const& scene, View const& view, uint2 pixel, PickAim aim) {
         FILAMENT_ASSERT(pixel.x < view.size.x && pixel.y < view.size.y, "a picked pixel lies in the view");
         return engine.orNone("picking", {}, [&] {
             return pickerOfRenderer().ask(scene.impl().upToDate(), view, wholeInputOf(view, contentsOf(scene)),
-                                          resources, pixel);
+                                          resources, pixel, aim);
         });
     }
 
@@ -456,10 +456,10 @@ Result<Image> Renderer::waitPixels(PixelTicket ticket) {
     return mImpl->pixels.wait(ticket);
 }
 
-PickTicket Renderer::pick(Scene const& scene, View const& view, uint2 pixel) {
-    const PublicCall call(mImpl, "Renderer::pick(Scene, View, uint2)");
+PickTicket Renderer::pick(Scene const& scene, View const& view, uint2 pixel, PickAim aim) {
+    const PublicCall call(mImpl, "Renderer::pick(Scene, View, uint2, PickAim)");
     mImpl->check(scene);
-    return mImpl->pick(scene, view, pixel);
+    return mImpl->pick(scene, view, pixel, aim);
 }
 std::optional<PickHit> Renderer::takePick(PickTicket ticket) {
     const PublicCall call(mImpl, "Renderer::takePick(PickTicket)");

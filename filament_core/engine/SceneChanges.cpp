@@ -125,6 +125,18 @@ void Scene::setVisible(Node node, bool isVisible) {
     scene::setVisible(mImpl->changed(), node, isVisible);
 }
 
+void Scene::setPickable(Node node, PickAim aim, bool isHit) {
+    const PublicCall call(mImpl, "Scene::setPickable(Node, PickAim, bool)");
+    FILAMENT_ASSERT(aim != PickAim::Anything, "PickAim::Anything hits everything");
+    scene::setPickable(mImpl->data, node, aim, isHit);
+}
+
+bool Scene::isPickable(Node node, PickAim aim) const {
+    const PublicCall call(mImpl, "Scene::isPickable(Node, PickAim)");
+    mImpl->data.transforms.slotOf(node); // asserts that it is there
+    return scene::isPickable(mImpl->data, node, aim);
+}
+
 bool Scene::isVisible(Renderable renderable) const {
     const PublicCall call(mImpl, "Scene::isVisible(Renderable)");
     scene::Renderables const& renderables = mImpl->data.renderables;

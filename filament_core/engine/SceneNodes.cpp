@@ -46,6 +46,7 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     for (Model::Impl::PartLight const& part : parts.lights) {
         lights.push_back(std::visit([&](auto const& light) { return add(light, at(part.node)); }, part.light));
     }
+    engine::setPickRules(parts, *mImpl, nodes);
     mImpl->copies.add({ root, shared, std::move(nodes), std::move(renderables), std::move(lights) });
     if (!parts.properties.empty() || !parts.levels.empty()) engine::hideAsInFile(parts, *mImpl, root);
     return root;

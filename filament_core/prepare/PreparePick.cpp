@@ -3,6 +3,7 @@
 
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/ViewConstants.h"
+#include "filament_core/scene/SceneNodes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,22 +46,30 @@ size_t candidatesIn(std::span<const DrawCall> draws) {
     return count;
 }
 
-std::span<PickCandidate> candidatesOf(Arena& arena, ViewPacket const& view) {
+bool isHit(scene::SceneData const& scene, uint32_t renderable, PickAim aim) {
+    if (scene.atNodes.pickRules.empty()) return true;
+    return scene::isPickable(scene, scene::nodeOf(scene, scene.renderables.index.handleAt(renderable)), aim);
+}
+
+std::span<PickCandidate> candidatesOf(Arena& arena, scene::SceneData const& scene, ViewPacket const& view,
+                                      PickAim aim) {
     const auto candidates = arena.array<PickCandidate>(candidatesIn(view.opaque) + candidatesIn(view.blended));
     size_t count = 0;
     for (const std::span<const DrawCall> draws : { view.opaque, view.blended }) {
         for (DrawCall const& draw : draws) {
             if (!isPickable(draw)) continue;
             for (uint32_t i = 0; i < draw.instanceCount; ++i) {
+                const uint32_t renderable = view.objects.order[draw.firstObject + i].renderable;
+                if (!isHit(scene, renderable, aim)) continue;
                 PickCandidate& candidate = candidates[count++];
-                candidate = { draw, view.objects.order[draw.firstObject + i].renderable };
+                candidate = { draw, renderable };
                 candidate.draw.firstObject += i;
                 candidate.draw.instanceCount = 1;
                 candidate.draw.pass = DrawPass::Only;
             }
         }
     }
-    return candidates;
+    return candidates.first(count);
 }
 
 /// Those whose boxes begin nearest, in their order.
@@ -87,14 +96,14 @@ std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, s
 } // namespace
 
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         uint2 pixel) {
+                         uint2 pixel, PickAim aim) {
     ViewInput reversed = view;
     reversed.quality.depthRange = DepthRange::Reversed;
     const FrameSettings settings = resolve(reversed);
     PreparedView prepared = prepareView(jobs, arena, scene, aroundPixel(reversed, pixel), settings);
     const ViewSpace space = makeViewSpace(reversed);
     const std::span<const PickCandidate> candidates =
-            nearestOf(arena, candidatesOf(arena, prepared.packet), scene.renderables, space);
+            nearestOf(arena, candidatesOf(arena, scene, prepared.packet, aim), scene.renderables, space);
     const auto packets = arena.array<ViewPacket>(1);
     ViewPacket& packet = packets[0];
     packet.kind = ViewKind::Depth; // nothing is lit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// preparePick: what may cover one pixel of a view, one draw for each object, so that each can be drawn by itself.
-///   In      the current scene, the view without jitter, the pixel.
+///   In      the current scene, the view without jitter, the pixel, and for what: nodes can be left out.
 ///   Out     a packet with one view: its opaque draws are the candidates, also those that blend, in the order in which
 ///           the view draws them. The uniforms are those of the view itself, so that what is drawn covers the same
 ///           pixels.
@@ -22,7 +22,7 @@ struct PreparedPick {
 };
 
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         uint2 pixel);
+                         uint2 pixel, PickAim aim = PickAim::Anything);
 
 /// Of a depth that is reversed, the pixel's distance along the view, and the place there.
 struct PickedPoint {

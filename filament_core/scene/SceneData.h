@@ -8,6 +8,7 @@
 #include "filament_core/scene/ContentVersions.h"
 #include "filament_core/scene/Deformations.h"
 #include "filament_core/scene/Materials.h"
+#include "filament_core/scene/PickRules.h"
 #include "filament_core/scene/Renderables.h"
 #include "filament_core/scene/Transforms.h"
 
@@ -64,6 +65,7 @@ struct NodeContents {
     Attachments<LightObject> lights;
     Attachments<SkinObject> skins;
     std::vector<LightPose> lightPoses; ///< by handle index
+    PickRules pickRules;
 };
 
 /// What shaders must know to read an environment.

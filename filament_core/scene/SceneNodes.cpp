@@ -87,9 +87,26 @@ void setVisible(SceneData& scene, Node node, bool isVisible) {
                       [&](Renderable renderable) { setVisible(scene.renderables, renderable, isVisible); });
 }
 
+void setPickable(SceneData& scene, Node node, PickAim aim, bool isHit) {
+    scene.atNodes.pickRules.set(scene.transforms.slotOf(node), aim, isHit);
+}
+
+bool isPickable(SceneData const& scene, Node node, PickAim aim) {
+    PickRules const& rules = scene.atNodes.pickRules;
+    if (rules.empty()) return true;
+    while (node) {
+        const uint32_t slot = scene.transforms.slotOf(node);
+        if (rules.passes(slot, aim)) return false;
+        const Node followed = rules.followed(slot);
+        node = scene.transforms.isAlive(followed) ? followed : scene.transforms.parent(node);
+    }
+    return true;
+}
+
 std::vector<uint32_t> removeNode(SceneData& scene, Node node) {
     std::vector<uint32_t> slots = scene.transforms.remove(node);
     for (const uint32_t slot : slots) {
+        scene.atNodes.pickRules.drop(slot);
         while (const Renderable renderable = scene.atNodes.renderables.first(slot)) removeRenderable(scene, renderable);
         while (const Light light = scene.atNodes.lights.first(slot)) removeLight(scene, light);
     }

@@ -27,6 +27,11 @@ void setLayers(SceneData& scene, Node node, uint8_t select, uint8_t layers);
 void setDrawOrder(SceneData& scene, Node node, DrawOrder place);
 void setVisible(SceneData& scene, Node node, bool isVisible);
 
+/// Whether picks hit the node and what is below it; a node is hit only if all above it are.
+void setPickable(SceneData& scene, Node node, PickAim aim, bool isHit);
+/// With all above.
+bool isPickable(SceneData const& scene, Node node, PickAim aim);
+
 /// Removes the node, its descendants, and every renderable, light and skin attached to them. Returns the indices of the
 /// removed nodes.
 std::vector<uint32_t> removeNode(SceneData& scene, Node node);

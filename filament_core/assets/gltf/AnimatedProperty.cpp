@@ -24,6 +24,8 @@ constexpr float kLargestMeters = 1e30f, kSmallest = 1e-30f, kNarrowestCone = 1e-
 
 constexpr std::array kRows{
     PropertyRow{ "/nodes/{}/extensions/KHR_node_visibility/visible", kNode, NodeVisible, 1, 0, kFloats },
+    PropertyRow{ "/nodes/{}/extensions/KHR_node_selectability/selectable", kNode, NodeSelectable, 1, 0, kFloats },
+    PropertyRow{ "/nodes/{}/extensions/KHR_node_hoverability/hoverable", kNode, NodeHoverable, 1, 0, kFloats },
     PropertyRow{ "/materials/{}/pbrMetallicRoughness/baseColorFactor", kMaterial, BaseColorFactor, 4, 0, 1 },
     PropertyRow{ "/materials/{}/pbrMetallicRoughness/metallicFactor", kMaterial, MetallicFactor, 1, 0, 1 },
     PropertyRow{ "/materials/{}/pbrMetallicRoughness/roughnessFactor", kMaterial, RoughnessFactor, 1, 0, 1 },
@@ -310,6 +312,13 @@ void keepProperty(MaterialData& m, PropertyName name) {
     if (first == Transmission) m.transmission.isAnimated = true;
     if (first == Thickness) m.transmission.isThicknessAnimated = true;
     if (first == AttenuationDistance || first == AttenuationColor) m.transmission.isAbsorptionAnimated = true;
+}
+
+float4 valueOf(NodeData const& node, PropertyName name) {
+    const bool value = name == NodeVisible      ? node.isVisible
+                       : name == NodeSelectable ? node.isSelectable
+                                                : node.isHoverable;
+    return float4(value ? 1.0f : 0.0f, 0, 0, 0);
 }
 
 float4 valueOf(MaterialData const& material, PropertyName name, MapName map) {

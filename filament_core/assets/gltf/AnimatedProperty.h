@@ -17,11 +17,14 @@ namespace filament_core::assets {
 
 struct CameraData;
 struct LightData;
+struct NodeData;
 
 enum class PropertyOwner : uint8_t { Node, Material, Light, Camera };
 
 enum class PropertyName : uint8_t {
     NodeVisible,
+    NodeSelectable,
+    NodeHoverable,
     BaseColorFactor,
     MetallicFactor,
     RoughnessFactor,
@@ -115,6 +118,9 @@ struct PropertyRow {
     bool isDefinedAlways = true; ///< false: it has no default, so that the file must have it
 };
 
+/// Changes from one value to another, never in between.
+inline bool isBoolean(PropertyName name) { return name <= PropertyName::NodeHoverable; }
+
 std::span<const PropertyRow> propertyRows();
 PropertyRow const& rowOf(PropertyName name);
 
@@ -131,6 +137,7 @@ TextureRef& mapOf(MaterialData& material, MapName map);
 /// Keeps what the property is part of in the material, whatever its value is.
 void keepProperty(MaterialData& material, PropertyName name);
 
+float4 valueOf(NodeData const& node, PropertyName name);
 float4 valueOf(MaterialData const& material, PropertyName name, MapName map);
 float4 valueOf(LightData const& light, PropertyName name);
 float4 valueOf(CameraData const& camera, PropertyName name);

@@ -131,7 +131,7 @@ private:
                               output.components, width);
             return false;
         }
-        if (channel.property.name != PropertyName::NodeVisible) return true;
+        if (!isBoolean(channel.property.name)) return true;
         if (output.component == ComponentType::UByte && sampler.interpolation == Interpolation::Step) return true;
         mDiagnostics.warn("{}: a boolean needs unsigned bytes and STEP; the channel is left out", path);
         return false;

@@ -152,6 +152,8 @@ struct GltfNode {
     std::vector<uint32_t> children;
     uint32_t mesh = kNone, skin = kNone, light = kNone, camera = kNone;
     bool isVisible = true;             ///< KHR_node_visibility: false hides it and its descendants
+    bool isSelectable = true;          ///< KHR_node_selectability, KHR_node_hoverability: false lets picks pass
+    bool isHoverable = true;           ///< through it and its descendants
     bool isVisibilityAnimated = false; ///< KHR_animation_pointer: it may be shown later
     bool isCoarserLevel = false;       ///< MSFT_lod: another node is the same thing in more detail
     std::vector<uint32_t> levels;      ///< MSFT_lod: nodes that are the same thing in less detail, the finest first

@@ -156,7 +156,7 @@ void addAnimations(GltfAnimations animations, std::vector<uint32_t> const& newMa
     for (AnimatedProperty& property : model.animatedProperties) {
         switch (property.owner) {
         case PropertyOwner::Node:
-            property.rest = float4(model.nodes[property.object].isVisible ? 1.0f : 0.0f, 0, 0, 0);
+            property.rest = valueOf(model.nodes[property.object], property.name);
             break;
         case PropertyOwner::Material:
             property.object = newMaterial[property.object];

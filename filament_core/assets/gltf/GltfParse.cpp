@@ -252,6 +252,8 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
                      .camera = node["camera"].index(counts.cameras, "cameras"),
                      .isVisible = node.extension("KHR_node_visibility")["visible"].boolean(true),
+                     .isSelectable = node.extension("KHR_node_selectability")["selectable"].boolean(true),
+                     .isHoverable = node.extension("KHR_node_hoverability")["hoverable"].boolean(true),
                      .levels = parseGltfLevels(node, counts.nodes),
                      .coverage = parseGltfCoverage(node),
                      .weights = node["weights"].numberList(),

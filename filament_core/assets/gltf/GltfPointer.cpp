@@ -231,7 +231,7 @@ void keepAnimated(GltfDocument& document) {
         for (GltfAnimationChannel const& channel : animation.channels) {
             if (channel.path != AnimationPath::Property) continue;
             AnimatedProperty const& property = channel.property;
-            if (property.owner == PropertyOwner::Node) document.nodes[property.object].isVisibilityAnimated = true;
+            if (property.name == PropertyName::NodeVisible) document.nodes[property.object].isVisibilityAnimated = true;
             if (property.owner != PropertyOwner::Material) continue;
             GltfMaterial& material = document.materials[property.object];
             keepProperty(material.values, property.name);

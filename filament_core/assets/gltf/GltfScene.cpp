@@ -223,6 +223,8 @@ public:
                                      .morphWeights = {},
                                      .pose = source.pose,
                                      .isVisible = source.isVisible || !source.isVisibilityAnimated,
+                                     .isSelectable = source.isSelectable,
+                                     .isHoverable = source.isHoverable,
                                      .isCoarserLevel = source.isCoarserLevel });
             if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);
             if (isShown && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);

@@ -151,6 +151,8 @@ struct NodeData {
     uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
     NodePose pose{};                 ///< parentFromNode decomposed: the start of animations
     bool isVisible = true;           ///< of its own; false only where an animation may show it
+    bool isSelectable = true;        ///< of its own
+    bool isHoverable = true;         ///< of its own
     uint32_t visibleWith = kNone;    ///< a node of a skinned mesh: the one of the file, before this one
     bool isCoarserLevel = false;     ///< MSFT_lod: at first not shown
 };

@@ -129,8 +129,8 @@ struct Animator::Impl {
     void mixProperty(size_t i, double weight) {
         const float4 a = pose.movesProperty[i] ? pose.properties[i] : rest.properties[i];
         const float4 b = other.movesProperty[i] ? other.properties[i] : rest.properties[i];
-        const bool isBoolean = model.properties[i].name == assets::PropertyName::NodeVisible;
-        pose.properties[i] = isBoolean ? (weight < 0.5 ? a : b) : a + (b - a) * static_cast<float>(weight);
+        const bool isStep = assets::isBoolean(model.properties[i].name);
+        pose.properties[i] = isStep ? (weight < 0.5 ? a : b) : a + (b - a) * static_cast<float>(weight);
         pose.movesProperty[i] = 1;
     }
 

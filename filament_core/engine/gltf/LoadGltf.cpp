@@ -193,6 +193,7 @@ private:
             assets::NodeData const& node = mData.nodes[i];
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
             mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose, node.isVisible,
+                                      node.isSelectable, node.isHoverable,
                                       node.visibleWith == kNone ? Model::Impl::kRoot : node.visibleWith });
             if (node.mesh != kNone) placeMesh(node, i);
             for (const uint32_t light : { node.light, node.profiledLight }) {

@@ -30,6 +30,8 @@ struct Model::Impl {
         double4x4 parentFromNode{ 1.0 };
         assets::NodePose pose{};      ///< the local transform, decomposed
         bool isVisible = true;        ///< of its own, at rest
+        bool isSelectable = true;     ///< of its own, at rest
+        bool isHoverable = true;      ///< of its own, at rest
         uint32_t visibleWith = kRoot; ///< another node that hides it, before this one
     };
     struct PartSkin {

@@ -216,7 +216,7 @@ bool hasTarget(GltfMaterialSettings const& settings, AnimatedProperty const& pro
 void findChangingNodes(Model::Impl& model) {
     std::vector<uint8_t> mayChange(model.nodes.size(), 0);
     for (AnimatedProperty const& property : model.properties) {
-        if (property.owner == PropertyOwner::Node) mayChange[property.object] = 1;
+        if (property.name == NodeVisible) mayChange[property.object] = 1;
     }
     for (assets::LevelsData const& levels : model.levels) {
         for (const uint32_t node : levels.nodes) mayChange[node] = 1;
@@ -242,6 +242,12 @@ void ModelParts::write(std::span<const float4> values, std::span<const uint8_t> 
         if (!isMoved[i] || property.object == kNone) continue;
         switch (property.owner) {
         case PropertyOwner::Node:
+            if (property.name != NodeVisible) {
+                const Node node = copy->nodes[property.object];
+                const PickAim aim = property.name == NodeSelectable ? PickAim::Select : PickAim::Hover;
+                if (mScene.data.transforms.isAlive(node)) scene::setPickable(mScene.data, node, aim, values[i].x != 0);
+                break;
+            }
             if (copy->parts.isVisible.empty()) copy->parts.isVisible = visibleAtRest(mModel);
             copy->parts.isVisible[property.object] = values[i].x != 0;
             movesVisibility = true;
@@ -294,6 +300,16 @@ void ModelParts::writeLights(std::span<const uint8_t> isMoved) {
                 changeLight(mScene, copy.lights[i], copy.parts.lights[part.source], property.name,
                             copy.parts.isShown[part.node]);
         }
+    }
+}
+
+void setPickRules(Model::Impl const& model, Scene::Impl& scene, std::span<const Node> nodes) {
+    for (size_t i = 0; i < model.nodes.size(); ++i) {
+        Model::Impl::PartNode const& node = model.nodes[i];
+        if (!node.isSelectable) scene::setPickable(scene.data, nodes[i], PickAim::Select, false);
+        if (!node.isHoverable) scene::setPickable(scene.data, nodes[i], PickAim::Hover, false);
+        if (node.visibleWith != Model::Impl::kRoot)
+            scene.data.atNodes.pickRules.follow(nodes[i].index(), nodes[node.visibleWith]);
     }
 }
 

@@ -50,6 +50,9 @@ void findChangingNodes(Model::Impl& model);
 /// animation and no level of detail changes.
 void showParts(Model::Impl const& model, Scene::Impl& scene, CopyOfModel& copy);
 
+/// Which nodes of a new copy picks pass through: as in the file. Skinned meshes follow the nodes of the file.
+void setPickRules(Model::Impl const& model, Scene::Impl& scene, std::span<const Node> nodes);
+
 /// Hides parts of a new copy that are invisible at rest.
 void hideAsInFile(Model::Impl const& model, Scene::Impl& scene, Node root);
 

@@ -47,6 +47,9 @@ using Light = ObjectHandle<struct LightObject>;           ///< of one Scene
 using Skin = ObjectHandle<struct SkinObject>;             ///< of one Scene
 using Node = ObjectHandle<struct NodeObject>;             ///< of one Scene
 
+/// What a pick is for. Nodes can be left out of picks of the first two aims: Scene::setPickable().
+enum class PickAim : uint8_t { Select, Hover, Anything };
+
 /// Bit n: layer n. A view shows the renderables of its layers (View::visibleLayers): a renderable in view is drawn, and
 /// casts shadows, if it is in one of them. Lights have no layers, but LightChannels.
 using Layers = uint8_t;

@@ -125,7 +125,8 @@ public:
     /// everything that may cover it, in a submission of its own; frames cost nothing for it. `pixel`: from the left and
     /// from the top of the view, below View::size. A ticket of 0 means out of memory. Up to 4096 renderables along the
     /// pixel are tried, the nearest first. docs/views.md, "Picking".
-    PickTicket pick(Scene const& scene, View const& view, uint2 pixel);
+    /// Passes through nodes that are not to be hit by `aim` (Scene::setPickable()).
+    PickTicket pick(Scene const& scene, View const& view, uint2 pixel, PickAim aim = PickAim::Select);
     /// None: not answered yet. A hit without a renderable also when the device was lost.
     std::optional<PickHit> takePick(PickTicket ticket);
     Result<PickHit> waitPick(PickTicket ticket);

@@ -112,6 +112,12 @@ public:
     /// For all renderables attached to the node or below it: a copy of a model, for example.
     void setVisible(Node node, bool isVisible);
     bool isVisible(Renderable renderable) const;
+    /// Whether picks of this aim (PickAim::Select or Hover) hit renderables attached to the node or below it; others
+    /// pass through to what is behind. A node is hit only if all nodes above it are. glTF files say it at first
+    /// (KHR_node_selectability, KHR_node_hoverability).
+    void setPickable(Node node, PickAim aim, bool isHit);
+    /// With all nodes above.
+    bool isPickable(Node node, PickAim aim) const;
     /// Takes effect with the next frame.
     void setMaterial(Renderable renderable, MaterialInstance material);
     /// Takes effect with the next frame. Renderables that differ in their channels share no instanced draw.

@@ -524,7 +524,7 @@ TEST(MisuseOfOwnersDeathTest, ASceneIsDrawnByRenderersOfItsEngine) {
                  line("Renderer::prewarm(Scene, View, SwapChain)"));
     EXPECT_DEATH(renderer.prewarm(other.scene, view, world.all.target),
                  line("Renderer::prewarm(Scene, View, RenderTarget)"));
-    EXPECT_DEATH(renderer.pick(other.scene, view, {}), line("Renderer::pick(Scene, View, uint2)"));
+    EXPECT_DEATH(renderer.pick(other.scene, view, {}), line("Renderer::pick(Scene, View, uint2, PickAim)"));
     EXPECT_DEATH((void)renderer.renderToImage(other.scene, view), line("Renderer::renderToImage(Scene, View)"));
 }
 

@@ -47,7 +47,7 @@ bool InspectedEngine::follow(Document const& document, uint2 pixel) {
         startPicture();
     } else if (mPicked != pixel) {
         mPicking = pixel;
-        mPick = mStage->renderer().pick(mStage->scene(), mStage->view(), pixel);
+        mPick = mStage->renderer().pick(mStage->scene(), mStage->view(), pixel, PickAim::Anything);
     }
     return isNew;
 }

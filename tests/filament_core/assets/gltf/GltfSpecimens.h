@@ -7,6 +7,7 @@
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/assets/gltf/ImageBasedLightFile.h"
+#include "tests/filament_core/assets/image/DdsWriter.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
 #include "tools/paths/Paths.h"
 
@@ -209,9 +210,36 @@ inline Specimen basisSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
+/// Strips that restart, nodes that picks pass through, and textures of ASTC and DDS.
+inline Specimen restartSpecimen() {
+    TestFile file = TestFile::triangle();
+    file.attribute("TEXCOORD_0", std::vector<float>{ 0, 0, 1, 0, 0, 1 }, kFloat, "VEC2", 2);
+    file.indices({ 0, 1, 2 });
+    file.primitive()["mode"] = 5;
+    file.primitive()["material"] = 0;
+    const size_t all = file.add(std::vector<uint16_t>{ 0, 1, 2, 65535, 0, 1, 2 }, kUShort, "SCALAR", 1);
+    file.root["meshes"][0]["primitives"].push_back(file.primitive());
+    file.root["meshes"][0]["extensions"]["EXT_mesh_primitive_restart"]["primitiveGroups"] = {
+        { { "primitives", { 0, 1 } }, { "indices", all } }
+    };
+    file.root["nodes"][0]["extensions"] = Json::parse(R"({ "KHR_node_selectability": { "selectable": false },
+        "KHR_node_hoverability": { "hoverable": false } })");
+    const Bytes astc =
+            Ktx2Writer{ .format = 165, .width = 8, .height = 8, .levels = { Bytes(64, std::byte{ 0x52 }) } }.file();
+    const Bytes dds = DdsWriter{ .dxgi = 98, .width = 8, .height = 4, .texels = Bytes(32, std::byte{ 0x40 }) }.file();
+    for (Bytes const& image : { astc, dds }) file.root["images"].push_back({ { "bufferView", file.addView(image) } });
+    file.root["textures"] = Json::parse(R"([ { "extensions": { "EXT_texture_astc": { "source": 0 } } },
+        { "extensions": { "MSFT_texture_dds": { "source": 1 } } } ])");
+    file.root["materials"] =
+            Json::parse(R"([ { "emissiveTexture": { "index": 0 }, "normalTexture": { "index": 1 } } ])");
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 /// Written ones, and models of the asset folder if there is one.
 inline std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen(), pointerSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen(), pointerSpecimen(),
+                                     restartSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
