@@ -174,9 +174,9 @@ void declareCustomVaryings(StageText& out, MaterialDefinition const& definition,
 
 void declareOutputs(StageText& out, MaterialDefinition const& definition, uint32_t firstLocation) {
     static constexpr const char* kTypes[] = { "float", "vec2", "vec3", "vec4" };
-    const std::vector<Output> usual(1);
+    const std::vector<EffectOutput> usual(1);
     std::string members, clear, write;
-    for (Output const& output : definition.outputs.empty() ? usual : definition.outputs) {
+    for (EffectOutput const& output : definition.outputs.empty() ? usual : definition.outputs) {
         const char* const type = kTypes[output.components - 1];
         const std::string target = output.isDepth ? "gl_FragDepth" : "fragment_" + output.name;
         members += fmt::format("{} {}; ", type, output.name);

@@ -35,7 +35,7 @@ struct Variable {
 };
 
 /// What an effect writes: a colour attachment, or the depth.
-struct Output {
+struct EffectOutput {
     std::string name = "color";
     uint32_t components = 4; ///< floats
     bool isDepth = false;
@@ -62,9 +62,9 @@ struct MaterialDefinition {
     MaterialPackage package; ///< the compiler adds attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
-    std::vector<Output> outputs;     ///< of effects; none: one colour
-    uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`
-    bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
+    std::vector<EffectOutput> outputs; ///< of effects; none: one colour
+    uint32_t requiredAttributes = 0;   ///< bit n: location n, from `requires`
+    bool halfPrecision = false;        ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
     bool wideLines =

@@ -283,7 +283,7 @@ Result<void> readOutput(JsonValue const& item, MaterialDefinition& out) {
     static constexpr std::pair<std::string_view, uint32_t> kOutputTypes[] = {
         { "float", 1 }, { "float2", 2 }, { "float3", 3 }, { "float4", 4 }
     };
-    Output output;
+    EffectOutput output;
     JsonValue const* name = nullptr;
     Result<void> done = expectKind(item, JsonValue::Kind::Object, "output");
     if (done) done = expectOnly(item, kOutputFields, "output", out.warnings);
@@ -304,14 +304,14 @@ Result<void> readOutput(JsonValue const& item, MaterialDefinition& out) {
     }
     if (!done) return done;
     if (output.isDepth && output.components != 1) return errorAt(item.at, "the output of depth is a float");
-    output.location = static_cast<uint32_t>(std::ranges::count(out.outputs, false, &Output::isDepth));
+    output.location = static_cast<uint32_t>(std::ranges::count(out.outputs, false, &EffectOutput::isDepth));
     if (JsonValue const* location = findMember(item, "location")) {
         float number = 0;
         if (Result<void> isNumber = readNumber(*location, "location", 0, kMaxOutputs - 1, number); !isNumber)
             return isNumber;
         output.location = static_cast<uint32_t>(number);
     }
-    for (Output const& other : out.outputs) {
+    for (EffectOutput const& other : out.outputs) {
         const bool isSame = other.isDepth == output.isDepth && (output.isDepth || other.location == output.location);
         if (other.name == output.name || isSame)
             return errorAt(item.at, fmt::format("the outputs '{}' and '{}' have the same name or place", other.name,

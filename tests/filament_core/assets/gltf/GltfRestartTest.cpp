@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr int kLineLoop = 2, kLineStrip = 3, kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+constexpr int kLineLoop = 2, kLineStrip = 3, kTriangleList = 4, kTriangleStrip = 5, kTriangleFan = 6;
 
 using Runs = std::vector<std::vector<uint32_t>>;
 
@@ -93,7 +93,7 @@ TEST(GltfRestart, AGroupIsTheListOfItsStripsLoopsAndFans) {
         const Runs runs = runsOf(vertices, random);
         TestFile file = pointsOf(vertices, random), listed = file;
         const PrimitiveData merged = onlyPrimitive(restarting(file, mode, runs, type));
-        listed.primitive()["mode"] = mode <= kLineStrip ? 1 : kTriangles;
+        listed.primitive()["mode"] = mode <= kLineStrip ? 1 : kTriangleList;
         listed.primitive()["indices"] = addIndices(listed, listOf(mode, runs), kUShort);
         EXPECT_EQ(cornersOf(merged), cornersOf(onlyPrimitive(listed))) << "turn " << turn << " mode " << mode;
     }
@@ -103,7 +103,7 @@ TEST(GltfRestart, AGroupTakesThePlaceOfItsFirstPrimitive) {
     std::mt19937 random(4);
     TestFile file = restarting(pointsOf(8, random), kTriangleStrip, { { 0, 1, 2 }, { 3, 4, 5 } }, kUShort);
     Json alone = file.root["meshes"][0]["primitives"][0];
-    alone["mode"] = kTriangles;
+    alone["mode"] = kTriangleList;
     alone["indices"] = addIndices(file, { 5, 6, 7 }, kUShort);
     file.root["meshes"][0]["primitives"].insert(file.root["meshes"][0]["primitives"].begin() + 1, alone);
     file.root["meshes"][0]["extensions"]["EXT_mesh_primitive_restart"]["primitiveGroups"][0]["primitives"] = { 2, 0 };
@@ -133,7 +133,7 @@ TEST(GltfRestart, AGroupThatBreaksARuleIsIgnoredWithAWarning) {
                       "one");
     EXPECT_THAT(warningOf([](TestFile&, Json&, Json& groups) { groups.push_back(groups[0]); }),
                 HasSubstr(where + "1]: a primitive is named twice"));
-    EXPECT_THAT(warningOf([](TestFile&, Json& primitives, Json&) { primitives[1]["mode"] = kTriangles; }),
+    EXPECT_THAT(warningOf([](TestFile&, Json& primitives, Json&) { primitives[1]["mode"] = kTriangleList; }),
                 HasSubstr("a primitive is no strip, loop or fan"));
     EXPECT_THAT(warningOf([](TestFile&, Json& primitives, Json&) { primitives[1]["mode"] = kTriangleFan; }),
                 HasSubstr("its primitives differ in more than their indices"));
