@@ -122,9 +122,9 @@ TEST(LoadImage, SaysWhyThereIsNone) {
     const Result<Image> text = loadImage(std::as_bytes(std::span(kText)), "a.gif");
     EXPECT_EQ(text.error().code, ErrorCode::Unsupported);
     EXPECT_EQ(message(text),
-              "image 'a.gif' is none of PNG, JPEG, WebP, AVIF, KTX2, HDR and EXR; convert it to one of them");
+              "image 'a.gif' is none of PNG, JPEG, WebP, AVIF, KTX2, DDS, HDR and EXR; convert it to one of them");
     EXPECT_EQ(message(loadImage({}, "nothing")),
-              "image 'nothing' is none of PNG, JPEG, WebP, AVIF, KTX2, HDR and EXR; convert it to one of "
+              "image 'nothing' is none of PNG, JPEG, WebP, AVIF, KTX2, DDS, HDR and EXR; convert it to one of "
               "them");
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Models as gltfpack and glTF-Transform pack them look like the models themselves, within the quantisation.
 #include "tests/filament_core/assets/NpmPackages.h"
-#include "tests/filament_core/engine/materials/MaterialStage.h"
+#include "tests/filament_core/engine/RenderFixture.h"
 
 #include <filament_core/Animator.h>
 #include <filament_core/Gltf.h>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <unistd.h>
 
 namespace filament_core::packed_models {
@@ -53,27 +54,56 @@ constexpr std::array kModels{
     "VertexColorTest/VertexColorTest.glb",
 };
 
-/// From where all of `seen` is in the image; an empty box becomes that of the model.
-Image draw(fs::path const& file, Box& seen) {
-    return test::onBothApis([&](test::MaterialStage& stage) {
-        Result<Model> loaded = loadGltf(stage.engine, file);
-        ASSERT_TRUE(loaded) << loaded.error().message;
-        const auto model = std::make_shared<Model>(std::move(*loaded));
-        stage.keep(model);
-        const Node root = stage.scene.add(*model);
-        if (model->animationCount() > 0) Animator(*model, stage.scene, root).apply(0, kSeconds);
+/// An engine of each API, which keep what they compiled from model to model.
+class Studio {
+public:
+    /// From where all of `seen` is in the image; an empty box becomes that of the model. The same bits on both APIs.
+    Image draw(fs::path const& file, Box& seen) {
+        std::array<Image, 2> images;
+        for (size_t i = 0; i < images.size(); ++i) images[i] = drawOn(*mEngines[i], *mRenderers[i], file, seen);
+        EXPECT_FALSE(images[0].pixels.empty());
+        EXPECT_EQ(images[0].pixels, images[1].pixels) << "not the same bits on both APIs";
+        return std::move(images[0]);
+    }
+
+    static std::unique_ptr<Studio> open() {
+        auto studio = std::make_unique<Studio>();
+        for (size_t i = 0; i < studio->mEngines.size(); ++i) {
+            studio->mEngines[i] = test::makeEngine(test::kBothApis[i]);
+            if (!studio->mEngines[i]) return nullptr;
+            studio->mRenderers[i].emplace(*studio->mEngines[i]);
+        }
+        return studio;
+    }
+
+private:
+    static Image drawOn(Engine& engine, Renderer& renderer, fs::path const& file, Box& seen) {
+        Result<Model> model = loadGltf(engine, file);
+        if (!model) {
+            ADD_FAILURE() << model.error().message;
+            return {};
+        }
+        Scene scene(engine);
+        const Node root = scene.add(*model);
+        if (model->animationCount() > 0) Animator(*model, scene, root).apply(0, kSeconds);
         for (const float side : { -0.7f, 0.7f })
-            stage.scene.add(SunLight{ .directionWorld = { side, -0.5f, -0.5f }, .illuminance = Lux{ 2 } });
+            scene.add(SunLight{ .directionWorld = { side, -0.5f, -0.5f }, .illuminance = Lux{ 2 } });
         if (seen.empty()) seen = model->bounds();
         const double3 center = seen.center();
         const double distance = glm::length(seen.max - seen.min) * 1.3;
-        stage.view.clearColor = float4(0.2f, 0.3f, 0.4f, 1);
-        stage.view.size = { 160, 120 };
-        stage.view.camera = Camera::lookAt(center + double3(0.3, 0.2, 0.93) * distance, center,
-                                           { .verticalFovDegrees = 45, .nearMeters = float(distance) * 0.05f });
-        stage.view.camera.exposure = { .aperture = 1, .shutterSeconds = 1, .iso = 100 };
-    });
-}
+        View view{ .size = { 160, 120 } };
+        view.clearColor = float4(0.2f, 0.3f, 0.4f, 1);
+        view.camera = Camera::lookAt(center + double3(0.3, 0.2, 0.93) * distance, center,
+                                     { .verticalFovDegrees = 45, .nearMeters = float(distance) * 0.05f });
+        view.camera.exposure = { .aperture = 1, .shutterSeconds = 1, .iso = 100 };
+        Image image = test::renderLinear(engine, renderer, scene, view);
+        test::expectNoErrors(engine);
+        return image;
+    }
+
+    std::array<std::optional<Engine>, 2> mEngines;
+    std::array<std::optional<Renderer>, 2> mRenderers; // destroyed before the engines
+};
 
 /// Of two images, clipped to [0, 1].
 struct Difference {
@@ -108,13 +138,15 @@ TEST_P(PackedModels, LookLikeTheirOriginals) {
     if (tools::assetDir().empty() || !fs::exists(original)) GTEST_SKIP() << "needs FILAMENT_ASSET_DIR";
     const fs::path npm = assets::npmFolder("npm-packers", "gltfpack@1.3.0 @gltf-transform/cli@4.5.1");
     if (npm.empty()) GTEST_SKIP() << "needs node, npm and its registry for gltfpack and @gltf-transform/cli";
+    const std::unique_ptr<Studio> studio = Studio::open();
+    ASSERT_TRUE(studio);
     Box seen;
-    const Image reference = draw(original, seen);
+    const Image reference = studio->draw(original, seen);
     const fs::path packed = fs::path(testing::TempDir()) / fmt::format("packed-{}.glb", getpid());
     for (Packer const& packer : kPackers) {
         SCOPED_TRACE(packer.name);
         ASSERT_TRUE(pack(packer, npm, original, packed));
-        const Difference difference = between(draw(packed, seen), reference);
+        const Difference difference = between(studio->draw(packed, seen), reference);
         EXPECT_LT(difference.mean, 0.0008);
         EXPECT_LT(difference.share, 0.003);
         fs::remove(packed);
