@@ -177,7 +177,7 @@ TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
                                     "constants : [ { name : a, type : bool, default : 3 } ]",
                                     "constants : [ { name : a, type : int, default : 0.5 } ]",
                                     "constants : [ { name : a, type : float3 } ]",
-                                    "variables : [ a, b, c, d, e ]",
+                                    "variables : [ a, b, c, d, e, f ]",
                                     "variables : [ a, a ]",
                                     "name : a, name : b",
                                     "domain : postprocess, shadingModel : lit",
@@ -219,9 +219,9 @@ TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
 TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
     EXPECT_THAT(failureOf("material {}\nfragment { void main2() {} }").message,
                 HasSubstr("void material(inout MaterialInputs material)"));
-    EXPECT_THAT(failureOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message,
+    EXPECT_THAT(failureOf("material {}\nvertex { void main2() {} }" + std::string(kEmptyFragment)).message,
                 HasSubstr("materialVertex"));
-    EXPECT_THAT(failureOf("material {}").message, HasSubstr("there is no fragment block"));
+    EXPECT_THAT(failureOf("material { domain : postprocess }").message, HasSubstr("there is no fragment block"));
 }
 
 // ---------------------------------------------------------------------------------------------- variants and layout
