@@ -233,7 +233,7 @@ TEST_F(RenderProgram, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine)
     expectRefused("tint.mat --parameter tnit=1,0,0", { "tnit", "did you mean 'tint'?" });
     expectRefused("tint.mat --parameter tint=1,0", { "tint", "3 numbers" });
     expectRefused("tint.mat --parameter tint", { "--parameter", "NAME=VALUE" });
-    writeText(sFolder / "broken.mat", "material {}\nfragment {}");
+    writeText(sFolder / "broken.mat", "material {}\nfragment { void main2() {} }");
     expectRefused("broken.mat", { "broken.mat:2", "material(" });
 }
 
