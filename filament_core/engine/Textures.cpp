@@ -60,12 +60,13 @@ void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner c
 void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (owner) commands.keep(owner);
-    const backend::DeviceTextureDesc device = backendDesc(desc);
+    const DeviceTextureDesc layered{ .type = engine::textureType(desc.kind),
+                                     .layers = static_cast<uint16_t>(desc.layers) };
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
     for (uint32_t level = 0; level < levels; ++level) {
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
-        const uint32_t layers = layersOfLevel(device, level);
+        const uint32_t layers = layersOfLevel(layered, level);
         const size_t bytes = imageBytes(desc.format, width, height) * layers;
         FILAMENT_ASSERT(offset + bytes <= desc.pixels.size(), "`pixels` holds all layers of all levels");
         recordBytes(commands,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normals of normal maps: decoding, blending two of them, and the roughness of those that a mip level averages away. All
-// in tangent space, with z along the surface's own normal.
+// Normal maps: decoding a texel, blending two maps, and specular anti-aliasing: the roughness that replaces the detail lost
+// in mip levels. All in tangent space, with z along the surface's own normal.
 
 // A texel [0, 1]^3 as a unit vector; scale exaggerates the slopes, like glTF's normalTexture.scale. Returns +z for an
 // invalid normal.

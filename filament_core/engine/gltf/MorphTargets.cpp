@@ -59,7 +59,8 @@ scene::MinMax reachOf(MorphTargetDesc const& target) {
 } // namespace
 
 MorphTargets Engine::Impl::createMorphTargets(MorphTargetsDesc const& desc) {
-    FILAMENT_ASSERT(desc.vertexCount > 0 && !desc.targets.empty(), "morph targets have vertices, and are not none");
+    FILAMENT_ASSERT(desc.vertexCount > 0 && !desc.targets.empty(),
+                    "morph targets have vertices, and there is at least one target");
     for (MorphTargetDesc const& target : desc.targets) checkTarget(target, desc.vertexCount);
     engine::Draft draft(morphTargets);
     engine::MorphTargetsState& state = draft.state();

@@ -5,7 +5,7 @@
 #include "shaders/material/gltf/emission.glsl"
 #include "shaders/material/gltf/vectors.glsl"
 
-// The normal, and in w the width of those that the texel averages (normalWidth()), if the loader computed it.
+// xyz: the normal, not normalised. w: normalWidth() of the mip level, the roughness of its lost detail; 0 without it.
 vec4 gltfNormal() {
     vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
     vec4 texel = texture(materialParams_normalMap, uv);
@@ -15,7 +15,7 @@ vec4 gltfNormal() {
             materialConstants_normalWidth ? texel.a * materialParams.normalScale : 0.0);
 }
 
-// Sets the normal. Returns its width.
+// Sets the normal. Returns w of gltfNormal().
 float gltfSurfaceNormal(inout MaterialInputs material) {
     if (!materialConstants_hasNormalMap) return 0.0;
     vec4 normal = gltfNormal();

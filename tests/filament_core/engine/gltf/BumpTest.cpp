@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // EXT_materials_bump on both APIs, against quads whose normals are tilted by the slope of the heights.
-#include "filament_core/assets/gltf/GltfWriter.h"
+#include "tests/filament_core/engine/gltf/QuadFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <filament_core/Gltf.h>
@@ -60,25 +60,12 @@ Quad plain() {
     return quad;
 }
 
-std::vector<std::byte> fileOf(Quad const& quad) {
-    assets::GlbScene scene{ .images = pictures() };
-    scene.materials.push_back(quad.material);
-    scene.meshes.push_back({ .name = "quad",
-                             .primitives = { { .positions = { { -1, 1, 0 }, { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 } },
-                                               .normals = std::vector<float3>(4, glm::normalize(quad.normal)),
-                                               .uvs = quad.uvs,
-                                               .indices = { 0, 1, 2, 0, 2, 3 },
-                                               .material = 0 } } });
-    scene.nodes.push_back({ .name = "quad", .mesh = 0 });
-    const Result<std::vector<std::byte>> glb = assets::writeGlb(scene);
-    EXPECT_TRUE(glb) << glb.error().message;
-    return *glb;
-}
-
 /// 24 pixels for the middle 1.5 metres of the quad, under a sun.
 Image pictureOf(Quad const& quad) {
     return test::onBothApis([&](MaterialStage& stage) {
-        Result<Model> model = loadGltf(stage.engine, GltfMemory{ .file = fileOf(quad), .name = "relief.glb" });
+        Result<Model> model = loadGltf(
+                stage.engine, GltfMemory{ .file = test::quadFile(pictures(), quad.material, quad.uvs, quad.normal),
+                                          .name = "relief.glb" });
         ASSERT_TRUE(model) << model.error().message;
         const auto kept = std::make_shared<Model>(std::move(*model));
         stage.keep(kept);

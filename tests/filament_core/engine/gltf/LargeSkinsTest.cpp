@@ -197,7 +197,8 @@ TEST(LargeSkins, BonesMayBecomeMoreFromFrameToFrame) {
 }
 
 TEST(LargeSkins, AFileWith300JointsMovesItsLastOne) {
-    if (!assets::hasFaultFiles()) GTEST_SKIP() << "no files of faults beside the assets";
+    using assets::hasFaultFiles;
+    SKIP_WITHOUT_FAULT_FILES();
     std::vector<Image> images;
     for (const Backend backend : test::kBothApis) {
         auto engine = test::makeEngine(backend);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // GltfLoadOptions::normalMapRoughness on both APIs: stripes that a pixel averages look like an even surface that is as
 // much rougher, whatever maps the material has.
-#include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/NormalWidths.h"
 #include "shaders/lib/LibCpp.h"
+#include "tests/filament_core/engine/gltf/QuadFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
 #include <filament_core/Gltf.h>
@@ -64,19 +64,7 @@ MaterialData striped(Map normals = kStripes) {
 }
 
 std::vector<std::byte> quadOf(MaterialData const& material) {
-    assets::GlbScene scene{ .images = mapsOfQuad() };
-    scene.materials.push_back(material);
-    const float2 end(kRepeats);
-    scene.meshes.push_back({ .name = "quad",
-                             .primitives = { { .positions = { { -1, 1, 0 }, { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 } },
-                                               .normals = std::vector<float3>(4, float3(0, 0, 1)),
-                                               .uvs = { { 0, 0 }, { 0, end.y }, end, { end.x, 0 } },
-                                               .indices = { 0, 1, 2, 0, 2, 3 },
-                                               .material = 0 } } });
-    scene.nodes.push_back({ .name = "quad", .mesh = 0 });
-    const Result<std::vector<std::byte>> glb = assets::writeGlb(scene);
-    EXPECT_TRUE(glb) << glb.error().message;
-    return *glb;
+    return test::quadFile(mapsOfQuad(), material, { { 0, 0 }, { 0, kRepeats }, float2(kRepeats), { kRepeats, 0 } });
 }
 
 /// 24 pixels for the middle 1.5 metres of the quad.
