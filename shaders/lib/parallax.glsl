@@ -9,7 +9,7 @@
 // fp32 only: texture coordinates.
 
 #ifndef PARALLAX_HEIGHT
-#define PARALLAX_HEIGHT(uv) 1.0f
+#define PARALLAX_HEIGHT(uv) (1.0f + 0.0f * (uv).x) // all at the surface; names uv, or compilers find it unused
 #endif
 
 // Below this the ray would run along the surface.
@@ -62,6 +62,26 @@ vec3 parallaxOcclusion(vec2 uv, vec3 viewTangent, float scale, int layers) {
             1.0f - PARALLAX_HEIGHT(uvAfter));
     vec2 at = uvBefore - back * fraction;
     return vec3(at.x, at.y, after.z - layerDepth * (1.0f - fraction));
+}
+
+// How much of a light reaches a point of the field past the relief between them. Tatarchuk 2006, as above, takes the
+// highest blocker; here a blocker counts by the slope between it and the ray, so a penumbra widens with the distance. One
+// fetch a layer.
+//   hit           uv and depth, of parallaxSteep() or parallaxOcclusion().
+//   lightTangent  as viewTangent; from below the surface, z <= 0, no light comes.
+//   softness      slope from the lowest to the highest point of the light: 0 is hard. layers in [2, 256].
+// Returns [0, 1]. fp32 only.
+float parallaxShadow(vec3 hit, vec3 lightTangent, float scale, int layers, float softness) {
+    vec2 uv = vec2(hit.x, hit.y);
+    float depth = 1.0f - PARALLAX_HEIGHT(uv); // not that of the hit: below the field it would shadow itself
+    vec2 shift = parallaxShift(lightTangent, scale) * depth;
+    float blocked = 0.0f;
+    for (int i = 1; i < layers; ++i) {
+        float way = float(i) / float(layers);
+        float above = depth * (1.0f - way) - (1.0f - PARALLAX_HEIGHT(uv + shift * way));
+        blocked = max(blocked, above / max(depth * way, 1e-6f));
+    }
+    return lightTangent.z > 0.0f ? saturate(1.0f - blocked / max(softness, 1e-3f)) : 0.0f;
 }
 
 #undef PARALLAX_HEIGHT

@@ -70,6 +70,23 @@ TEST(Parallax, GrazingViewsMoveAFiniteDistance) {
     EXPECT_EQ(shift, vec2(16 * kScale, 0));
 }
 
+// The ray over the ramp climbs against its slope of 1: it is blocked where it climbs less, by the difference.
+TEST(Parallax, TheShadowOfARampIsTheSlopeThatTheLightLacks) {
+    for (const int layers : { 2, 16, 64 }) {
+        for (const float reach : { 4.0f, 1.0f, 0.5f, -0.5f, -0.99f, -1.1f, -1.2f, -1.3f, -3.0f }) {
+            const vec3 light = glm::normalize(vec3(reach / kScale, 0.4f, 1));
+            const float lit = relief::parallaxShadow(vec3(0.6f, 0.5f, 0.63f), light, kScale, layers, 0.25f);
+            EXPECT_NEAR(lit, saturate(1 - std::max(-1 - reach, 0.0f) / 0.25f), 4e-5f) << reach << ' ' << layers;
+        }
+    }
+    const vec3 hit(0.6f, 0.5f, 0.6f);
+    EXPECT_EQ(relief::parallaxShadow(hit, glm::normalize(vec3(1, 0, -0.1f)), kScale, 16, 0.25f), 0) << "from below";
+    EXPECT_EQ(relief::parallaxShadow(hit, glm::normalize(vec3(-8, 0, 1)), kScale, 16, 0), 0) << "hard";
+    EXPECT_EQ(relief::parallaxShadow(vec3(0, 0.5f, 0), glm::normalize(vec3(-8, 0, 1)), kScale, 16, 0.25f), 1)
+            << "on top";
+    EXPECT_EQ(parallaxShadow(hit, glm::normalize(vec3(-8, 0, 1)), kScale, 16, 0.25f), 1) << "flat";
+}
+
 TEST(Parallax, WithoutHeightsTheSurfaceIsFlat) {
     EXPECT_EQ(parallaxPlain(vec2(0.2f, 0.3f), glm::normalize(vec3(1, 2, 1)), 1.0f), vec2(0.2f, 0.3f));
 }

@@ -215,6 +215,8 @@ std::vector<Row> parallaxRows() {
         flatRow("parallaxSteep(vec2, vec3, float, int)", NUMERICS_CALL(parallaxSteep(vec2(s.x, s.y), u, s.z, 16))),
         flatRow("parallaxOcclusion(vec2, vec3, float, int)",
                 NUMERICS_CALL(parallaxOcclusion(vec2(s.x, s.y), u, s.z, 16))),
+        flatRow("parallaxShadow(vec3, vec3, float, int, float)",
+                NUMERICS_CALL(parallaxShadow(vec3(s.x, s.y, s.z), u, s.z, 16, 0.25f))),
     };
 }
 
