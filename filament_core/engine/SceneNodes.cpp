@@ -15,6 +15,22 @@ Node Scene::add(NodeDesc const& desc) {
     return mImpl->changed().transforms.add(desc.parent, desc.parentFromNode, desc.name);
 }
 
+Node Scene::addInstances(RenderableDesc const& desc, uint32_t count, std::span<const double4x4> nodeFromInstance) {
+    const PublicCall call(mImpl, "Scene::addInstances(RenderableDesc, uint32_t, span<double4x4>)", desc.name);
+    FILAMENT_ASSERT(nodeFromInstance.empty() || nodeFromInstance.size() == count,
+                    "instances have one transform each, or none has");
+    FILAMENT_ASSERT(!desc.skin, "instances have no skin: a skin poses renderables of its own node");
+    const Node root = add(NodeDesc{ desc.node, desc.worldFromObject, desc.name });
+    RenderableDesc copy = desc;
+    copy.worldFromObject = double4x4(1.0);
+    for (uint32_t i = 0; i < count; ++i) {
+        copy.node = nodeFromInstance.empty() ? root : add(NodeDesc{ root, nodeFromInstance[i] });
+        copy.instanceIndex = desc.instanceIndex + i;
+        add(copy);
+    }
+    return root;
+}
+
 Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     const PublicCall call(mImpl, "Scene::add(Model, double4x4)");
     const std::shared_ptr<const Model::Impl> shared = engine::shareOf(model, mImpl->engine);

@@ -151,27 +151,23 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
 
 Node MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels,
                           MaterialInstance instance) const {
-    const Node root = scene.add(NodeDesc{ .parentFromNode = worldFromObject, .name = mName });
-    const auto below = [&](double4x4 const& place) {
-        return scene.add(NodeDesc{ .parent = root, .parentFromNode = place });
-    };
-    for (uint32_t i = 0; i < mInstances; ++i) {
-        scene.add({ .vertices = mMesh.vertices,
-                    .indices = mMesh.indices,
-                    .material = instance ? instance : mInstance.get(),
-                    .bounds = Box{ double3(-1), double3(1) },
-                    .node = below(placeInRow(i, mInstances)),
-                    .instanceIndex = i,
-                    .culled = mIsInObjectSpace,
-                    .lightChannels = channels,
-                    .name = mName });
-    }
+    std::vector<double4x4> places;
+    for (uint32_t i = 0; i < mInstances; ++i) places.push_back(placeInRow(i, mInstances));
+    const Node root = scene.addInstances({ .vertices = mMesh.vertices,
+                                           .indices = mMesh.indices,
+                                           .material = instance ? instance : mInstance.get(),
+                                           .bounds = Box{ double3(-1), double3(1) },
+                                           .worldFromObject = worldFromObject,
+                                           .culled = mIsInObjectSpace,
+                                           .lightChannels = channels,
+                                           .name = mName },
+                                         mInstances, places);
     if (!mSlabMaterial.get()) return root;
     scene.add({ .vertices = mBox.vertices,
                 .indices = mBox.indices,
                 .material = mSlabInstance,
                 .bounds = Box{ double3(-0.7f), double3(0.7f) },
-                .node = below(slabPlace()),
+                .node = scene.add(NodeDesc{ .parent = root, .parentFromNode = slabPlace() }),
                 .lightChannels = channels,
                 .name = "slab" });
     return root;

@@ -84,6 +84,13 @@ public:
     ~Scene();
 
     Renderable add(RenderableDesc const& desc);
+    /// Adds copies of one renderable, which getInstanceIndex() numbers from desc.instanceIndex on, below a new node.
+    /// Its parent is desc.node, its transform desc.worldFromObject; to remove, hide or move it does so to all copies.
+    /// They share their draw call, but each is culled and sorted by itself.
+    ///   nodeFromInstance  one transform for each copy, or none: then all lie in one place, the material's vertex block
+    ///                     moves each by its number, and desc.bounds contains every position.
+    /// Copies have no skin.
+    Node addInstances(RenderableDesc const& desc, uint32_t count, std::span<const double4x4> nodeFromInstance = {});
     /// With a node, position and direction are in the node's space, and the light follows the node. Scales do not
     /// change the light's range or intensity.
     Light add(SunLight const& light, Node node = {});

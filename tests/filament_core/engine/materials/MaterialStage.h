@@ -56,6 +56,11 @@ public:
     /// One renderable; its squares are drawn in this order.
     Renderable add(MaterialInstance instance, std::vector<Square> const& squares, double4x4 const& world = double4x4(1),
                    uint32_t instanceIndex = 0) {
+        return scene.add(describe(instance, squares, world, instanceIndex));
+    }
+
+    RenderableDesc describe(MaterialInstance instance, std::vector<Square> const& squares,
+                            double4x4 const& world = double4x4(1), uint32_t instanceIndex = 0) {
         std::vector<StageVertex> vertices;
         std::vector<uint16_t> indices;
         for (Square const& square : squares) {
@@ -67,11 +72,16 @@ public:
             for (const int corner : { 0, 1, 2, 0, 2, 3 })
                 indices.push_back(static_cast<uint16_t>(first + (square.facesCamera ? corner : 3 - corner)));
         }
-        return add(instance, vertices, indices, world, instanceIndex);
+        return describe(instance, vertices, indices, world, instanceIndex);
     }
 
     Renderable add(MaterialInstance instance, std::vector<StageVertex> const& vertices,
-                   std::vector<uint16_t> const& indices, double4x4 const& world, uint32_t instanceIndex = 0) {
+                   std::vector<uint16_t> const& indices, double4x4 const& world) {
+        return scene.add(describe(instance, vertices, indices, world, 0));
+    }
+
+    RenderableDesc describe(MaterialInstance instance, std::vector<StageVertex> const& vertices,
+                            std::vector<uint16_t> const& indices, double4x4 const& world, uint32_t instanceIndex) {
         using enum Attribute;
         constexpr auto kCustom5 = static_cast<Attribute>(static_cast<int>(Custom0) + 5);
         mVertices.push_back(engine.own(engine.create(
@@ -89,12 +99,12 @@ public:
                 engine.own(engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(indices.size()),
                                                           .data = std::as_bytes(std::span(indices)),
                                                           .name = "stage" })));
-        return scene.add({ .vertices = mVertices.back(),
-                           .indices = mIndices.back(),
-                           .material = instance,
-                           .bounds = Box{ double3(-8), double3(8) },
-                           .worldFromObject = world,
-                           .instanceIndex = instanceIndex });
+        return { .vertices = mVertices.back(),
+                 .indices = mIndices.back(),
+                 .material = instance,
+                 .bounds = Box{ double3(-8), double3(8) },
+                 .worldFromObject = world,
+                 .instanceIndex = instanceIndex };
     }
 
     /// Lives as long as the scene.

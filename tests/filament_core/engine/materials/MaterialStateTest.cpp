@@ -4,6 +4,7 @@
 #include "base/Log.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -415,6 +416,54 @@ fragment { void material(inout MaterialInputs material) {
     });
     EXPECT_EQ(halfPixel(picture, 1, 4), float4(3, 3, 0, 1));
     EXPECT_EQ(halfPixel(picture, 6, 4), float4(0.25f, 0.25f, 0, 1));
+}
+
+/// Four squares in a row, each in the brightness of its number, which the vertex block moves if `moves`.
+std::string rowOfInstances(bool moves) {
+    return fmt::format(R"(material {{ shadingModel : unlit, instanced : true }}
+vertex {{ void materialVertex(inout MaterialVertexInputs material) {{
+    material.worldPosition.x += {} * float(getInstanceIndex() - 8);
+}} }}
+fragment {{ void material(inout MaterialInputs material) {{
+    prepareMaterial(material);
+    material.baseColor = vec4(vec3(float(getInstanceIndex()) / 16.0), 1.0);
+}} }})",
+                       moves ? "0.8284" : "0.0");
+}
+
+TEST(InstanceIndex, NumbersTheInstancesOfOneRenderable) {
+    const double3 kFirst(-1.4497, 0, 0); // two pixels apart
+    const auto row = [&](bool moves, auto const& addRow) {
+        return onBothApis([&](MaterialStage& stage) {
+            const MaterialInstance instance = stage.material(rowOfInstances(moves));
+            addRow(stage, stage.describe(instance, { { .halfSide = 0.3f } }, glm::translate(double4x4(1), kFirst), 8));
+        });
+    };
+    std::array<double4x4, 4> places{};
+    for (size_t i = 0; i < places.size(); ++i) places[i] = glm::translate(double4x4(1), { 0.8284 * double(i), 0, 0 });
+    const Image moved = row(true, [](MaterialStage& stage, RenderableDesc const& desc) {
+        const Node node = stage.scene.addInstances(desc, 4);
+        EXPECT_EQ(stage.scene.renderableCount(), 4);
+        EXPECT_FALSE(stage.scene.firstChild(node));
+    });
+    const Image placed = row(false, [&](MaterialStage& stage, RenderableDesc const& desc) {
+        const Node others = stage.scene.addInstances(desc, 4, places);
+        stage.scene.addInstances(desc, 0);
+        stage.scene.addInstances(desc, 4, places);
+        stage.scene.remove(others);
+        EXPECT_EQ(stage.scene.renderableCount(), 4);
+    });
+    const Image single = row(false, [&](MaterialStage& stage, RenderableDesc desc) {
+        const double4x4 row = desc.worldFromObject;
+        for (const double4x4& place : places) {
+            desc.worldFromObject = row * place;
+            stage.scene.add(desc);
+            ++desc.instanceIndex;
+        }
+    });
+    EXPECT_EQ(moved.pixels, single.pixels);
+    EXPECT_EQ(placed.pixels, single.pixels);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(halfPixel(single, 2 * i, 4).x, (8.0f + float(i)) / 16) << i;
 }
 
 TEST(InstanceIndex, IsThereInEveryVertexDomain) {
