@@ -136,7 +136,7 @@ struct MaterialVertexInputs {
 #endif
     MATERIAL_VARIABLES_AS_MEMBERS
 #if defined(HAS_CLIP_SPACE_POSITION)
-    vec4 clipSpacePosition; // where the vertex is drawn, instead of at worldPosition, if the code uses it
+    vec4 clipSpacePosition; // where the vertex is drawn, with y down, instead of at worldPosition, if the code uses it
 #endif
     vec4 worldPosition; // in the world, also where the mesh has other positions; w is not used
 };
