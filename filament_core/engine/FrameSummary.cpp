@@ -117,6 +117,7 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
                         counts.visible, counts.renderables, counts.triangles, summary.main.draws);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
     if (counts.tooSmall) text += fmt::format("  {} not drawn: they cover no centre of a pixel\n", counts.tooSmall);
+    if (counts.occluded) text += fmt::format("  {} not drawn: they are behind others\n", counts.occluded);
     if (counts.nothingToDraw)
         text += fmt::format("  {} not drawn: they have no indices or no layer\n", counts.nothingToDraw);
     if (counts.inOtherLayers)

@@ -51,9 +51,8 @@ Renderable Scene::add(RenderableDesc const& desc) {
     const PublicCall call(mImpl, "Scene::add(RenderableDesc)", desc.name);
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
-    const GeometryDesc shape{
-        desc.vertices, desc.indices, desc.primitive, desc.firstIndex, desc.indexCount, desc.bounds
-    };
+    const GeometryDesc shape{ desc.vertices,   desc.indices, desc.primitive, desc.firstIndex,
+                              desc.indexCount, desc.bounds,  desc.occluder };
     scene::MaterialInstance const& material = mImpl->engine.instances.get(desc.material);
     const scene::Geometry geometry = mImpl->geometryOf(shape, *material.material);
     const scene::MinMax bounds = mImpl->boundsOf(shape);

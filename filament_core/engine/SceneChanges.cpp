@@ -41,7 +41,8 @@ scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Materia
              desc.firstIndex,
              desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
              indices.format,
-             desc.primitive == PrimitiveType::Triangles };
+             desc.primitive == PrimitiveType::Triangles,
+             desc.occluder.get() };
 }
 
 scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {

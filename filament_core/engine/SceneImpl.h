@@ -32,7 +32,7 @@ struct Scene::Impl {
     /// The data after all changes of nodes and material instances, from which frames and bounds are computed.
     scene::SceneData const& upToDate() const {
         if (std::exchange(rasterChanges, engine.rasterChanges) != engine.rasterChanges) {
-            data.renderables.drawables.updateOrders();
+            data.renderables.drawables.updateUses();
         }
         prepare::updateTransforms(engine.jobs, data);
         if (boundsChanges != engine.boundsChanges) followVertices();

@@ -84,6 +84,7 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
              .shownSize = view.size,
              .band = band,
              .samples = view.samples,
+             .occlusionCulling = view.occlusionCulling,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,
@@ -117,6 +118,8 @@ FrameSettings resolve(ViewInput const& main) {
                                             (main.effects.motionBlur.enabled && isImage),
                             .mipBias = mipBias(main, accumulates) };
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
+    settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 &&
+                             settings.quality.depthRange == DepthRange::Reversed;
     return settings;
 }
 

@@ -20,7 +20,7 @@ uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
 
 uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
     return hashWords(seed, counts.renderables, counts.visible, counts.outOfView, counts.tooSmall, counts.nothingToDraw,
-                     counts.inOtherLayers, counts.blendedLeftOut, counts.lights, counts.areaLights,
+                     counts.inOtherLayers, counts.occluded, counts.blendedLeftOut, counts.lights, counts.areaLights,
                      counts.areaLightsLeftOut, counts.profiledLights, counts.profiledLightsLeftOut,
                      counts.profilesOverLimit, counts.lightsOutOfView, counts.lightsOfOtherChannels,
                      counts.sunsOfOtherChannels, counts.lightsOverLimit, counts.froxels, counts.froxelEntries,

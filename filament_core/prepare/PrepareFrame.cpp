@@ -4,6 +4,7 @@
 #include "filament_core/prepare/CoveredPixels.h"
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/Focus.h"
+#include "filament_core/prepare/HideOccluded.h"
 #include "filament_core/prepare/LightChannels.h"
 #include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
@@ -126,6 +127,13 @@ void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& las
     placeLastDeformations(arena, scene, motion.slots, last, packet.deformations);
 }
 
+void hideFromMainView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                      FramePacket& packet) {
+    const std::span<ViewPacket> views = arena.copy(packet.views);
+    hideOccluded(jobs, arena, scene.renderables, makeViewSpace(view), view, views[0]);
+    packet.views = views;
+}
+
 } // namespace
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
@@ -156,6 +164,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
     if (packet.demand.needs(Effect::Taa)) packet.accumulation = last.accumulation(scene, main, packet);
+    // Last: receivers of shadows, blur and the rest follow from what is in view, hidden or not, as without.
+    if (settings.cullsOccluded) hideFromMainView(jobs, arena, scene, drawn[0], packet);
     return packet;
 }
 

@@ -14,6 +14,7 @@ struct ViewCounts {
     uint32_t nothingToDraw = 0;  ///< no indices or layers, or a transform that collapses them
     uint32_t inOtherLayers = 0;  ///< of the others: those of layers that the view does not show
     uint32_t tooSmall = 0;       ///< of the others: those that cover no centre of a pixel
+    uint32_t occluded = 0;       ///< of the others: opaque ones behind what is drawn (HideOccluded.h)
     uint32_t blendedLeftOut = 0; ///< in view, but the view draws nothing that blends
     uint32_t lights = 0;         ///< punctual lights that reach into the view
     uint32_t areaLights = 0;     ///< of these

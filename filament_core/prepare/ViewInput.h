@@ -47,6 +47,7 @@ struct ViewInput {
     uint32_t band = 0;        ///< of `size`, on each side, that the picture does not show
     float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
     uint8_t samples = 1;      ///< a pixel
+    bool occlusionCulling = true;
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};

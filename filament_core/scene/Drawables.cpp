@@ -3,6 +3,7 @@
 
 #include "base/Assert.h"
 #include "base/Hash.h"
+#include "filament_core/scene/OccluderMesh.h"
 
 namespace filament_core::scene {
 namespace {
@@ -32,6 +33,19 @@ bool staysInBounds(Drawable const& drawable) {
     shader::MaterialPackage const& package = drawable.material->material->package;
     return drawable.geometry.isOfTriangles && !package.depthReadsParameters &&
            package.vertexDomain == shader::VertexDomain::Object;
+}
+
+/// Opaque, undeformed, and drawn whenever it is the nearest: then the depth of its occluder is that of the image.
+bool occludes(Drawable const& drawable) {
+    InstanceRaster const& raster = drawable.material->raster;
+    const bool hasFaces = raster.cullingDisabled || raster.culling != shader::Culling::FrontAndBack;
+    return drawable.geometry.occluder && hasFaces && drawable.deformation == kNotDeformed && staysInBounds(drawable) &&
+           depthOrder(*drawable.material) == 0 && !raster.stencil && !drawable.material->material->isBlended();
+}
+
+Drawables::Use useOf(Drawable const& drawable, uint32_t users) {
+    return { orderOf(*drawable.material), users, placeOrder(drawable.place), staysInBounds(drawable),
+             occludes(drawable) };
 }
 
 } // namespace
@@ -68,11 +82,13 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
     } else if (isNew) {
         mDrawables.emplace_back();
         mUses.emplace_back();
+        mOccluders.emplace_back();
     }
     const uint32_t number = known->second;
     if (isNew) {
         mDrawables[number] = drawable;
-        mUses[number] = { orderOf(*drawable.material), 0, placeOrder(drawable.place), staysInBounds(drawable) };
+        mUses[number] = useOf(drawable, 0);
+        if (drawable.geometry.occluder) mOccluders[number] = drawable.geometry.occluder->shared_from_this();
     }
     ++mUses[number].users;
     return number;
@@ -82,11 +98,12 @@ void Drawables::release(uint32_t number) {
     FILAMENT_ASSERT(number < limit() && mUses[number].users > 0, "a drawable is released once a use");
     if (--mUses[number].users > 0) return;
     mNumbers.erase(mDrawables[number]);
+    mOccluders[number].reset();
     mFree.push_back(number);
 }
 
-void Drawables::updateOrders() {
-    for (auto const& [drawable, number] : mNumbers) mUses[number].order = orderOf(*drawable.material);
+void Drawables::updateUses() {
+    for (auto const& [drawable, number] : mNumbers) mUses[number] = useOf(drawable, mUses[number].users);
 }
 
 } // namespace filament_core::scene

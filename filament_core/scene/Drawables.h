@@ -10,6 +10,7 @@
 #include "filament_core/scene/Materials.h"
 
 #include <filament_core/Objects.h>
+#include <filament_core/Occluder.h>
 
 #include <cstdint>
 #include <unordered_map>
@@ -24,6 +25,7 @@ struct Geometry {
     uint32_t firstIndex = 0, indexCount = 0;
     backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;
     bool isOfTriangles = true;
+    OccluderMesh const* occluder = nullptr; ///< Drawables keeps it
     friend bool operator==(Geometry const&, Geometry const&) = default;
 };
 
@@ -92,7 +94,7 @@ public:
     uint32_t acquire(Drawable const& drawable);
     void release(uint32_t number);
     /// After the raster state of a material instance changed.
-    void updateOrders();
+    void updateUses();
 
     Drawable const& operator[](uint32_t number) const { return mDrawables[number]; }
     /// The part of a pair that sorting reads.
@@ -101,7 +103,8 @@ public:
         uint32_t users = 0;
         uint32_t place = 0; ///< placeOrder() of Drawable::place
         bool staysInBounds =
-                false; ///< what it covers lies in the box of its vertices: triangles, where the mesh has them
+                false;         ///< what it covers lies in the box of its vertices: triangles, where the mesh has them
+        bool occludes = false; ///< its triangles hide what is behind them
     };
     Use use(uint32_t number) const { return mUses[number]; }
     /// All numbers are below this, including those of pairs without users.
@@ -113,7 +116,8 @@ private:
         size_t operator()(Drawable const& drawable) const noexcept;
     };
     std::vector<Drawable> mDrawables;
-    std::vector<Use> mUses; // parallel to mDrawables
+    std::vector<Use> mUses;           // parallel to mDrawables
+    std::vector<Occluder> mOccluders; // of these that have users
     std::vector<uint32_t> mFree;
     std::unordered_map<Drawable, uint32_t, Hash> mNumbers;
 };

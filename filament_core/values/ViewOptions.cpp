@@ -14,6 +14,8 @@ std::span<const Option> optionsOf<View>() {
         static constexpr std::array<std::string_view, 2> kSamples{ "1", "4" };
         std::vector<Option> all{ option("samples", &View::samples, { 1, 4, {}, kSamples, true },
                                         "Samples a pixel: multisample anti-aliasing."),
+                                 option("occlusionCulling", &View::occlusionCulling,
+                                        "Leaves out opaque objects behind occluders; the image has the same bits."),
                                  option("debugView", &View::debugView,
                                         "Shows one ingredient of the image: [debug views](debug-views.md).") };
         append(all, &View::display, optionsOf<DisplayTransform>());

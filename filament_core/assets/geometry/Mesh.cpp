@@ -91,6 +91,13 @@ Box Mesh::bounds() const {
     return bounds;
 }
 
+Occluder Mesh::occluder() const {
+    std::vector<float3> positions;
+    positions.reserve(vertices.size());
+    for (MeshVertex const& vertex : vertices) positions.push_back(vertex.position);
+    return makeOccluder(positions, indices);
+}
+
 Result<void> computeNormals(Mesh& mesh) {
     if (Result<void> checked = checkMesh(mesh, "computeNormals"); !checked) return checked;
     std::vector<double3> sums(mesh.vertices.size(), double3(0));

@@ -14,6 +14,7 @@
 #include <filament_core/Lines.h>
 #include <filament_core/Math.h>
 #include <filament_core/Objects.h>
+#include <filament_core/Occluder.h>
 #include <filament_core/Result.h>
 
 #include <array>
@@ -39,7 +40,8 @@ struct Mesh {
     VertexBufferDesc vertexBuffer() const;
     IndexBufferDesc indexBuffer() const;
 
-    Box bounds() const; ///< of the positions, for RenderableDesc; empty without vertices
+    Box bounds() const;        ///< of the positions, for RenderableDesc; empty without vertices
+    Occluder occluder() const; ///< for RenderableDesc; null if the mesh is too finely divided
 };
 
 /// Normals of a smooth surface: those of the triangles around a vertex, weighted by their angle there (Thürmer and

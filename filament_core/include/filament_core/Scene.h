@@ -13,6 +13,7 @@
 #include <filament_core/Light.h>
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Node.h>
+#include <filament_core/Occluder.h>
 
 #include <memory>
 #include <optional>
@@ -47,6 +48,7 @@ struct GeometryDesc {
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0;     ///< 0: all
     std::optional<Box> bounds{}; ///< as of RenderableDesc
+    Occluder occluder{};         ///< as of RenderableDesc
 };
 
 struct RenderableDesc {
@@ -59,6 +61,9 @@ struct RenderableDesc {
     /// Of the positions, in object space, without skin and morph targets; not empty. Unset: the bounds of all vertices
     /// of the buffer, which follow Engine::update().
     std::optional<Box> bounds{};
+    /// Hides what is behind the renderable, if its material is opaque and leaves depth and position alone. None: it
+    /// hides nothing from being drawn.
+    Occluder occluder{};
     double4x4 worldFromObject{ 1.0 }; ///< affine; must stay the identity if there is a node
     Node node{};                      ///< gives the renderable its transform; none: worldFromObject
     uint32_t instanceIndex = 0;       ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`

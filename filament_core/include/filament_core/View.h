@@ -121,6 +121,9 @@ struct View {
     Effects effects{};               ///< screen-space and post-processing effects, each with its switch
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< of a pixel (MSAA), [1, 4]: 1 or 4
+    /// Opaque objects behind RenderableDesc::occluder of others are not drawn, with the same bits; with one sample a
+    /// pixel. Costs nothing without occluders.
+    bool occlusionCulling = true;
     DebugView debugView = DebugView::None;
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.

@@ -17,7 +17,7 @@ namespace {
 using assets::MaterialData;
 using test::MaterialStage;
 
-constexpr int kSide = 2;
+constexpr int kImageSide = 2;
 constexpr float kRepeats = 96; ///< of the maps over the quad: eight texels a pixel
 enum Map : uint32_t { kStripes, kEven, kHalf };
 
@@ -27,20 +27,20 @@ std::vector<assets::GlbImage> mapsOfQuad() {
     const auto add = [&](Map map, std::initializer_list<int> codes) {
         for (const int code : codes) texels[map].push_back(static_cast<std::byte>(code));
     };
-    for (int i = 0; i < kSide * kSide; ++i) {
+    for (int i = 0; i < kImageSide * kImageSide; ++i) {
         add(kStripes, { i % 2 ? 168 : 87, 128, 248, 255 });
         add(kEven, { 128, 128, 255, 255 });
         add(kHalf, { 128, 128, 128, 128 });
     }
     std::vector<assets::GlbImage> images;
-    for (auto const& each : texels) images.push_back(*assets::glbImageFromPixels("map", kSide, kSide, each));
+    for (auto const& each : texels) images.push_back(*assets::glbImageFromPixels("map", kImageSide, kImageSide, each));
     return images;
 }
 
 /// The width of the last level of the stripes, as the texture stores it.
 float widthOfStripes() {
-    assets::Image image{ .width = kSide, .height = kSide, .levels = 2, .data = {} };
-    for (int i = 0; i < kSide * kSide; ++i)
+    assets::Image image{ .width = kImageSide, .height = kImageSide, .levels = 2, .data = {} };
+    for (int i = 0; i < kImageSide * kImageSide; ++i)
         for (const int code : { i % 2 ? 168 : 87, 128, 248, 255 }) image.data.push_back(static_cast<std::byte>(code));
     image.data.resize(image.data.size() + 4);
     return static_cast<float>(std::to_integer<int>(assets::withNormalWidths(std::move(image)).data.back())) / 255;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// hideOccluded: takes what lies behind large occluders out of the opaque draws of a view. The image keeps its bits: a
+/// box is left out only if every pixel that it could cover shows something nearer (OcclusionBuffer.h).
+///   In      the finished packet of a view of a camera with one sample a pixel.
+///   Out     a packet with fewer opaque draws; transparent draws stay, and so does what other steps of the frame found.
+///   Chosen  the occluders that look largest, at most kMostOccluders; without one of kSmallestPixels nothing is done.
+///   Thread  jobs over ranges; the bits are the same for any number of workers.   Memory: the arena.
+///   Fails   std::bad_alloc.   Cost: bench/filament_core/prepare, hideOccluded.
+#pragma once
+
+#include "base/Arena.h"
+#include "filament_core/prepare/FramePacket.h"
+#include "filament_core/prepare/ViewConstants.h"
+#include "jobsystem/JobSystem.h"
+
+namespace filament_core::prepare {
+
+inline constexpr size_t kMostOccluders = 256;
+inline constexpr float kSmallestPixels = 32; ///< across an occluder
+/// With fewer opaque objects drawing them all costs less than looking for hidden ones.
+inline constexpr size_t kObjectsWorthHiding = 64;
+
+void hideOccluded(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables, ViewSpace const& space,
+                  ViewInput const& view, ViewPacket& packet);
+
+} // namespace filament_core::prepare
