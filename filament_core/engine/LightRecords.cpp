@@ -82,8 +82,6 @@ void setExtent(LightRecord& record, float2 halfExtent) {
     record.sourceRadius = static_cast<float>(std::sqrt(area / std::numbers::pi));
 }
 
-} // namespace
-
 LightRecord recordOf(Engine::Impl const&, SunLight const& given) {
     checkLight(given.color, 0, double3(0.0));
     const SunLight light = clamped(given); // its disc and halo: a direction or colour that is no number is misuse
@@ -163,6 +161,12 @@ LightRecord recordOf(Engine::Impl const&, TubeLight const& light) {
     record.sideWorld = unitDirection(light.axisWorld);
     setExtent(record, halfExtentOf(light.lengthMeters / 2, light.radiusMeters));
     return record;
+}
+
+} // namespace
+
+LightRecord recordOf(Engine::Impl const& engine, LightDesc const& light) {
+    return std::visit([&](auto const& desc) { return recordOf(engine, desc); }, light);
 }
 
 } // namespace filament_core::engine

@@ -10,11 +10,6 @@
 
 namespace filament_core::engine {
 
-scene::LightRecord recordOf(Engine::Impl const& engine, SunLight const& light);
-scene::LightRecord recordOf(Engine::Impl const& engine, PointLight const& light);
-scene::LightRecord recordOf(Engine::Impl const& engine, SpotLight const& light);
-scene::LightRecord recordOf(Engine::Impl const& engine, RectLight const& light);
-scene::LightRecord recordOf(Engine::Impl const& engine, DiscLight const& light);
-scene::LightRecord recordOf(Engine::Impl const& engine, TubeLight const& light);
+scene::LightRecord recordOf(Engine::Impl const& engine, LightDesc const& light);
 
 } // namespace filament_core::engine

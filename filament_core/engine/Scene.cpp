@@ -80,40 +80,11 @@ Renderable Scene::add(RenderableDesc const& desc) {
     return renderable;
 }
 
-Light Scene::Impl::add(scene::LightRecord const& record, Node node) {
-    const Light light = scene::addLight(changed(), record);
-    if (node) scene::attach(data, light, node);
+Light Scene::add(LightDesc const& desc, Node node) {
+    const PublicCall call(mImpl, "Scene::add(LightDesc, Node)");
+    const Light light = scene::addLight(mImpl->changed(), engine::recordOf(mImpl->engine, desc));
+    if (node) scene::attach(mImpl->data, light, node);
     return light;
-}
-
-Light Scene::add(SunLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(SunLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
-}
-
-Light Scene::add(PointLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(PointLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
-}
-
-Light Scene::add(SpotLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(SpotLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
-}
-
-Light Scene::add(RectLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(RectLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
-}
-
-Light Scene::add(DiscLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(DiscLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
-}
-
-Light Scene::add(TubeLight const& light, Node node) {
-    const PublicCall call(mImpl, "Scene::add(TubeLight, Node)");
-    return mImpl->add(engine::recordOf(mImpl->engine, light), node);
 }
 
 Skin Scene::add(SkinDesc const& desc) {

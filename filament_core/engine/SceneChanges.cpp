@@ -69,33 +69,8 @@ void Scene::Impl::followVertices() const {
     boundsChanges = engine.boundsChanges;
 }
 
-void Scene::set(Light light, SunLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, SunLight)");
-    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
-}
-
-void Scene::set(Light light, PointLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, PointLight)");
-    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
-}
-
-void Scene::set(Light light, SpotLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, SpotLight)");
-    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
-}
-
-void Scene::set(Light light, RectLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, RectLight)");
-    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
-}
-
-void Scene::set(Light light, DiscLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, DiscLight)");
-    scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
-}
-
-void Scene::set(Light light, TubeLight const& desc) {
-    const PublicCall call(mImpl, "Scene::set(Light, TubeLight)");
+void Scene::set(Light light, LightDesc const& desc) {
+    const PublicCall call(mImpl, "Scene::set(Light, LightDesc)");
     scene::setLight(mImpl->changed(), light, engine::recordOf(mImpl->engine, desc));
 }
 

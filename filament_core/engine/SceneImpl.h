@@ -51,8 +51,6 @@ struct Scene::Impl {
         return changed();
     }
 
-    /// With a node: the record is in the node's space.
-    Light add(scene::LightRecord const& record, Node node);
     /// Ends the process if it lacks what the material reads, or its indices are not in the index buffer.
     scene::Geometry geometryOf(GeometryDesc const& desc, scene::Material const& material) const;
     /// Those that it names; otherwise those of its vertices, or of the origin if they have no positions.

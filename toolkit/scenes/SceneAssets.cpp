@@ -143,9 +143,9 @@ Result<fs::path> environmentFile(SceneSpec const& spec, SceneFolders const& fold
     return spec.environment.empty() ? fs::path() : resolve(spec.environment, spec, folders.assets);
 }
 
-std::vector<LightSpec> placedLights(SceneSpec const& spec) {
-    std::vector<LightSpec> lights = spec.lights;
-    for (LightSpec& light : lights) {
+std::vector<LightDesc> placedLights(SceneSpec const& spec) {
+    std::vector<LightDesc> lights = spec.lights;
+    for (LightDesc& light : lights) {
         std::visit(
                 [&](auto& placed) {
                     if constexpr (requires { placed.positionWorld; }) placed.positionWorld += spec.origin;
@@ -162,7 +162,7 @@ fs::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& fo
 
 Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
     std::map<fs::path, Owned<LightProfile>> profiles; // lights keep what they need of them
-    std::vector<LightSpec> lights = placedLights(spec);
+    std::vector<LightDesc> lights = placedLights(spec);
     for (size_t i = 0; i < lights.size(); ++i) {
         const fs::path file = profileFile(spec, i, folders);
         if (!file.empty() && !profiles.contains(file)) {
@@ -170,13 +170,13 @@ Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, Scen
             if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
             profiles[file] = engine.own(*loaded);
         }
-        const auto add = [&](auto& light) {
+        const auto setProfile = [&](auto& light) {
             if constexpr (requires { light.profile; }) {
                 if (!file.empty()) light.profile = profiles[file];
             }
-            scene.add(light);
         };
-        std::visit(add, lights[i]);
+        std::visit(setProfile, lights[i]);
+        scene.add(lights[i]);
     }
     return {};
 }

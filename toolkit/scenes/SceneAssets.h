@@ -29,7 +29,7 @@ Result<std::filesystem::path> modelFile(SceneSpec const& spec, SceneFolders cons
 Result<std::filesystem::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders);
 
 /// The lights of the case at their final positions, with its origin added; none has its profile.
-std::vector<LightSpec> placedLights(SceneSpec const& spec);
+std::vector<LightDesc> placedLights(SceneSpec const& spec);
 /// The file of the profile of a light; empty: none.
 std::filesystem::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& folders);
 /// Adds the lights of the case, with their profiles.

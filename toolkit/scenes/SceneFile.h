@@ -22,7 +22,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace filament_core::tools {
@@ -38,8 +37,6 @@ struct Comparator {
 
 /// Values by name, as words: "0.5", "1,0,0.2".
 using NamedWords = std::vector<std::pair<std::string, std::string>>;
-
-using LightSpec = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
 /// A view over the image: of the same scene, in a part of it.
 struct OverlaySpec {
@@ -59,7 +56,7 @@ struct SceneSpec {
     GltfLoadOptions modelOptions{};
     std::optional<double> animationSeconds; ///< none: the rest pose
     uint32_t animation = 0;                 ///< index in the file
-    std::vector<LightSpec> lights;
+    std::vector<LightDesc> lights;
     std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default

@@ -12,10 +12,9 @@ namespace filament_core::accuracy {
 namespace {
 
 using reference::ReferenceScene;
-using tools::LightSpec;
 using tools::SceneSpec;
 
-void add(ReferenceScene& scene, LightSpec const& light, reference::ProfilePtr const& profile) {
+void add(ReferenceScene& scene, LightDesc const& light, reference::ProfilePtr const& profile) {
     std::visit(
             [&](auto const& one) {
                 using L = std::remove_cvref_t<decltype(one)>;
@@ -76,7 +75,7 @@ Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, tools::SceneFolde
         model->worldFromModel = copies[i];
         scene.models.push_back(*model);
     }
-    const std::vector<LightSpec> lights = placedLights(spec);
+    const std::vector<LightDesc> lights = placedLights(spec);
     for (size_t i = 0; i < lights.size(); ++i) {
         Result<reference::ProfilePtr> profile = profileOf(profileFile(spec, i, folders));
         if (!profile) return profile.error();

@@ -16,6 +16,7 @@
 #include <filament_core/Units.h>
 
 #include <cstdint>
+#include <variant>
 
 namespace filament_core {
 
@@ -132,6 +133,9 @@ struct TubeLight {
     bool castsShadows = true;
     LightChannels lightChannels = kDefaultLightChannels;
 };
+
+/// Any light, for Scene::add() and set().
+using LightDesc = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
 /// The luminance of a light of this size that gives off `flux` in total. An area A that shines equally into all
 /// directions of one side gives off pi A L (Lambert 1760); a tube has the area 2 pi radius length. 0 without an area.

@@ -98,21 +98,11 @@ public:
     Node addInstances(RenderableDesc const& desc, uint32_t count, std::span<const double4x4> nodeFromInstance = {});
     /// With a node, position and direction are in the node's space, and the light follows the node. Scales do not
     /// change the light's range or intensity.
-    Light add(SunLight const& light, Node node = {});
-    Light add(PointLight const& light, Node node = {});
-    Light add(SpotLight const& light, Node node = {});
-    Light add(RectLight const& light, Node node = {});
-    Light add(DiscLight const& light, Node node = {});
-    Light add(TubeLight const& light, Node node = {});
+    Light add(LightDesc const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
     /// Replaces the light, of whatever kind it was. Its node stays, and what is given is in the node's space.
-    void set(Light light, SunLight const& desc);
-    void set(Light light, PointLight const& desc);
-    void set(Light light, SpotLight const& desc);
-    void set(Light light, RectLight const& desc);
-    void set(Light light, DiscLight const& desc);
-    void set(Light light, TubeLight const& desc);
+    void set(Light light, LightDesc const& desc);
     /// Takes effect with the next frame. A skin needs vertices with joints, morph targets as many vertices as they
     /// have.
     void setGeometry(Renderable renderable, GeometryDesc const& geometry);

@@ -279,9 +279,9 @@ std::vector<Use> usesOfLight() {
           [](World& world, Handles const& bad) { world.scene.setIndirectLight(bad.light, Lux{ 1 }); }, true },
         { "Scene::setSkybox(Skybox, Lux, float)", "skybox", "blue",
           [](World& world, Handles const& bad) { world.scene.setSkybox(bad.skybox, Lux{ 1 }); }, true },
-        { "Scene::add(PointLight, Node)", "light profile", "spotty",
+        { "Scene::add(LightDesc, Node)", "light profile", "spotty",
           [](World& world, Handles const& bad) { world.scene.add(PointLight{ .profile = bad.profile }); }, true },
-        { "Scene::add(SpotLight, Node)", "light profile", "spotty",
+        { "Scene::add(LightDesc, Node)", "light profile", "spotty",
           [](World& world, Handles const& bad) { world.scene.add(SpotLight{ .profile = bad.profile }); }, true },
     };
 }
@@ -364,17 +364,17 @@ std::vector<Use> usesOfRenderables() {
 std::vector<Use> usesOfLampsAndSkins() {
     return {
         { "Scene::remove(Light)", "light", "", [](World& world, Handles const& bad) { world.scene.remove(bad.lamp); } },
-        { "Scene::set(Light, SunLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SunLight{}); } },
-        { "Scene::set(Light, PointLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, PointLight{}); } },
-        { "Scene::set(Light, SpotLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SpotLight{}); } },
-        { "Scene::set(Light, RectLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, RectLight{}); } },
-        { "Scene::set(Light, DiscLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, DiscLight{}); } },
-        { "Scene::set(Light, TubeLight)", "light", "",
+        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, TubeLight{}); } },
         { "Scene::setLightChannels(Light, LightChannels)", "light", "",
           [](World& world, Handles const& bad) { world.scene.setLightChannels(bad.lamp, 1); } },
@@ -400,17 +400,17 @@ std::vector<Use> usesOfNodes() {
     return {
         use("ModelCopy::of(Scene, Node)", [](Scene& s, Node bad) { (void)ModelCopy::of(s, bad); }),
         use(
-                "Scene::add(SunLight, Node)", [](Scene& s, Node bad) { s.add(SunLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(SunLight{}, bad); }, true),
         use(
-                "Scene::add(PointLight, Node)", [](Scene& s, Node bad) { s.add(PointLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(PointLight{}, bad); }, true),
         use(
-                "Scene::add(SpotLight, Node)", [](Scene& s, Node bad) { s.add(SpotLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(SpotLight{}, bad); }, true),
         use(
-                "Scene::add(RectLight, Node)", [](Scene& s, Node bad) { s.add(RectLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(RectLight{}, bad); }, true),
         use(
-                "Scene::add(DiscLight, Node)", [](Scene& s, Node bad) { s.add(DiscLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(DiscLight{}, bad); }, true),
         use(
-                "Scene::add(TubeLight, Node)", [](Scene& s, Node bad) { s.add(TubeLight{}, bad); }, true),
+                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(TubeLight{}, bad); }, true),
         use(
                 "Scene::add(NodeDesc) of 'x'",
                 [](Scene& s, Node bad) { s.add(NodeDesc{ .parent = bad, .name = "x" }); }, true),

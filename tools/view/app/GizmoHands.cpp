@@ -179,7 +179,7 @@ void GizmoHands::move(GizmoScene const& scene) {
         if (dragged) setNodeTransform(scene.document, *target.node, *dragged);
         return;
     }
-    const AnyLight light = draggedLight(mDrag->drag, mPointer, steps(), target.light);
+    const LightDesc light = draggedLight(mDrag->drag, mPointer, steps(), target.light);
     if (target.selection.isModels)
         modelLightEdit(scene.document, target.selection.light).replacement = light;
     else

@@ -67,13 +67,11 @@ struct TextureEdit {
     bool isData = false;          ///< numbers themselves, such as normals and roughness; false: colours
 };
 
-using AnyLight = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
-
 /// A light that the document adds, in the world. Its `profile` handle means nothing here: `profileFile` does.
 struct DocumentLight {
     std::string name{};
     bool isOn = true;
-    AnyLight light = PointLight{};
+    LightDesc light = PointLight{};
     std::filesystem::path profileFile{}; ///< .ies, of points and spots; empty: none
 };
 
@@ -81,7 +79,7 @@ struct DocumentLight {
 struct ModelLightEdit {
     uint32_t light = 0; ///< its place in Stage::modelLights()
     bool isOn = true;
-    std::optional<AnyLight>
+    std::optional<LightDesc>
             replacement{}; ///< in the space of its node; keeps the profile of the file. None: the file's
 };
 
@@ -140,7 +138,7 @@ bool operator==(Playback const& a, Playback const& b);
 bool operator==(Bookmark const& a, Bookmark const& b);
 bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b);
 bool isEqual(Camera const& a, Camera const& b);
-bool isEqual(AnyLight const& a, AnyLight const& b);
+bool isEqual(LightDesc const& a, LightDesc const& b);
 
 /// What filament-render would draw with these options. `model` and `environment` are the files that chooseFiles()
 /// found for them.

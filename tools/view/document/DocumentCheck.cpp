@@ -101,7 +101,7 @@ void Checker::visit(std::string const& place, T const& value, double low, double
         if (value) visit(place, *value, low, high);
     } else if constexpr (IsList<T>) {
         for (size_t i = 0; i < value.size(); ++i) visit(fmt::format("{}[{}]", place, i), value[i], low, high);
-    } else if constexpr (std::is_same_v<T, AnyLight> || std::is_same_v<T, ParameterValue>) {
+    } else if constexpr (std::is_same_v<T, LightDesc> || std::is_same_v<T, ParameterValue>) {
         std::visit([&](auto const& held) { visit(place, held, low, high); }, value);
     }
     // Switches, texts, paths and enumerators may be anything.

@@ -41,7 +41,7 @@ private:
     void options(std::string const& place, Json const& json, T& value);
     template <class T>
     void named(std::string const& place, Json const& json, T& value);
-    void light(std::string const& place, Json const& json, AnyLight& value);
+    void light(std::string const& place, Json const& json, LightDesc& value);
     void parameter(std::string const& place, Json const& json, ParameterValue& value);
     bool expectObject(std::string const& place, Json const& json) {
         if (!json.is_object()) refuse(place, "expected an object");
@@ -118,14 +118,14 @@ V alternative(size_t index) {
     return alternative<V>(index, std::make_index_sequence<std::variant_size_v<V>>());
 }
 
-void Reader::light(std::string const& place, Json const& json, AnyLight& value) {
+void Reader::light(std::string const& place, Json const& json, LightDesc& value) {
     if (!expectObject(place, json)) return;
     const auto kind = json.find("kind");
     const auto found =
             kind != json.end() && kind->is_string() ? std::ranges::find(kLightKinds, textOf(*kind)) : kLightKinds.end();
     if (found == kLightKinds.end())
         return refuse(inside(place, "kind"), "expected sun, point, spot, rect, disc or tube");
-    value = alternative<AnyLight>(static_cast<size_t>(found - kLightKinds.begin()));
+    value = alternative<LightDesc>(static_cast<size_t>(found - kLightKinds.begin()));
     std::visit([&](auto& light) { members(place, json, light, { "kind" }); }, value);
 }
 
@@ -176,7 +176,7 @@ void Reader::read(std::string const& place, Json const& json, T& value) {
         value.clear();
         for (size_t i = 0; i < json.size() && !mError; ++i)
             read(fmt::format("{}[{}]", place, i), json[i], value.emplace_back());
-    } else if constexpr (std::is_same_v<T, AnyLight>) {
+    } else if constexpr (std::is_same_v<T, LightDesc>) {
         light(place, json, value);
     } else if constexpr (std::is_same_v<T, ParameterValue>) {
         parameter(place, json, value);

@@ -55,7 +55,7 @@ Json membersOf(T const& value) {
     return json;
 }
 
-Json lightOf(AnyLight const& any) {
+Json lightOf(LightDesc const& any) {
     Json json{ { "kind", kLightKinds[any.index()] } };
     std::visit([&](auto const& light) { json.update(membersOf(light)); }, any);
     return json;
@@ -88,7 +88,7 @@ Json jsonOf(T const& value) {
         return value ? jsonOf(*value) : Json();
     else if constexpr (IsList<T>)
         return listOf(value, value.size());
-    else if constexpr (std::is_same_v<T, AnyLight>)
+    else if constexpr (std::is_same_v<T, LightDesc>)
         return lightOf(value);
     else if constexpr (std::is_same_v<T, ParameterValue>)
         return parameterOf(value);

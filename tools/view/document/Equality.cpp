@@ -29,7 +29,7 @@ struct Same {
     bool operator()(std::optional<T> const& a, std::optional<T> const& b) const {
         return a && b ? (*this)(*a, *b) : a.has_value() == b.has_value();
     }
-    bool operator()(AnyLight const& a, AnyLight const& b) const {
+    bool operator()(LightDesc const& a, LightDesc const& b) const {
         if (a.index() != b.index()) return false;
         return std::visit([&]<class L>(L const& light) { return (*this)(light, std::get<L>(b)); }, a);
     }
@@ -64,6 +64,6 @@ bool operator==(CameraPath const& a, CameraPath const& b) { return Same()(a, b);
 bool operator==(Document const& a, Document const& b) { return Same()(a, b); }
 bool isEqual(EnvironmentSettings const& a, EnvironmentSettings const& b) { return Same()(a, b); }
 bool isEqual(Camera const& a, Camera const& b) { return Same()(a, b); }
-bool isEqual(AnyLight const& a, AnyLight const& b) { return Same()(a, b); }
+bool isEqual(LightDesc const& a, LightDesc const& b) { return Same()(a, b); }
 
 } // namespace filament_core::view

@@ -360,9 +360,9 @@ std::string validNames(E) {
     return listed(enumNames<E>());
 }
 
-/// Of the alternatives of AnyLight.
-inline constexpr std::array<const char*, std::variant_size_v<AnyLight>> kLightKinds{ "sun",  "point", "spot",
-                                                                                     "rect", "disc",  "tube" };
+/// Of the alternatives of LightDesc.
+inline constexpr std::array<const char*, std::variant_size_v<LightDesc>> kLightKinds{ "sun",  "point", "spot",
+                                                                                      "rect", "disc",  "tube" };
 /// Of an alternative of ParameterValue: "float3".
 const char* parameterTypeName(size_t index);
 

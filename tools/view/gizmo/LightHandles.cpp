@@ -35,7 +35,7 @@ auto* axisIn(L& light) {
 bool isAimed(GizmoLight const& light) { return light.hasProfile || !std::holds_alternative<PointLight>(light.light); }
 
 /// In the world, of length 1.
-double3 aimOf(AnyLight const& any, double4x4 const& worldFromLight) {
+double3 aimOf(LightDesc const& any, double4x4 const& worldFromLight) {
     const double3 local = std::visit([](auto const& light) { return double3(*axisIn(light)); }, any);
     const double3 aim = double3x3(worldFromLight) * local;
     return glm::length(aim) > 0 ? glm::normalize(aim) : double3(0, 0, -1);
@@ -54,7 +54,7 @@ struct Cone {
     double radians, side; ///< side: of besideAim(), 1 or -1
 };
 
-std::vector<Cone> conesOf(AnyLight const& any) {
+std::vector<Cone> conesOf(LightDesc const& any) {
     auto const* spot = std::get_if<SpotLight>(&any);
     if (!spot) return {};
     return { { GizmoPart::OuterCone, static_cast<double>(spot->outerConeRadians), 1 },
@@ -94,7 +94,7 @@ struct Handles {
     }
 };
 
-double rangeOf(AnyLight const& any) {
+double rangeOf(LightDesc const& any) {
     return std::visit(
             [](auto const& light) {
                 if constexpr (HasRange<std::remove_cvref_t<decltype(light)>>)
@@ -127,7 +127,7 @@ double3 snappedDirection(double3 direction, double step) {
 }
 
 /// Everything of the light that has a direction.
-void turn(AnyLight& any, double3x3 const& rotation) {
+void turn(LightDesc& any, double3x3 const& rotation) {
     std::visit(
             [&]<class L>(L& light) {
                 *axisIn(light) = float3(rotation * double3(*axisIn(light)));
@@ -137,7 +137,7 @@ void turn(AnyLight& any, double3x3 const& rotation) {
 }
 
 /// And everything that has a place.
-void transform(AnyLight& any, double4x4 const& change) {
+void transform(LightDesc& any, double4x4 const& change) {
     std::visit(
             [&]<class L>(L& light) {
                 if constexpr (HasPosition<L>) light.positionWorld = double3(change * double4(light.positionWorld, 1));
@@ -146,7 +146,7 @@ void transform(AnyLight& any, double4x4 const& change) {
     turn(any, double3x3(change));
 }
 
-void setAim(AnyLight& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps,
+void setAim(LightDesc& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps,
             double4x4 const& worldFromLight) {
     const double3 before = aimOf(any, worldFromLight);
     const bool isNearSide = isNear(drag, before);
@@ -157,7 +157,7 @@ void setAim(AnyLight& any, GizmoDrag const& drag, double2 to, GizmoSteps const& 
     std::visit([&](auto& light) { *axisIn(light) = float3(glm::normalize(toLight * aim)); }, any); // exactly
 }
 
-void setRange(AnyLight& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
+void setRange(LightDesc& any, GizmoDrag const& drag, double2 to, GizmoSteps const& steps) {
     const double3 up = double3(drag.view.camera.worldFromView[1]), origin = drag.frame.originWorld;
     const double moved =
             alongLine(rayThrough(drag.view, to), origin, up) - alongLine(rayThrough(drag.view, drag.from), origin, up);
@@ -215,10 +215,10 @@ std::vector<Handle> lightHandles(GizmoLight const& light, GizmoFrame const& fram
     return std::move(all.handles);
 }
 
-AnyLight draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps, GizmoLight const& light) {
+LightDesc draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps, GizmoLight const& light) {
     double4x4 const& worldFromLight = light.worldFromLight;
     if (!(std::abs(glm::determinant(double3x3(worldFromLight))) > 0)) return light.light;
-    AnyLight result = light.light;
+    LightDesc result = light.light;
     if (drag.part == GizmoPart::Direction) {
         setAim(result, drag, to, steps, worldFromLight);
     } else if (drag.part == GizmoPart::Range) {

@@ -14,7 +14,7 @@
 namespace filament_core::view {
 
 struct GizmoLight {
-    AnyLight light = PointLight{};
+    LightDesc light = PointLight{};
     double4x4 worldFromLight{ 1.0 };
     bool hasProfile = false;     ///< a point light without one shines alike in every direction
     double3 elsewhereWorld{ 0 }; ///< where the handles of a sun are
@@ -27,6 +27,6 @@ GizmoFrame frameOf(GizmoLight const& light, GizmoAxes axes);
 std::vector<Handle> lightHandles(GizmoLight const& light, GizmoFrame const& frame, PictureView const& view);
 
 /// The light after a drag of any of its handles. Parts that it does not have leave it alone.
-AnyLight draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps, GizmoLight const& light);
+LightDesc draggedLight(GizmoDrag const& drag, double2 to, GizmoSteps const& steps, GizmoLight const& light);
 
 } // namespace filament_core::view

@@ -101,8 +101,8 @@ struct FieldList {
 };
 
 template <size_t... Kinds>
-AnyLight lightOfKind(size_t kind, std::index_sequence<Kinds...>) {
-    AnyLight light;
+LightDesc lightOfKind(size_t kind, std::index_sequence<Kinds...>) {
+    LightDesc light;
     ((kind == Kinds ? void(light.emplace<Kinds>()) : void()), ...);
     return light;
 }
@@ -128,7 +128,7 @@ void copyShared(std::vector<LightField> const& from, std::vector<LightField> con
 
 } // namespace
 
-std::vector<LightField> lightFields(AnyLight& light) {
+std::vector<LightField> lightFields(LightDesc& light) {
     FieldList list;
     std::visit([&](auto& held) { list.add(held); }, light);
     return std::move(list.fields);
@@ -159,9 +159,9 @@ DocumentLight& copyLight(Document& document, size_t light) {
     return document.lights.back();
 }
 
-AnyLight withKind(AnyLight const& light, size_t kind) {
-    AnyLight before = light;
-    AnyLight after = lightOfKind(kind, std::make_index_sequence<kLightKinds>());
+LightDesc withKind(LightDesc const& light, size_t kind) {
+    LightDesc before = light;
+    LightDesc after = lightOfKind(kind, std::make_index_sequence<kLightKinds>());
     copyShared(lightFields(before), lightFields(after));
     return after;
 }

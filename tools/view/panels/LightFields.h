@@ -33,17 +33,17 @@ struct LightField {
 };
 
 /// In the order of the members. Profiles, which are files, are not among them.
-std::vector<LightField> lightFields(AnyLight& light);
+std::vector<LightField> lightFields(LightDesc& light);
 
-/// "sun", "point", "spot", "rectangle", "disc", "tube"; the index of AnyLight.
+/// "sun", "point", "spot", "rectangle", "disc", "tube"; the index of LightDesc.
 std::string_view lightKindName(size_t kind);
-inline constexpr size_t kLightKinds = std::variant_size_v<AnyLight>;
+inline constexpr size_t kLightKinds = std::variant_size_v<LightDesc>;
 
 /// A new light of this kind one metre before the camera, shining where the camera looks; its name is not taken yet.
 DocumentLight& addLight(Document& document, size_t kind, Camera const& camera);
 void removeLight(Document& document, size_t light);
 DocumentLight& copyLight(Document& document, size_t light);
 /// Another kind of light in its place, with what both kinds have: place, direction, colour, range, shadows, channels.
-AnyLight withKind(AnyLight const& light, size_t kind);
+LightDesc withKind(LightDesc const& light, size_t kind);
 
 } // namespace filament_core::view

@@ -56,7 +56,7 @@ bool drawLightField(LightField const& field) {
     return false;
 }
 
-bool drawLightFields(AnyLight& light) {
+bool drawLightFields(LightDesc& light) {
     bool isChanged = false;
     ImGui::PushItemWidth(-ImGui::GetFontSize() * 11);
     for (LightField const& field : lightFields(light)) isChanged |= drawLightField(field);
@@ -129,7 +129,7 @@ void drawDocumentLight(PanelFrame& frame, uint32_t index) {
 void drawModelLight(PanelFrame& frame, uint32_t index) {
     const auto edit = std::ranges::find(frame.document.modelLights, index, &ModelLightEdit::light);
     const bool isEdited = edit != frame.document.modelLights.end() && edit->replacement;
-    AnyLight light = isEdited ? *edit->replacement : frame.stage.lightOfFile(index);
+    LightDesc light = isEdited ? *edit->replacement : frame.stage.lightOfFile(index);
     quietText("in the space of its node");
     if (drawLightFields(light)) modelLightEdit(frame.document, index).replacement = light;
     if (isEdited && ImGui::Button("as in the file")) {

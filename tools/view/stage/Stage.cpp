@@ -427,7 +427,7 @@ Result<ParameterValue> Stage::parameter(MaterialInstance instance, std::string_v
     return parameterOf(mImpl->engine, instance, parameter);
 }
 double4x4 Stage::nodeOfFile(uint32_t node) const { return mImpl->scene->nodeOfFile(node); }
-AnyLight Stage::lightOfFile(uint32_t light) const { return mImpl->scene->lightOfFile(light); }
+LightDesc Stage::lightOfFile(uint32_t light) const { return mImpl->scene->lightOfFile(light); }
 std::vector<CopyLight> Stage::modelLights() const { return mImpl->scene->modelLights(); }
 std::vector<Light> Stage::documentLights() const { return mImpl->scene->documentLights(); }
 bool Stage::hasModelEnvironment() const { return mImpl->isModelEnvironment; }

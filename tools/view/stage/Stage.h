@@ -115,7 +115,7 @@ public:
     std::vector<CopyLight> modelLights() const;
     /// As in the file, before any edit: a transform of nodes(), a light of modelLights().
     double4x4 nodeOfFile(uint32_t node) const;
-    AnyLight lightOfFile(uint32_t light) const;
+    LightDesc lightOfFile(uint32_t light) const;
     /// Handles of Document::lights; none for one that is off.
     std::vector<Light> documentLights() const;
     bool hasModelEnvironment() const; ///< the model's own is what lights it

@@ -37,15 +37,7 @@ std::vector<uint32_t> modelLightsOff(Document const& document) {
     return off;
 }
 
-Light addTo(Scene& scene, AnyLight const& any) {
-    return std::visit([&](auto const& light) { return scene.add(light); }, any);
-}
-
-void setLight(Scene& scene, Light light, AnyLight const& any) {
-    std::visit([&](auto const& desc) { scene.set(light, desc); }, any);
-}
-
-LightProfile profileOf(AnyLight const& any) {
+LightProfile profileOf(LightDesc const& any) {
     return std::visit(
             [](auto const& light) {
                 if constexpr (requires { light.profile; })
@@ -56,7 +48,7 @@ LightProfile profileOf(AnyLight const& any) {
             any);
 }
 
-AnyLight withProfileHandle(AnyLight any, LightProfile profile) {
+LightDesc withProfileHandle(LightDesc any, LightProfile profile) {
     std::visit(
             [&](auto& light) {
                 if constexpr (requires { light.profile; }) light.profile = profile;
@@ -135,13 +127,13 @@ void StagedScene::update(Document const& from, Document const& to, Messages& mes
     for (size_t i = 0; i < mLights.size(); ++i) {
         if (!mLights[i] || from.lights[i] == to.lights[i]) continue;
         mDocumentLights[i] = withProfileHandle(to.lights[i].light, profileOf(mDocumentLights[i]));
-        setLight(mScene, mLights[i], mDocumentLights[i]);
+        mScene.set(mLights[i], mDocumentLights[i]);
     }
 }
 
 // ---- lights
 
-AnyLight StagedScene::withProfile(DocumentLight const& light, Profiles const& profiles) const {
+LightDesc StagedScene::withProfile(DocumentLight const& light, Profiles const& profiles) const {
     const auto profile = profiles.find(light.profileFile);
     return withProfileHandle(light.light, profile == profiles.end() ? LightProfile{} : profile->second.get());
 }
@@ -149,7 +141,7 @@ AnyLight StagedScene::withProfile(DocumentLight const& light, Profiles const& pr
 void StagedScene::addLights(Document const& document, Profiles const& profiles) {
     for (DocumentLight const& light : document.lights) {
         mDocumentLights.push_back(withProfile(light, profiles));
-        mLights.push_back(light.isOn ? addTo(mScene, mDocumentLights.back()) : Light{});
+        mLights.push_back(light.isOn ? mScene.add(mDocumentLights.back()) : Light{});
     }
 }
 
@@ -169,9 +161,8 @@ void StagedScene::setModelLights(Document const& document, Messages& messages) {
             light.light = {};
         } else if (light.light) {
             const bool isReplaced = edits[i] && edits[i]->replacement;
-            AnyLight const& ofFile = mLightsOfFile[i];
-            setLight(mScene, light.light,
-                     isReplaced ? withProfileHandle(*edits[i]->replacement, profileOf(ofFile)) : ofFile);
+            LightDesc const& ofFile = mLightsOfFile[i];
+            mScene.set(light.light, isReplaced ? withProfileHandle(*edits[i]->replacement, profileOf(ofFile)) : ofFile);
         }
     }
 }

@@ -50,7 +50,7 @@ public:
     std::vector<Node> const& nodes() const { return mNodes; }
     std::optional<uint32_t> indexOf(Node node) const;
     double4x4 const& nodeOfFile(uint32_t node) const { return mNodesOfFile.at(node); }
-    AnyLight const& lightOfFile(uint32_t light) const { return mLightsOfFile.at(light); }
+    LightDesc const& lightOfFile(uint32_t light) const { return mLightsOfFile.at(light); }
     std::vector<CopyLight> const& modelLights() const { return mModelLights; }
     std::vector<Light> const& documentLights() const { return mLights; }
     std::vector<CopyMaterial> materials() const;
@@ -71,7 +71,7 @@ private:
     Result<void> setMaterial(MaterialEdit const& edit);
     void setTextures(Document const& document, LoadedTextures const& textures, Messages& messages);
     Result<void> setTexture(TextureEdit const& edit, Texture texture);
-    AnyLight withProfile(DocumentLight const& light, Profiles const& profiles) const;
+    LightDesc withProfile(DocumentLight const& light, Profiles const& profiles) const;
 
     Engine& mEngine;
     LoadedModel* mModel; ///< null: nothing
@@ -83,10 +83,10 @@ private:
     std::map<Node, uint32_t> mIndices; ///< of mNodes
     std::vector<double4x4> mNodesOfFile;
     std::vector<CopyLight> mModelLights; ///< without a handle: off
-    std::vector<AnyLight> mLightsOfFile;
+    std::vector<LightDesc> mLightsOfFile;
     std::vector<Morph> mMorphs;
-    std::vector<AnyLight> mDocumentLights; ///< with their profiles
-    std::vector<Light> mLights;            ///< of them; none: off
+    std::vector<LightDesc> mDocumentLights; ///< with their profiles
+    std::vector<Light> mLights;             ///< of them; none: off
 };
 
 } // namespace filament_core::view

@@ -33,14 +33,14 @@ struct GizmoViewer : Headless {
         settle();
         ASSERT_TRUE(viewer->panels().state.selectedNode.has_value());
     }
-    void selectLight(AnyLight const& light) {
+    void selectLight(LightDesc const& light) {
         viewer->document().lights.push_back({ .name = "lamp", .light = light });
         viewer->panels().state.selectedLight =
                 LightSelection{ false, static_cast<uint32_t>(viewer->document().lights.size() - 1) };
         viewer->redraw();
         settle();
     }
-    AnyLight& light() { return viewer->document().lights.back().light; }
+    LightDesc& light() { return viewer->document().lights.back().light; }
     /// The end of an arrow, the middle of an area, a line of a ring.
     float2 pixelOf(GizmoPart part) {
         for (Handle const& handle : viewer->gizmo().handles(viewer->gizmoScene())) {
@@ -220,7 +220,7 @@ TEST_P(ViewerGizmoTest, HandlesOfLightsChangeTheirFields) {
         const SpotLight before = std::get<SpotLight>(hands.light());
         const float2 from = hands.pixelOf(part);
         hands.drag(from, from + way, 2);
-        EXPECT_FALSE(isEqual(AnyLight(before), hands.light())) << toString(part);
+        EXPECT_FALSE(isEqual(LightDesc(before), hands.light())) << toString(part);
         return std::pair{ before, std::get<SpotLight>(hands.light()) };
     };
     auto [before, after] = dragged(GizmoPart::Direction, { 0, 20 });

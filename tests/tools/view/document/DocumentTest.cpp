@@ -180,7 +180,7 @@ public:
             if (value) walk(place, *value, low, high);
         } else if constexpr (IsList<T>) {
             for (size_t i = 0; i < value.size(); ++i) walk(fmt::format("{}[{}]", place, i), value[i], low, high);
-        } else if constexpr (std::is_same_v<T, AnyLight> || std::is_same_v<T, ParameterValue>) {
+        } else if constexpr (std::is_same_v<T, LightDesc> || std::is_same_v<T, ParameterValue>) {
             std::visit([&](auto& held) { walk(place, held, low, high); }, value);
         }
     }

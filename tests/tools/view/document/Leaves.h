@@ -116,7 +116,7 @@ public:
                 if (!value.empty()) value.pop_back();
             });
             for (size_t i = 0; i < value.size(); ++i) walk(fmt::format("{}[{}]", place, i), value[i], low, high);
-        } else if constexpr (std::is_same_v<T, AnyLight>) {
+        } else if constexpr (std::is_same_v<T, LightDesc>) {
             leaf(place, [&](Random&) {
                 value.index() == 0 ? static_cast<void>(value = PointLight{}) : static_cast<void>(value = SunLight{});
             });

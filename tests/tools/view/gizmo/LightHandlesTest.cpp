@@ -23,7 +23,7 @@ GizmoLight lightAt(RandomGizmo const& random, double4x4 const& worldFromLight, d
     return { .light = light, .worldFromLight = worldFromLight, .elsewhereWorld = random.frame.originWorld };
 }
 
-double3 aimOf(GizmoLight const& light, AnyLight const& dragged) {
+double3 aimOf(GizmoLight const& light, LightDesc const& dragged) {
     const double3 local = std::visit(
             [](auto const& held) {
                 if constexpr (requires { held.axisWorld; })
@@ -40,7 +40,7 @@ bool isSeenFromTheEye(RandomGizmo const& random, double3 direction) {
     return glm::dot(direction, towardsEye(random.view, tip)) > 0.1;
 }
 
-std::vector<AnyLight> lightsOfEveryKind() {
+std::vector<LightDesc> lightsOfEveryKind() {
     return { SunLight{},
              PointLight{ .rangeMeters = 2 },
              SpotLight{ .rangeMeters = 3 },
@@ -66,7 +66,7 @@ TEST(LightHandles, DirectionsStayUnderThePointer) {
                 random.drag(GizmoMode::Move, GizmoPart::Direction, random.frame.originWorld + before * random.length(),
                             random.frame.originWorld + after * random.length());
         if (!drag) continue;
-        const AnyLight dragged = draggedLight(drag->first, drag->second, {}, light);
+        const LightDesc dragged = draggedLight(drag->first, drag->second, {}, light);
         EXPECT_LT(glm::length(aimOf(light, dragged) - after), 1e-5);
         ++checked;
     }
@@ -176,7 +176,7 @@ TEST(LightHandles, NoDragMakesALightThatADocumentRefuses) {
     Draw draw(6);
     for (int round = 0; round < kRounds; ++round) {
         const RandomGizmo random(draw);
-        for (AnyLight const& any : lightsOfEveryKind()) {
+        for (LightDesc const& any : lightsOfEveryKind()) {
             const auto mode = static_cast<GizmoMode>(round % 4);
             const auto part = static_cast<GizmoPart>(round % 12);
             GizmoLight light{ .light = any, .worldFromLight = randomPlace(draw) };
@@ -198,7 +198,7 @@ TEST(LightHandles, TheUpOfAnAimedAreaTurnsWithItsAim) {
         const GizmoLight light{ .light = RectLight{} };
         const GizmoDrag drag{ GizmoMode::Off, GizmoPart::Direction, frameOf(light, GizmoAxes::World), random.view,
                               draw.picture() * 2000.0 };
-        const AnyLight dragged = draggedLight(drag, draw.picture() * 2000.0, {}, light);
+        const LightDesc dragged = draggedLight(drag, draw.picture() * 2000.0, {}, light);
         auto const& area = std::get<RectLight>(dragged);
         EXPECT_NEAR(glm::dot(area.directionWorld, area.upWorld), 0, 1e-5f);
         EXPECT_NEAR(glm::length(area.upWorld), 1, 1e-5f);

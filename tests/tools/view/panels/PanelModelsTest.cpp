@@ -231,7 +231,7 @@ TEST(MaterialRows, SayWhatAMaterialPaysFor) {
 TEST(LightFields, EveryFieldPointsIntoItsLight) {
     for (size_t kind = 0; kind < kLightKinds; ++kind) {
         Document document;
-        AnyLight& light = addLight(document, kind, {}).light;
+        LightDesc& light = addLight(document, kind, {}).light;
         ASSERT_EQ(light.index(), kind);
         std::set<std::string_view> names;
         for (LightField const& field : lightFields(light)) {
@@ -242,7 +242,7 @@ TEST(LightFields, EveryFieldPointsIntoItsLight) {
                 EXPECT_GE(value, field.least) << field.name;
                 EXPECT_LE(value, field.most) << field.name;
             }
-            const AnyLight before = light;
+            const LightDesc before = light;
             std::visit(
                     [](auto* value) {
                         using T = std::remove_cvref_t<decltype(*value)>;
@@ -260,7 +260,7 @@ TEST(LightFields, EveryFieldPointsIntoItsLight) {
 
 TEST(LightFields, TheConesOfASpotStayInEachOther) {
     Document document;
-    AnyLight& light = addLight(document, 2, {}).light;
+    LightDesc& light = addLight(document, 2, {}).light;
     auto& spot = std::get<SpotLight>(light);
     for (const float outer : { 1e-3f, 0.2f, 1.0f, kMostCone }) {
         spot.outerConeRadians = outer;
@@ -301,7 +301,7 @@ TEST(LightFields, AnotherKindKeepsWhatBothHave) {
                     .castsShadows = false,
                     .lightChannels = 6 };
     for (size_t kind = 0; kind < kLightKinds; ++kind) {
-        AnyLight other = withKind(spot, kind);
+        LightDesc other = withKind(spot, kind);
         ASSERT_EQ(other.index(), kind);
         for (LightField const& field : lightFields(other)) {
             if (field.kind == LightFieldKind::Place) {

@@ -124,7 +124,7 @@ private:
     void addLight(Document& document) {
         const double3 at(real(-1, 1), real(-1, 1), real(0.5f, 2));
         const float3 towards = -float3(at);
-        AnyLight light;
+        LightDesc light;
         switch (pick(6)) {
         case 0:
             light = SunLight{ .directionWorld = towards, .illuminance = Lux{ real(1000, 20'000) } };
