@@ -200,7 +200,15 @@ struct Engine::Impl {
     template <class Tag, class State>
     void removeNow(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
     void destroy(Texture texture) { retire(textures, texture); }
+    void destroy(VertexBuffer buffer) { retire(vertexBuffers, buffer); }
+    void destroy(IndexBuffer buffer) { retire(indexBuffers, buffer); }
+    void destroy(MorphTargets targets) { retire(morphTargets, targets); }
+    void destroy(Material material) { retire(materials, material); }
     void destroy(MaterialInstance instance) { retire(instances, instance); }
+    void destroy(IndirectLight light) { removeNow(indirectLights, light); }
+    void destroy(Skybox skybox) { removeNow(skyboxes, skybox); }
+    void destroy(LightProfile profile) { removeNow(lightProfiles, profile); }
+    void destroy(RenderTarget target) { removeNow(renderTargets, target); }
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);

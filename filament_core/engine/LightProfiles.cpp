@@ -51,11 +51,6 @@ LightProfileDescription Engine::describe(LightProfile profile) const {
     return mImpl->lightProfiles.get(profile).description;
 }
 
-void Engine::destroy(LightProfile profile) {
-    const PublicCall call(mImpl, "Engine::destroy(LightProfile)");
-    mImpl->removeNow(mImpl->lightProfiles, profile);
-}
-
 Result<LightProfile> loadLightProfile(Engine& engine, std::filesystem::path const& path) {
     const PublicCall call(engine, "loadLightProfile(Engine, path)", path.native());
     return orOutOfMemory("light profile", path.native(), [&]() -> Result<LightProfile> {

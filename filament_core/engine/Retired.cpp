@@ -127,6 +127,11 @@ private:
 } // namespace
 } // namespace engine
 
+void Engine::destroy(EngineObject object) {
+    const engine::PublicCall call(mImpl, "Engine::destroy(EngineObject)");
+    std::visit([&](auto handle) { mImpl->destroy(handle); }, object);
+}
+
 void Engine::Impl::releaseRetired(backend::CommandBuffer& commands) {
     if (!aUseEnded) return;
     const bool hasRetired = instances.hasRetired() || materials.hasRetired() || vertexBuffers.hasRetired() ||

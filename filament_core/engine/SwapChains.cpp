@@ -126,9 +126,4 @@ void Engine::resize(SwapChain swapChain, uint2 size) {
     mImpl->orReport("resizing a swap chain", state.name, [&] { mImpl->resize(state, size); });
 }
 
-void Engine::destroy(SwapChain swapChain) {
-    const PublicCall call(mImpl, "Engine::destroy(SwapChain)");
-    mImpl->destroy(swapChain);
-}
-
 } // namespace filament_core

@@ -287,34 +287,4 @@ Texture Engine::depthOf(RenderTarget target) const {
     return mImpl->textures.isLive(depth) ? depth : Texture{};
 }
 
-void Engine::destroy(Texture texture) {
-    const PublicCall call(mImpl, "Engine::destroy(Texture)");
-    mImpl->destroy(texture);
-}
-
-void Engine::destroy(VertexBuffer buffer) {
-    const PublicCall call(mImpl, "Engine::destroy(VertexBuffer)");
-    mImpl->retire(mImpl->vertexBuffers, buffer);
-}
-
-void Engine::destroy(IndexBuffer buffer) {
-    const PublicCall call(mImpl, "Engine::destroy(IndexBuffer)");
-    mImpl->retire(mImpl->indexBuffers, buffer);
-}
-
-void Engine::destroy(IndirectLight light) {
-    const PublicCall call(mImpl, "Engine::destroy(IndirectLight)");
-    mImpl->removeNow(mImpl->indirectLights, light);
-}
-
-void Engine::destroy(Skybox skybox) {
-    const PublicCall call(mImpl, "Engine::destroy(Skybox)");
-    mImpl->removeNow(mImpl->skyboxes, skybox);
-}
-
-void Engine::destroy(RenderTarget target) {
-    const PublicCall call(mImpl, "Engine::destroy(RenderTarget)");
-    mImpl->removeNow(mImpl->renderTargets, target);
-}
-
 } // namespace filament_core

@@ -94,9 +94,4 @@ MorphTargets Engine::create(MorphTargetsDesc const& desc) {
     return mImpl->orNone("morph targets", desc.name, [&] { return mImpl->createMorphTargets(desc); });
 }
 
-void Engine::destroy(MorphTargets targets) {
-    const PublicCall call(mImpl, "Engine::destroy(MorphTargets)");
-    mImpl->retire(mImpl->morphTargets, targets);
-}
-
 } // namespace filament_core

@@ -281,9 +281,4 @@ void Engine::setStencil(MaterialInstance handle, std::optional<StencilState> sta
     mImpl->changeRaster(handle, [&](scene::InstanceRaster& raster) { raster.stencil = state; });
 }
 
-void Engine::destroy(MaterialInstance handle) {
-    const PublicCall call(mImpl, "Engine::destroy(MaterialInstance)");
-    mImpl->destroy(handle);
-}
-
 } // namespace filament_core

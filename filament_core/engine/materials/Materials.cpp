@@ -98,9 +98,4 @@ MaterialDescription const& Engine::describe(Material material) const {
     return mImpl->materials.get(material).description;
 }
 
-void Engine::destroy(Material material) {
-    const PublicCall call(mImpl, "Engine::destroy(Material)");
-    mImpl->retire(mImpl->materials, material);
-}
-
 } // namespace filament_core

@@ -239,18 +239,9 @@ public:
     /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 
-    // Their handles end at once; what still uses the objects keeps them. A null handle: nothing happens.
-    void destroy(Texture texture);
-    void destroy(VertexBuffer buffer);
-    void destroy(IndexBuffer buffer);
-    void destroy(MorphTargets targets);
-    void destroy(Material material); ///< its instances keep it
-    void destroy(MaterialInstance instance);
-    void destroy(IndirectLight light);
-    void destroy(Skybox skybox);
-    void destroy(LightProfile profile); ///< lights that were added with it keep it
-    void destroy(RenderTarget target);
-    void destroy(SwapChain swapChain);
+    /// The handle ends at once; what still uses the object keeps it: a material its instances, a light its profile. A
+    /// null handle: nothing happens.
+    void destroy(EngineObject object);
 
     template <class T>
     Owned<T> own(T object);

@@ -37,6 +37,10 @@ using Skybox = ObjectHandle<struct SkyboxObject>;
 using RenderTarget = ObjectHandle<struct RenderTargetObject>;
 using SwapChain = ObjectHandle<struct SwapChainObject>;
 
+/// Any object of an engine, for Engine::destroy().
+using EngineObject = std::variant<Texture, VertexBuffer, IndexBuffer, MorphTargets, Material, MaterialInstance,
+                                  IndirectLight, Skybox, LightProfile, RenderTarget, SwapChain>;
+
 /// Refers to a request to Engine::compile().
 struct Compilation {
     uint64_t id = 0;

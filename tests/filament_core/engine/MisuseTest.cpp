@@ -137,7 +137,7 @@ RenderableDesc with(World& world, std::function<void(RenderableDesc&)> change) {
 
 std::vector<Use> usesOfTextures() {
     return {
-        { "Engine::destroy(Texture)", "texture", "wood",
+        { "Engine::destroy(EngineObject)", "texture", "wood",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.texture); }, true },
         { "Engine::set(MaterialInstance, string_view, Texture, Sampler) of 'picture'", "texture", "wood",
           [](World& world, Handles const& bad) {
@@ -169,11 +169,11 @@ std::vector<Use> usesOfTextures() {
 
 std::vector<Use> usesOfGeometry() {
     return {
-        { "Engine::destroy(VertexBuffer)", "vertex buffer", "corners",
+        { "Engine::destroy(EngineObject)", "vertex buffer", "corners",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.vertices); }, true },
-        { "Engine::destroy(IndexBuffer)", "index buffer", "order",
+        { "Engine::destroy(EngineObject)", "index buffer", "order",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.indices); }, true },
-        { "Engine::destroy(MorphTargets)", "morph targets", "smile",
+        { "Engine::destroy(EngineObject)", "morph targets", "smile",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.targets); }, true },
         { "Engine::update(VertexBuffer, span<byte>, uint32_t)", "vertex buffer", "corners",
           [](World& world, Handles const& bad) { world.engine.update(bad.vertices, {}); } },
@@ -209,7 +209,7 @@ std::vector<Use> usesOfGeometry() {
 
 std::vector<Use> usesOfMaterials() {
     return {
-        { "Engine::destroy(Material)", "material", "paint",
+        { "Engine::destroy(EngineObject)", "material", "paint",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.material); }, true },
         { "Engine::compile(Material, CompileDesc)", "material", "paint",
           [](World& world, Handles const& bad) { (void)world.engine.compile(bad.material); } },
@@ -229,7 +229,7 @@ std::vector<Use> usesOfInstances() {
     };
     return {
         use(
-                "Engine::destroy(MaterialInstance)", [](Engine& e, MaterialInstance bad) { e.destroy(bad); }, true),
+                "Engine::destroy(EngineObject)", [](Engine& e, MaterialInstance bad) { e.destroy(bad); }, true),
         use("Engine::set(MaterialInstance, string_view, ParameterValue) of 'tint'",
             [](Engine& e, MaterialInstance bad) { (void)e.set(bad, "tint", ParameterValue(float4(1))); }),
         use("Engine::set(MaterialInstance, string_view, ParameterArray, uint32_t) of 'tint'",
@@ -267,11 +267,11 @@ std::vector<Use> usesOfInstances() {
 
 std::vector<Use> usesOfLight() {
     return {
-        { "Engine::destroy(IndirectLight)", "indirect light", "day",
+        { "Engine::destroy(EngineObject)", "indirect light", "day",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.light); }, true },
-        { "Engine::destroy(Skybox)", "skybox", "blue",
+        { "Engine::destroy(EngineObject)", "skybox", "blue",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.skybox); }, true },
-        { "Engine::destroy(LightProfile)", "light profile", "spotty",
+        { "Engine::destroy(EngineObject)", "light profile", "spotty",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.profile); }, true },
         { "Engine::describe(LightProfile)", "light profile", "spotty",
           [](World& world, Handles const& bad) { (void)world.engine.describe(bad.profile); } },
@@ -290,9 +290,9 @@ View smallView() { return { .size = { 4, 4 } }; }
 
 std::vector<Use> usesOfTargets() {
     return {
-        { "Engine::destroy(RenderTarget)", "render target", "mirror",
+        { "Engine::destroy(EngineObject)", "render target", "mirror",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.target); }, true },
-        { "Engine::destroy(SwapChain)", "swap chain", "shop",
+        { "Engine::destroy(EngineObject)", "swap chain", "shop",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.chain); }, true },
         { "Engine::colorOf(RenderTarget)", "render target", "mirror",
           [](World& world, Handles const& bad) { (void)world.engine.colorOf(bad.target); } },
@@ -588,7 +588,8 @@ TEST(MisuseOfThreadsDeathTest, AnEngineAndAllThatBelongsToItStayOnItsThread) {
     };
     EXPECT_DEATH(onAnotherThread([&] { (void)world.engine.create(TextureDesc{}); }),
                  line("Engine::create(TextureDesc)"));
-    EXPECT_DEATH(onAnotherThread([&] { world.engine.destroy(world.all.texture); }), line("Engine::destroy(Texture)"));
+    EXPECT_DEATH(onAnotherThread([&] { world.engine.destroy(world.all.texture); }),
+                 line("Engine::destroy(EngineObject)"));
     EXPECT_DEATH(onAnotherThread([&] { world.scene.remove(world.all.node); }), line("Scene::remove(Node)"));
     EXPECT_DEATH(onAnotherThread([&] { (void)ModelCopy::of(world.scene, world.all.node); }),
                  line("ModelCopy::of(Scene, Node)"));
