@@ -19,24 +19,6 @@ constexpr std::chrono::milliseconds kLongestSlice(4);
 
 } // namespace
 
-const char* toString(LoadStage stage) {
-    switch (stage) {
-    case LoadStage::Waiting:
-        return "waiting";
-    case LoadStage::Decoding:
-        return "decoding";
-    case LoadStage::Creating:
-        return "creating";
-    case LoadStage::Ready:
-        return "ready";
-    case LoadStage::Failed:
-        return "failed";
-    case LoadStage::Cancelled:
-        return "cancelled";
-    }
-    return "unknown";
-}
-
 namespace engine {
 
 LoadTask::LoadTask(std::string name) : mName(std::move(name)), mStage(LoadStage::Waiting) {}

@@ -16,20 +16,11 @@ namespace filament_core {
 namespace engine {
 namespace {
 
-/// A task that results in a T. `engine` is used only on its thread, and not after it has ended.
-template <class T>
-class LoadTaskOf : public LoadTask {
+/// A task of an engine, which is used only on its thread, and not after it has ended.
+class EngineTask : public LoadTask {
 public:
-    LoadTaskOf(Engine::Impl& owner, std::string name)
+    EngineTask(Engine::Impl& owner, std::string name)
             : LoadTask(std::move(name)), engine(owner), link(owner), jobs(owner.jobs) {}
-
-    Result<T> take() {
-        if (std::optional<Error> why = error()) return std::move(*why);
-        if (!result) return fail(ErrorCode::InvalidArgument, "the result of this load was taken already");
-        Result<T> taken(std::move(*result));
-        result.reset();
-        return taken;
-    }
 
     Engine::Impl& engine; ///< while the link is alive
     EngineLink link;
@@ -40,6 +31,30 @@ protected:
     }
 
     jobs::JobSystem& jobs; // work() runs before they end
+};
+
+/// One that results in a T.
+template <class T>
+class LoadTaskOf : public EngineTask {
+public:
+    using EngineTask::EngineTask;
+
+    Result<T> take() {
+        if (std::optional<Error> why = error()) return std::move(*why);
+        if (!result) return fail(ErrorCode::InvalidArgument, "the result of this load was taken already");
+        Result<T> taken(std::move(*result));
+        result.reset();
+        return taken;
+    }
+
+    Result<T> wait() {
+        waitForWork();
+        while (!poll(kLoadSliceBytes).isFinished()) {
+        }
+        return take();
+    }
+
+protected:
     std::optional<T> result;
 };
 
@@ -156,11 +171,10 @@ LoadTicket<T> begin(Engine& engine, std::shared_ptr<LoadTask> task) {
 }
 
 /// A function of a ticket, from its first line to its last. A ticket may outlive its engine.
-template <class T>
 class TicketCall {
 public:
     TicketCall(std::shared_ptr<LoadTask> const& ofTicket, const char* function)
-            : mCall(function), task(static_cast<LoadTaskOf<T>&>(existing(ofTicket))) {
+            : mCall(function), task(static_cast<EngineTask&>(existing(ofTicket))) {
         if (task.link.isAlive()) const PublicCall checksThread(&task, function);
     }
 
@@ -173,66 +187,63 @@ private:
     ApiCall mCall;
 
 public:
-    LoadTaskOf<T>& task;
+    EngineTask& task;
 };
+
+template <class T>
+LoadTaskOf<T>& taskOf(TicketCall const& call) {
+    return static_cast<LoadTaskOf<T>&>(call.task);
+}
 
 } // namespace
 } // namespace engine
 
-template <class T>
-LoadTicket<T>::LoadTicket(std::shared_ptr<engine::LoadTask> task) : mTask(std::move(task)) {}
-template <class T>
-LoadTicket<T>::LoadTicket(LoadTicket&&) noexcept = default;
+using engine::TicketCall;
 
-template <class T>
-LoadTicket<T>& LoadTicket<T>::operator=(LoadTicket&& other) noexcept {
-    LoadTicket old(std::move(*this));
-    mTask = std::move(other.mTask);
-    return *this;
-}
-
-template <class T>
-LoadTicket<T>::~LoadTicket() {
+LoadTicketBase::~LoadTicketBase() {
     if (!mTask) return; // moved from
-    const engine::TicketCall<T> call(mTask, "LoadTicket::~LoadTicket()");
+    const TicketCall call(mTask, "LoadTicket::~LoadTicket()");
     mTask->discard();
 }
 
-template <class T>
-LoadStatus LoadTicket<T>::poll(size_t sliceBytes) {
-    const engine::TicketCall<T> call(mTask, "LoadTicket::poll(size_t)");
+LoadStatus LoadTicketBase::poll(size_t sliceBytes) {
+    const TicketCall call(mTask, "LoadTicket::poll(size_t)");
     return call.task.poll(sliceBytes);
 }
 
-template <class T>
-LoadStatus LoadTicket<T>::status() const {
-    const engine::TicketCall<T> call(mTask, "LoadTicket::status()");
+LoadStatus LoadTicketBase::status() const {
+    const TicketCall call(mTask, "LoadTicket::status()");
     return call.task.status();
 }
 
-template <class T>
-void LoadTicket<T>::cancel() {
-    const engine::TicketCall<T> call(mTask, "LoadTicket::cancel()");
+void LoadTicketBase::cancel() {
+    const TicketCall call(mTask, "LoadTicket::cancel()");
     call.task.cancel();
 }
 
-template <class T>
-Result<T> LoadTicket<T>::take() {
-    const engine::TicketCall<T> call(mTask, "LoadTicket::take()");
-    return call.task.take();
+template <>
+Result<Model> LoadTicket<Model>::take() {
+    const TicketCall call(mTask, "LoadTicket::take()");
+    return engine::taskOf<Model>(call).take();
 }
 
-template <class T>
-Result<T> LoadTicket<T>::wait() {
-    const engine::TicketCall<T> call(mTask, "LoadTicket::wait()");
-    call.task.waitForWork();
-    while (!call.task.poll(kLoadSliceBytes).isFinished()) {
-    }
-    return call.task.take();
+template <>
+Result<Environment> LoadTicket<Environment>::take() {
+    const TicketCall call(mTask, "LoadTicket::take()");
+    return engine::taskOf<Environment>(call).take();
 }
 
-template class LoadTicket<Model>;
-template class LoadTicket<Environment>;
+template <>
+Result<Model> LoadTicket<Model>::wait() {
+    const TicketCall call(mTask, "LoadTicket::wait()");
+    return engine::taskOf<Model>(call).wait();
+}
+
+template <>
+Result<Environment> LoadTicket<Environment>::wait() {
+    const TicketCall call(mTask, "LoadTicket::wait()");
+    return engine::taskOf<Environment>(call).wait();
+}
 
 LoadTicket<Model> loadGltfAsync(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
     const engine::PublicCall call(engine, "loadGltfAsync(Engine, path)", path.native());

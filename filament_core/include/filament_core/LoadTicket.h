@@ -18,15 +18,18 @@
 ///   Result<Model> castle = ticket.take();
 #pragma once
 
+#include <filament_core/EnumNames.h>
 #include <filament_core/Environment.h>
 #include <filament_core/Gltf.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace filament_core {
 namespace engine {
@@ -41,8 +44,11 @@ enum class LoadStage : uint8_t {
     Failed,    ///< take() says why
     Cancelled, ///< by cancel(), or because the engine ended
 };
-/// "waiting", "decoding", "creating", "ready", "failed", "cancelled".
-const char* toString(LoadStage stage);
+template <>
+struct EnumNames<LoadStage> {
+    static constexpr auto values =
+            std::to_array<std::string_view>({ "waiting", "decoding", "creating", "ready", "failed", "cancelled" });
+};
 
 struct LoadStatus {
     LoadStage stage = LoadStage::Waiting;
@@ -55,14 +61,16 @@ struct LoadStatus {
 /// What one poll() may copy to the device. It creates at least one object: a texture with its mip levels, a mesh.
 inline constexpr size_t kLoadSliceBytes = size_t{ 8 } << 20;
 
-/// T: Model or Environment.
-template <class T>
-class LoadTicket {
+/// What tickets of all results have in common.
+class LoadTicketBase {
 public:
-    LoadTicket(LoadTicket&&) noexcept;
-    LoadTicket& operator=(LoadTicket&&) noexcept;
+    LoadTicketBase(LoadTicketBase&&) noexcept = default;
+    LoadTicketBase& operator=(LoadTicketBase&& other) noexcept {
+        const LoadTicketBase old(std::exchange(mTask, std::move(other.mTask)));
+        return *this;
+    }
     /// Cancels what is not finished, and destroys a result that was not taken.
-    ~LoadTicket();
+    ~LoadTicketBase();
 
     /// Creates the next slice of objects, if everything is decoded. Never waits.
     LoadStatus poll(size_t sliceBytes = kLoadSliceBytes);
@@ -70,19 +78,33 @@ public:
     LoadStatus status() const;
     /// No effect if finished.
     void cancel();
+
+protected:
+    explicit LoadTicketBase(std::shared_ptr<engine::LoadTask> task) : mTask(std::move(task)) {}
+
+    std::shared_ptr<engine::LoadTask> mTask; ///< none: moved from
+};
+
+/// T: Model or Environment.
+template <class T>
+class LoadTicket : public LoadTicketBase {
+public:
     /// Once, when poll() says that it is finished; InvalidArgument before that, and the second time.
     Result<T> take();
     /// Waits until it is finished, and takes it.
     Result<T> wait();
 
-    explicit LoadTicket(std::shared_ptr<engine::LoadTask> task);
-
-private:
-    std::shared_ptr<engine::LoadTask> mTask;
+    explicit LoadTicket(std::shared_ptr<engine::LoadTask> task) : LoadTicketBase(std::move(task)) {}
 };
 
-extern template class LoadTicket<Model>;
-extern template class LoadTicket<Environment>;
+template <>
+Result<Model> LoadTicket<Model>::take();
+template <>
+Result<Model> LoadTicket<Model>::wait();
+template <>
+Result<Environment> LoadTicket<Environment>::take();
+template <>
+Result<Environment> LoadTicket<Environment>::wait();
 
 LoadTicket<Model> loadGltfAsync(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options = {});
 /// GltfMemory::resolve must be callable until the ticket is finished or cancelled, and for one call more.
