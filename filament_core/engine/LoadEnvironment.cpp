@@ -103,11 +103,6 @@ assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, Enviro
 
 } // namespace engine
 
-Environment::Environment(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
-Environment::Environment(Environment&&) noexcept = default;
-Environment& Environment::operator=(Environment&&) noexcept = default;
-Environment::~Environment() = default;
-
 IndirectLight Environment::indirectLight() const {
     const PublicCall call(mImpl, "Environment::indirectLight()");
     return mImpl->indirectLight;

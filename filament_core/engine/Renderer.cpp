@@ -389,8 +389,7 @@ struct Renderer::Impl final : engine::Dependent {
     engine::FrameSummary summary;
 };
 
-Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(std::make_unique<Impl>(engine, options)) {}
-Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(std::make_shared<Impl>(engine, options)) {}
 Renderer::~Renderer() {
     if (mImpl && mImpl->link.isAlive()) const PublicCall call(mImpl, "Renderer::~Renderer()");
 }

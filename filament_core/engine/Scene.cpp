@@ -42,7 +42,6 @@ scene::Deformation deformationOf(Scene::Impl const& scene, RenderableDesc const&
 } // namespace
 
 Scene::Scene(Engine& engine) : mImpl(std::make_shared<Impl>(engine)) {}
-Scene::Scene(Scene&&) noexcept = default;
 Scene::~Scene() {
     if (mImpl && mImpl->link.isAlive()) const PublicCall call(mImpl, "Scene::~Scene()");
 }

@@ -193,11 +193,8 @@ private:
 Animator::Animator(Model const& model, Scene& scene, Node root) {
     const auto ofScene = scene.share().lock();
     const engine::PublicCall call(ofScene, "Animator::Animator(Model, Scene, Node)");
-    mImpl = std::make_unique<Impl>(engine::shareOf(model, ofScene->engine), scene, root);
+    mImpl = std::make_shared<Impl>(engine::shareOf(model, ofScene->engine), scene, root);
 }
-Animator::Animator(Animator&&) noexcept = default;
-Animator& Animator::operator=(Animator&&) noexcept = default;
-Animator::~Animator() = default;
 
 void Animator::apply(uint32_t animation, double seconds) {
     const AnimatorCall call(mImpl.get(), "Animator::apply(uint32_t, double)");

@@ -32,11 +32,6 @@ std::shared_ptr<const Model::Impl> engine::shareOf(Model const& model, Engine::I
     return shared;
 }
 
-Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
-Model::Model(Model&&) noexcept = default;
-Model& Model::operator=(Model&&) noexcept = default;
-Model::~Model() = default;
-
 std::string const& Model::name() const {
     const PublicCall call(mImpl, "Model::name()");
     return mImpl->name;

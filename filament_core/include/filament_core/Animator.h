@@ -23,9 +23,8 @@ namespace filament_core {
 class Animator {
 public:
     Animator(Model const& model, Scene& scene, Node root);
-    Animator(Animator&&) noexcept;
-    Animator& operator=(Animator&&) noexcept;
-    ~Animator();
+    Animator(Animator&&) noexcept = default;
+    Animator& operator=(Animator&&) noexcept = default;
 
     /// Poses everything that the animation moves as it is at that time; everything else stays unchanged.
     void apply(uint32_t animation, double seconds);
@@ -40,7 +39,7 @@ public:
     struct Impl;
 
 private:
-    std::unique_ptr<Impl> mImpl;
+    std::shared_ptr<Impl> mImpl; ///< not shared
 };
 
 } // namespace filament_core

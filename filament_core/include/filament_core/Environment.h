@@ -15,23 +15,23 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace filament_core {
 
 class Environment {
 public:
-    Environment(Environment&&) noexcept;
-    Environment& operator=(Environment&&) noexcept;
-    ~Environment();
+    Environment(Environment&&) noexcept = default;
+    Environment& operator=(Environment&&) noexcept = default;
 
     IndirectLight indirectLight() const;
     Skybox skybox() const;
 
     struct Impl;
-    explicit Environment(std::unique_ptr<Impl> impl);
+    explicit Environment(std::shared_ptr<Impl> impl) : mImpl(std::move(impl)) {}
 
 private:
-    std::unique_ptr<Impl> mImpl;
+    std::shared_ptr<Impl> mImpl; ///< not shared
 };
 
 /// `path`: an equirectangular .hdr or .exr, a cube map of floats in a .ktx2, or a package (.ktx2 or .fenv) that cmgen

@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace filament_core {
@@ -34,9 +35,8 @@ class Environment;
 
 class Model {
 public:
-    Model(Model&&) noexcept;
-    Model& operator=(Model&&) noexcept;
-    ~Model();
+    Model(Model&&) noexcept = default;
+    Model& operator=(Model&&) noexcept = default;
 
     std::string const& name() const;
     Box bounds() const; ///< of all parts in the rest pose, in model space
@@ -61,7 +61,7 @@ public:
 
     struct Impl;
     std::shared_ptr<const Impl> share() const { return mImpl; } ///< for the engine's own files
-    explicit Model(std::unique_ptr<Impl> impl);
+    explicit Model(std::shared_ptr<Impl> impl) : mImpl(std::move(impl)) {}
 
 private:
     std::shared_ptr<Impl> mImpl; ///< copies in scenes and animators share it

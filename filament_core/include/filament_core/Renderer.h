@@ -92,7 +92,7 @@ struct RendererOptions {
 class Renderer {
 public:
     explicit Renderer(Engine& engine, RendererOptions const& options = {});
-    Renderer(Renderer&&) noexcept;
+    Renderer(Renderer&&) noexcept = default;
     ~Renderer();
 
     /// Renders into the next image of a swap chain, or into a render target; either has view.size, or contains
@@ -149,7 +149,7 @@ public:
     struct Impl;
 
 private:
-    std::unique_ptr<Impl> mImpl;
+    std::shared_ptr<Impl> mImpl; ///< not shared
 };
 
 } // namespace filament_core

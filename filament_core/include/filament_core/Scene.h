@@ -85,7 +85,7 @@ struct RenderableDesc {
 class Scene {
 public:
     explicit Scene(Engine& engine);
-    Scene(Scene&&) noexcept;
+    Scene(Scene&&) noexcept = default;
     ~Scene();
 
     Renderable add(RenderableDesc const& desc);
