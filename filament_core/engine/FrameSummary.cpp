@@ -140,11 +140,4 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
 
 } // namespace filament_core::engine
 
-namespace filament_core {
-
-const char* toString(EffectDecision::State state) {
-    static constexpr std::array<const char*, 4> kWords{ "needed", "not needed", "ran", "culled" };
-    return kWords[static_cast<size_t>(state)];
-}
-
-} // namespace filament_core
+namespace filament_core {} // namespace filament_core

@@ -13,29 +13,6 @@ namespace {
 
 constexpr DebugColor kBlackColor{ 0, 0, 0 }, kWhiteColor{ 255, 255, 255 }, kGreyColor{ 153, 153, 153 };
 
-// By NumericsMark; told apart by everyone (Okabe and Ito 2008, "Color Universal Design").
-constexpr std::array<DebugColor, kNumericsMarks> kNumericsColors{
-    { { 0, 0, 0 }, { 86, 180, 233 }, { 240, 228, 66 }, { 230, 159, 0 }, { 213, 94, 0 }, { 204, 121, 167 } }
-};
-
-// By PlausibilityRule.
-constexpr std::array<DebugColor, kPlausibilityRules> kRuleColors{ { { 0, 0, 0 },
-                                                                    { 204, 121, 167 },
-                                                                    { 86, 180, 233 },
-                                                                    { 240, 228, 66 },
-                                                                    { 230, 159, 0 },
-                                                                    { 0, 158, 115 },
-                                                                    { 213, 94, 0 } } };
-
-/// The place of a colour among those of marks, the first of which stands for all greys.
-template <class Mark, size_t N>
-std::optional<Mark> markOf(std::array<DebugColor, N> const& colors, DebugColor color) {
-    if (color[0] == color[1] && color[1] == color[2]) return Mark{};
-    const auto found = std::ranges::find(colors, color);
-    if (found == colors.end()) return std::nullopt;
-    return static_cast<Mark>(found - colors.begin());
-}
-
 uint8_t codeOf(float value) { return static_cast<uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f); }
 
 /// Straight lines between five colours of viridis (Smith and van der Walt 2015). 0 to 1.
@@ -49,16 +26,6 @@ DebugColor heatColor(float heat) {
 
 } // namespace
 
-const char* toString(NumericsMark mark) {
-    static constexpr std::array<const char*, kNumericsMarks> kNames{ "none",       "denormal", "clipped",
-                                                                     "outOfRange", "infinite", "notANumber" };
-    return kNames[static_cast<size_t>(mark)];
-}
-
-DebugColor numericsColor(NumericsMark mark) { return kNumericsColors[static_cast<size_t>(mark)]; }
-
-std::optional<NumericsMark> numericsMarkOf(DebugColor color) { return markOf<NumericsMark>(kNumericsColors, color); }
-
 NumericsCounts countNumerics(std::span<const std::byte> rgba) {
     NumericsCounts counts{};
     for (size_t i = 0; i + 4 <= rgba.size(); i += 4) {
@@ -67,13 +34,6 @@ NumericsCounts countNumerics(std::span<const std::byte> rgba) {
         ++counts[static_cast<size_t>(mark.value_or(NumericsMark::None))];
     }
     return counts;
-}
-
-const char* toString(PlausibilityRule rule) {
-    static constexpr std::array<const char*, kPlausibilityRules> kNames{
-        "none", "mixedMetallic", "darkAlbedo", "brightAlbedo", "darkMetal", "lowReflectance", "brightEmission"
-    };
-    return kNames[static_cast<size_t>(rule)];
 }
 
 const char* meaningOf(PlausibilityRule rule) {
@@ -87,12 +47,6 @@ const char* meaningOf(PlausibilityRule rule) {
         "emission is at most 1, the white of the image, unless it is a lamp"
     };
     return kMeanings[static_cast<size_t>(rule)];
-}
-
-DebugColor plausibilityColor(PlausibilityRule rule) { return kRuleColors[static_cast<size_t>(rule)]; }
-
-std::optional<PlausibilityRule> plausibilityRuleOf(DebugColor color) {
-    return markOf<PlausibilityRule>(kRuleColors, color);
 }
 
 DebugColor luminanceColor(int stops) {

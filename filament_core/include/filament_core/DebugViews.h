@@ -5,15 +5,44 @@
 ///   Thread   any; pure.   Memory: none.   Fails: never.
 #pragma once
 
+#include <filament_core/EnumNames.h>
+
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace filament_core {
 
 using DebugColor = std::array<uint8_t, 3>; ///< red, green, blue
+
+namespace detail {
+/// By NumericsMark; told apart by everyone (Okabe and Ito 2008, "Color Universal Design").
+inline constexpr std::array<DebugColor, 6> kNumericsColors{
+    { { 0, 0, 0 }, { 86, 180, 233 }, { 240, 228, 66 }, { 230, 159, 0 }, { 213, 94, 0 }, { 204, 121, 167 } }
+};
+
+/// By PlausibilityRule.
+inline constexpr std::array<DebugColor, 7> kPlausibilityColors{ { { 0, 0, 0 },
+                                                                  { 204, 121, 167 },
+                                                                  { 86, 180, 233 },
+                                                                  { 240, 228, 66 },
+                                                                  { 230, 159, 0 },
+                                                                  { 0, 158, 115 },
+                                                                  { 213, 94, 0 } } };
+
+/// The place of a colour among those of marks, the first of which stands for all greys.
+template <class Mark, size_t N>
+constexpr std::optional<Mark> markOf(std::array<DebugColor, N> const& colors, DebugColor color) {
+    if (color[0] == color[1] && color[1] == color[2]) return Mark{};
+    const auto found = std::ranges::find(colors, color);
+    if (found == colors.end()) return std::nullopt;
+    return static_cast<Mark>(found - colors.begin());
+}
+} // namespace detail
 
 /// What DebugView::Numerics marks in the linear scene colour before it becomes half floats. Of a pixel for which
 /// several are true, the last one.
@@ -27,12 +56,17 @@ enum class NumericsMark : uint8_t {
 };
 inline constexpr size_t kNumericsMarks = 6;
 
-/// "none", "denormal", "clipped", "outOfRange", "infinite" and "notANumber".
-const char* toString(NumericsMark mark);
+template <>
+struct EnumNames<NumericsMark> {
+    static constexpr std::array<std::string_view, kNumericsMarks> values{ "none",       "denormal", "clipped",
+                                                                          "outOfRange", "infinite", "notANumber" };
+};
 /// None: grey stands for all greys.
-DebugColor numericsColor(NumericsMark mark);
+constexpr DebugColor numericsColor(NumericsMark mark) { return detail::kNumericsColors[static_cast<size_t>(mark)]; }
 /// Of a pixel of DebugView::Numerics; none: no such view has this colour.
-std::optional<NumericsMark> numericsMarkOf(DebugColor color);
+constexpr std::optional<NumericsMark> numericsMarkOf(DebugColor color) {
+    return detail::markOf<NumericsMark>(detail::kNumericsColors, color);
+}
 
 /// How many pixels have a mark, by NumericsMark.
 using NumericsCounts = std::array<uint64_t, kNumericsMarks>;
@@ -53,14 +87,22 @@ enum class PlausibilityRule : uint8_t {
 };
 inline constexpr size_t kPlausibilityRules = 7;
 
-/// "none", "mixedMetallic", "darkAlbedo", "brightAlbedo", "darkMetal", "lowReflectance" and "brightEmission".
-const char* toString(PlausibilityRule rule);
+template <>
+struct EnumNames<PlausibilityRule> {
+    static constexpr std::array<std::string_view, kPlausibilityRules> values{
+        "none", "mixedMetallic", "darkAlbedo", "brightAlbedo", "darkMetal", "lowReflectance", "brightEmission"
+    };
+};
 /// A sentence without its full stop: what real materials have. Empty for None.
 const char* meaningOf(PlausibilityRule rule);
 /// None: grey stands for all greys.
-DebugColor plausibilityColor(PlausibilityRule rule);
+constexpr DebugColor plausibilityColor(PlausibilityRule rule) {
+    return detail::kPlausibilityColors[static_cast<size_t>(rule)];
+}
 /// Of a pixel of DebugView::Plausibility; none: no such view has this colour.
-std::optional<PlausibilityRule> plausibilityRuleOf(DebugColor color);
+constexpr std::optional<PlausibilityRule> plausibilityRuleOf(DebugColor color) {
+    return detail::markOf<PlausibilityRule>(detail::kPlausibilityColors, color);
+}
 
 /// Of DebugView::Luminance: `stops` above middle grey, a linear luminance of 0.18 before tone mapping. From 7 on:
 /// white; up to -7: black.

@@ -16,6 +16,7 @@
 #include <filament_core/Units.h>
 
 #include <cstdint>
+#include <numbers>
 #include <variant>
 
 namespace filament_core {
@@ -137,10 +138,25 @@ struct TubeLight {
 /// Any light, for Scene::add() and set().
 using LightDesc = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
+namespace detail {
+inline Nits luminanceOf(Lumen flux, double area) {
+    return { area > 0 ? static_cast<float>(double{ flux.value } / (std::numbers::pi * area)) : 0.0f };
+}
+} // namespace detail
+
 /// The luminance of a light of this size that gives off `flux` in total. An area A that shines equally into all
 /// directions of one side gives off pi A L (Lambert 1760); a tube has the area 2 pi radius length. 0 without an area.
-Nits luminanceFromFlux(Lumen flux, RectLight const& light);
-Nits luminanceFromFlux(Lumen flux, DiscLight const& light);
-Nits luminanceFromFlux(Lumen flux, TubeLight const& light);
+inline Nits luminanceFromFlux(Lumen flux, RectLight const& light) {
+    return detail::luminanceOf(flux,
+                               double{ light.widthMeters } * double{ light.heightMeters } * (light.isTwoSided ? 2 : 1));
+}
+inline Nits luminanceFromFlux(Lumen flux, DiscLight const& light) {
+    return detail::luminanceOf(flux, std::numbers::pi * double{ light.radiusMeters } * double{ light.radiusMeters } *
+                                             (light.isTwoSided ? 2 : 1));
+}
+inline Nits luminanceFromFlux(Lumen flux, TubeLight const& light) {
+    return detail::luminanceOf(flux,
+                               2 * std::numbers::pi * double{ light.radiusMeters } * double{ light.lengthMeters });
+}
 
 } // namespace filament_core

@@ -46,8 +46,8 @@ enum class LoadStage : uint8_t {
 };
 template <>
 struct EnumNames<LoadStage> {
-    static constexpr auto values =
-            std::to_array<std::string_view>({ "waiting", "decoding", "creating", "ready", "failed", "cancelled" });
+    static constexpr std::array<std::string_view, 6> values{ "waiting", "decoding", "creating",
+                                                             "ready",   "failed",   "cancelled" };
 };
 
 struct LoadStatus {

@@ -13,6 +13,7 @@
 #include <filament_core/Scene.h>
 #include <filament_core/View.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -82,7 +83,10 @@ struct EffectDecision {
     double gpuMilliseconds = 0;   ///< of a pass, and those merged with it, in the last timed frame; 0: unknown
     uint64_t attachmentBytes = 0; ///< of a pass: its attachments
 };
-const char* toString(EffectDecision::State state);
+constexpr const char* toString(EffectDecision::State state) {
+    constexpr std::array<const char*, 4> kWords{ "needed", "not needed", "ran", "culled" };
+    return kWords[static_cast<size_t>(state)];
+}
 
 struct RendererOptions {
     /// Times every pass on the device (FrameTimings::passes). Costs two flushes per pass on OpenGL ES.
