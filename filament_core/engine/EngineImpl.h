@@ -189,10 +189,10 @@ struct Engine::Impl {
     void update(engine::TextureState& state, TextureUpdate const& update);
     LightProfile createLightProfile(assets::IesFile const& file, std::string name);
     MaterialInstance createInstance(Material material, std::string name);
-    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
-    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, ParameterValue const& value);
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, ParameterArray const& values,
                      uint32_t first);
-    Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, Texture texture, Sampler sampler);
     /// Invalidates the handle. Null: no effect.
     template <class Tag, class State>
     void retire(engine::HandleTable<Tag, State>& table, ObjectHandle<Tag> handle);
@@ -245,7 +245,7 @@ struct Engine::Impl {
     template <class Write>
     void changeRaster(MaterialInstance instance, Write&& write);
     template <class Write>
-    Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
+    Result<void> change(MaterialInstance instance, ParameterKey const& parameter, Write&& write);
     /// The texture of a sampler that the app has not set: opaque white (integers: 1), of the sampler's kind. Created at
     /// its first use.
     Texture unsetTexture(shader::Parameter const& sampler);

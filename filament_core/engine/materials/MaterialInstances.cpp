@@ -26,6 +26,17 @@ Error unknownParameter(scene::Material const& material, std::string_view name) {
                 suggestion(name, namesOf(material.package.parameters)));
 }
 
+Result<Parameter const*> parameterOf(scene::Material const& material, ParameterKey const& key) {
+    std::vector<Parameter> const& all = material.package.parameters;
+    if (const std::optional<ParameterId> id = key.id()) {
+        FILAMENT_ASSERT(id->material == material.id && id->index < all.size(),
+                        "a ParameterId belongs to the material of the instance");
+        return &all[id->index];
+    }
+    if (Parameter const* found = material.package.findParameter(key.name())) return found;
+    return unknownParameter(material, key.name());
+}
+
 } // namespace
 
 void Engine::Impl::useTextureFilter(TextureFilter filter) {
@@ -79,13 +90,13 @@ void Engine::Impl::changeRaster(MaterialInstance handle, Write&& write) {
 }
 
 template <class Write>
-Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name, Write&& write) {
+Result<void> Engine::Impl::change(MaterialInstance handle, ParameterKey const& key, Write&& write) {
     scene::MaterialInstance& instance = instances.get(handle);
-    Parameter const* parameter = instance.material->package.findParameter(name);
-    if (!parameter) return unknownParameter(*instance.material, name);
+    const Result<Parameter const*> parameter = parameterOf(*instance.material, key);
+    if (!parameter) return parameter.error();
     const size_t listed = dirtyInstances.size();
     markDirty(handle);
-    Result<void> written = write(instance, *parameter);
+    Result<void> written = write(instance, **parameter);
     if (written)
         instance.parametersDirty = true;
     else
@@ -93,24 +104,24 @@ Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name
     return written;
 }
 
-Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
-    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+Result<void> Engine::Impl::set(MaterialInstance handle, ParameterKey const& key, ParameterValue const& value) {
+    return change(handle, key, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
         return engine::writeParameter(*instance.material, parameter, value, instance.parameters);
     });
 }
 
-Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterArray const& values,
+Result<void> Engine::Impl::set(MaterialInstance handle, ParameterKey const& key, ParameterArray const& values,
                                uint32_t first) {
-    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+    return change(handle, key, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
         return engine::writeParameters(*instance.material, parameter, values, first, instance.parameters);
     });
 }
 
-Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
+Result<void> Engine::Impl::set(MaterialInstance handle, ParameterKey const& key, Texture texture, Sampler sampler) {
     scene::MaterialInstance& instance = instances.get(handle);
-    shader::MaterialPackage const& package = instance.material->package;
-    Parameter const* parameter = package.findParameter(name);
-    if (!parameter) return unknownParameter(*instance.material, name);
+    const Result<Parameter const*> found = parameterOf(*instance.material, key);
+    if (!found) return found.error();
+    Parameter const* parameter = *found;
     if (Result<void> isSampler = engine::checkSampler(*instance.material, *parameter); !isSampler) return isSampler;
     engine::TextureState const& given = textures.get(texture);
     if (Result<void> fits = engine::checkTexture(*instance.material, *parameter, given.desc, given.name); !fits)
@@ -118,7 +129,7 @@ Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, T
     TextureHandle shown = textureHandle(texture);
     if (!shown) shown = textureHandle(unsetTexture(*parameter));
     markDirty(handle);
-    instance.textures[engine::textureSlot(package, *parameter)] = { shown, sampler };
+    instance.textures[engine::textureSlot(instance.material->package, *parameter)] = { shown, sampler };
     instance.texturesDirty = aUseEnded = true;
     return {};
 }
@@ -185,25 +196,38 @@ MaterialInstance Engine::createInstance(Material material, std::string name) {
     return mImpl->orNone("material instance", {}, [&] { return mImpl->createInstance(material, std::move(name)); });
 }
 
-Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value) {
-    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterValue)", parameter);
-    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, value); });
+Result<ParameterId> Engine::findParameter(Material material, std::string_view name) const {
+    const PublicCall call(mImpl, "Engine::findParameter(Material, string_view)", name);
+    return orOutOfMemory("parameter", name, [&]() -> Result<ParameterId> {
+        scene::Material const& of = mImpl->materials.get(material);
+        const Result<Parameter const*> found = parameterOf(of, name);
+        if (!found) return found.error();
+        return ParameterId{ of.id, static_cast<uint32_t>(*found - of.package.parameters.data()) };
+    });
 }
 
-Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+Result<void> Engine::set(MaterialInstance instance, ParameterKey const& parameter, ParameterValue const& value) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, ParameterKey, ParameterValue)", parameter.name());
+    return orOutOfMemory("parameter", parameter.name(), [&] { return mImpl->set(instance, parameter, value); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, ParameterKey const& parameter, ParameterArray const& values,
                          uint32_t first) {
-    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterArray, uint32_t)", parameter);
-    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, values, first); });
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, ParameterKey, ParameterArray, uint32_t)",
+                          parameter.name());
+    return orOutOfMemory("parameter", parameter.name(), [&] { return mImpl->set(instance, parameter, values, first); });
 }
 
-Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler) {
-    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, Texture, Sampler)", parameter);
-    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
+Result<void> Engine::set(MaterialInstance instance, ParameterKey const& parameter, Texture texture, Sampler sampler) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, ParameterKey, Texture, Sampler)", parameter.name());
+    return orOutOfMemory("parameter", parameter.name(),
+                         [&] { return mImpl->set(instance, parameter, texture, sampler); });
 }
 
-Result<void> Engine::setNumber(MaterialInstance instance, std::string_view parameter, ParameterNumber const& number) {
-    const PublicCall call(mImpl, "Engine::set(MaterialInstance, string_view, ParameterValue)", parameter);
-    return orOutOfMemory("parameter", parameter, [&] {
+Result<void> Engine::setNumber(MaterialInstance instance, ParameterKey const& parameter,
+                               ParameterNumber const& number) {
+    const PublicCall call(mImpl, "Engine::set(MaterialInstance, ParameterKey, ParameterValue)", parameter.name());
+    return orOutOfMemory("parameter", parameter.name(), [&] {
         return mImpl->change(instance, parameter, [&](scene::MaterialInstance& state, Parameter const& known) {
             return engine::writeNumber(*state.material, known, number, state.parameters);
         });

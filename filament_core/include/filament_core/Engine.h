@@ -195,15 +195,18 @@ public:
     MaterialDescription const& describe(Material material) const;
     LightProfileDescription describe(LightProfile profile) const;
 
-    /// NotFound names the nearest parameter; InvalidArgument names the parameter's type and the type given.
-    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    /// For set() in every frame, without the search by name. NotFound names the nearest parameter.
+    Result<ParameterId> findParameter(Material material, std::string_view name) const;
+    /// `parameter`: its name, or an id of the instance's material. NotFound names the nearest parameter; InvalidArgument
+    /// names the parameter's type and the type given.
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, ParameterValue const& value);
     /// A number, or a value of any type of ParameterValue. Parameters of float take doubles, rounded, and integers;
     /// integer parameters take integers of any type. InvalidArgument if the parameter cannot hold the number: 1e39 or
     /// 2^24 + 1 in a float, -1 in an unsigned one.
     template <class T>
     requires(!std::is_constructible_v<ParameterArray, T const&> && !std::is_convertible_v<T const&, Texture> &&
-             !std::is_same_v<T, ParameterValue>) Result<void> set(MaterialInstance instance, std::string_view parameter,
-                                                                  T const& value) {
+             !std::is_same_v<T, ParameterValue>) Result<void> set(MaterialInstance instance,
+                                                                  ParameterKey const& parameter, T const& value) {
         static_assert(std::is_arithmetic_v<T> || std::is_constructible_v<ParameterValue, T const&>,
                       "a material's parameter takes a bool, a number, a vector or a matrix: see ParameterValue");
         if constexpr (!std::is_arithmetic_v<T> || std::is_same_v<T, bool> || std::is_same_v<T, float>)
@@ -216,11 +219,11 @@ public:
             return setNumber(instance, parameter, static_cast<uint64_t>(value));
     }
     /// Sets elements [first, first + values.size()) of an array. InvalidArgument also if the array is too short.
-    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, ParameterArray const& values,
                      uint32_t first = 0);
     /// InvalidArgument also if the texture's kind or format does not match the sampler: samplers of format int or uint
     /// take integer textures, and never filter.
-    Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler = {});
+    Result<void> set(MaterialInstance instance, ParameterKey const& parameter, Texture texture, Sampler sampler = {});
     /// True draws and shades both sides; false applies the material's `culling`. InvalidArgument if the material was
     /// compiled without the property doubleSided.
     Result<void> setDoubleSided(MaterialInstance instance, bool doubleSided);
@@ -253,7 +256,7 @@ public:
 
 private:
     explicit Engine(std::shared_ptr<Impl> impl);
-    Result<void> setNumber(MaterialInstance instance, std::string_view parameter, ParameterNumber const& number);
+    Result<void> setNumber(MaterialInstance instance, ParameterKey const& parameter, ParameterNumber const& number);
 
     std::shared_ptr<Impl> mImpl; ///< not shared; weak references detect its end
 };

@@ -18,8 +18,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -160,6 +163,26 @@ struct MaterialDesc {
     std::span<const std::byte> package{};
     std::vector<MaterialConstant> constants{};
     std::string name{}; ///< empty: the name in the package
+};
+
+/// A parameter of one material, found once by Engine::findParameter() instead of at each set().
+struct ParameterId {
+    uint32_t material = ~0u, index = ~0u; ///< the engine's numbers
+};
+
+/// Which parameter Engine::set() sets: its name, or its id.
+class ParameterKey {
+public:
+    template <class T>
+    requires std::is_convertible_v<T const&, std::string_view> ParameterKey(T const& name) : mName(name) {}
+    ParameterKey(ParameterId id) : mId(id) {}
+
+    std::string_view name() const { return mName; } ///< empty: an id
+    std::optional<ParameterId> id() const { return mId; }
+
+private:
+    std::string_view mName{};
+    std::optional<ParameterId> mId{};
 };
 
 /// Value of a parameter. The C++ type has the same name as the parameter's type (ParameterType).

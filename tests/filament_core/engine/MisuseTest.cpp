@@ -139,7 +139,7 @@ std::vector<Use> usesOfTextures() {
     return {
         { "Engine::destroy(EngineObject)", "texture", "wood",
           [](World& world, Handles const& bad) { world.engine.destroy(bad.texture); }, true },
-        { "Engine::set(MaterialInstance, string_view, Texture, Sampler) of 'picture'", "texture", "wood",
+        { "Engine::set(MaterialInstance, ParameterKey, Texture, Sampler) of 'picture'", "texture", "wood",
           [](World& world, Handles const& bad) {
               (void)world.engine.set(world.all.instance, "picture", bad.texture);
           } },
@@ -217,6 +217,8 @@ std::vector<Use> usesOfMaterials() {
           [](World& world, Handles const& bad) { world.engine.createInstance(bad.material); } },
         { "Engine::describe(Material)", "material", "paint",
           [](World& world, Handles const& bad) { (void)world.engine.describe(bad.material); } },
+        { "Engine::findParameter(Material, string_view) of 'tint'", "material", "paint",
+          [](World& world, Handles const& bad) { (void)world.engine.findParameter(bad.material, "tint"); } },
     };
 }
 
@@ -230,13 +232,13 @@ std::vector<Use> usesOfInstances() {
     return {
         use(
                 "Engine::destroy(EngineObject)", [](Engine& e, MaterialInstance bad) { e.destroy(bad); }, true),
-        use("Engine::set(MaterialInstance, string_view, ParameterValue) of 'tint'",
+        use("Engine::set(MaterialInstance, ParameterKey, ParameterValue) of 'tint'",
             [](Engine& e, MaterialInstance bad) { (void)e.set(bad, "tint", ParameterValue(float4(1))); }),
-        use("Engine::set(MaterialInstance, string_view, ParameterArray, uint32_t) of 'tint'",
+        use("Engine::set(MaterialInstance, ParameterKey, ParameterArray, uint32_t) of 'tint'",
             [](Engine& e, MaterialInstance bad) {
                 (void)e.set(bad, "tint", ParameterArray(std::span<const float4>()));
             }),
-        use("Engine::set(MaterialInstance, string_view, Texture, Sampler) of 'picture'",
+        use("Engine::set(MaterialInstance, ParameterKey, Texture, Sampler) of 'picture'",
             [](Engine& e, MaterialInstance bad) { (void)e.set(bad, "picture", Texture{}); }),
         use("Engine::setDoubleSided(MaterialInstance, bool)",
             [](Engine& e, MaterialInstance bad) { (void)e.setDoubleSided(bad, true); }),
@@ -365,17 +367,7 @@ std::vector<Use> usesOfLampsAndSkins() {
     return {
         { "Scene::remove(Light)", "light", "", [](World& world, Handles const& bad) { world.scene.remove(bad.lamp); } },
         { "Scene::set(Light, LightDesc)", "light", "",
-          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SunLight{}); } },
-        { "Scene::set(Light, LightDesc)", "light", "",
           [](World& world, Handles const& bad) { world.scene.set(bad.lamp, PointLight{}); } },
-        { "Scene::set(Light, LightDesc)", "light", "",
-          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, SpotLight{}); } },
-        { "Scene::set(Light, LightDesc)", "light", "",
-          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, RectLight{}); } },
-        { "Scene::set(Light, LightDesc)", "light", "",
-          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, DiscLight{}); } },
-        { "Scene::set(Light, LightDesc)", "light", "",
-          [](World& world, Handles const& bad) { world.scene.set(bad.lamp, TubeLight{}); } },
         { "Scene::setLightChannels(Light, LightChannels)", "light", "",
           [](World& world, Handles const& bad) { world.scene.setLightChannels(bad.lamp, 1); } },
         { "Scene::node(Light)", "light", "",
@@ -400,17 +392,7 @@ std::vector<Use> usesOfNodes() {
     return {
         use("ModelCopy::of(Scene, Node)", [](Scene& s, Node bad) { (void)ModelCopy::of(s, bad); }),
         use(
-                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(SunLight{}, bad); }, true),
-        use(
                 "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(PointLight{}, bad); }, true),
-        use(
-                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(SpotLight{}, bad); }, true),
-        use(
-                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(RectLight{}, bad); }, true),
-        use(
-                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(DiscLight{}, bad); }, true),
-        use(
-                "Scene::add(LightDesc, Node)", [](Scene& s, Node bad) { s.add(TubeLight{}, bad); }, true),
         use(
                 "Scene::add(NodeDesc) of 'x'",
                 [](Scene& s, Node bad) { s.add(NodeDesc{ .parent = bad, .name = "x" }); }, true),
@@ -681,6 +663,18 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
                  line("Scene::add(RenderableDesc) of 'ball'"));
     EXPECT_DEATH(world.scene.setMaterial(world.all.renderable, chalk),
                  line("Scene::setMaterial(Renderable, MaterialInstance)"));
+}
+
+TEST(MisuseOfParametersDeathTest, AnIdBelongsToOneMaterial) {
+    World world;
+    const Owned<Material> other = test::loadMaterial(world.engine, R"(material { name : other, shadingModel : unlit,
+        parameters : [ { type : float4, name : tint } ] }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
+    material.baseColor = materialParams.tint; } })");
+    const ParameterId tint = *world.engine.findParameter(other, "tint");
+    for (const ParameterId wrong : { tint, ParameterId{} })
+        EXPECT_DEATH((void)world.engine.set(world.all.instance, wrong, ParameterValue(float4(1))),
+                     "a ParameterId belongs to the material of the instance");
 }
 
 TEST(Misuse, DestroyingNothingDoesNothing) {

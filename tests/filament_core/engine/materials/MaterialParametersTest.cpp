@@ -115,6 +115,34 @@ TEST_P(MaterialParameters, OfEveryTypeArriveInTheShader) {
     EXPECT_EQ(test::shownBy(*mEngine, instance), float4(0, 1, 0, 1)) << "red: the first value that is wrong";
 }
 
+TEST_P(MaterialParameters, AreSetByTheIdThatTheirNameHasInTheMaterial) {
+    const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
+    name : colors, shadingModel : unlit,
+    parameters : [ { type : sampler2d, name : map }, { type : float, name : red }, { type : "float[2]", name : others } ]
+}
+fragment {
+    void material(inout MaterialInputs material) {
+        prepareMaterial(material);
+        vec4 texel = texture(materialParams_map, vec2(0.5));
+        material.baseColor = texel * vec4(materialParams.red, materialParams.others[0], materialParams.others[1], 1.0);
+    }
+}
+)");
+    const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
+    const ParameterId red = *mEngine->findParameter(material, "red");
+    EXPECT_TRUE(mEngine->set(instance, red, 0.25));
+    EXPECT_TRUE(mEngine->set(instance, *mEngine->findParameter(material, "others"), std::array{ 0.5f, 1.0f }));
+    constexpr std::array<uint8_t, 4> kCyan{ 0, 255, 255, 255 };
+    const Owned<Texture> cyan = mEngine->own(mEngine->create(TextureDesc{ .pixels = std::as_bytes(std::span(kCyan)) }));
+    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(0.25f, 0.5f, 1, 1));
+    EXPECT_TRUE(mEngine->set(instance, *mEngine->findParameter(material, "map"), cyan));
+    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(0, 0.5f, 1, 1));
+    const Result<void> refused = mEngine->set(instance, red, ParameterValue(float2(1)));
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("'red' of material 'colors' is float, but was given float2"));
+    EXPECT_THAT(mEngine->findParameter(material, "rad").error().message, HasSubstr("'rad'; did you mean 'red'"));
+}
+
 TEST_P(MaterialParameters, OfVolumesAreFilteredAlongAllThreeAxesAndHaveLevels) {
     const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
     name : volumes, shadingModel : unlit,
