@@ -37,9 +37,8 @@ using passes::FrameContext;
 using passes::FrameOutput;
 using passes::PipelineSource;
 
-/// As if all of the view's pixels were drawn, and no others.
-prepare::ViewInput wholeInputOf(View const& view, uint64_t contents) {
-    Effects effects = clamped(view.effects);
+/// As if all of the view's pixels were drawn, and no others. `effects`: of the view, clamped.
+prepare::ViewInput wholeInputOf(View const& view, Effects effects, uint64_t contents) {
     effects.resolution.scale = float2(1);
     effects.guardBand.enabled = false;
     return prepare::viewInput(view, effects, contents);
@@ -141,9 +140,8 @@ struct Renderer::Impl final : engine::Dependent {
     uint64_t contentsOf(Scene const& scene) const { return scene.impl().changes + engine.instanceChanges; }
 
     /// The view's resolution scale, limited by dynamic resolution. Depths are not cut, and what nothing
-    /// would read is not drawn.
-    prepare::ViewInput inputFor(Scene const& scene, View const& view, bool hasDepthTarget) const {
-        Effects effects = clamped(view.effects);
+    /// would read is not drawn. `effects`: of the view, clamped.
+    prepare::ViewInput inputFor(Scene const& scene, View const& view, Effects effects, bool hasDepthTarget) const {
         effects.resolution.scale = shares.scale(effects.resolution);
         prepare::ViewInput input = prepare::viewInput(view, effects, contentsOf(scene));
         const auto looksBeside = [&] {
@@ -155,17 +153,16 @@ struct Renderer::Impl final : engine::Dependent {
 
     /// The state of earlier frames, from the TAA history to the shadow atlas, belongs to their scene and
     /// view: another scene or view resets it.
-    void beginAnewWithAnother(Scene const& scene, View const& view, Target const& target) {
-        if (last.isFollowedBy(scene.impl().upToDate(), resolve(inputFor(scene, view, target.depth != nullptr)))) return;
+    void beginAnewWithAnother(Scene const& scene, prepare::ViewInput const& input) {
+        if (last.isFollowedBy(scene.impl().upToDate(), resolve(input))) return;
         shadows.beginAnew();
         shares.forget();
         timings.skip();
     }
 
     /// The times of finished frames determine the size of the next one.
-    void chooseShare(View const& view) {
-        if (!view.effects.resolution.dynamic) return shares.forget();
-        const Resolution resolution = clamped(view.effects).resolution;
+    void chooseShare(Resolution const& resolution) {
+        if (!resolution.dynamic) return shares.forget();
         timings.visitFinished(options.passTimers, [&](float2 scale, double milliseconds) {
             shares.add(resolution, { scale, milliseconds });
         });
@@ -173,17 +170,17 @@ struct Renderer::Impl final : engine::Dependent {
     }
 
     /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
-    FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines,
-                            framegraph::TransientPool& pool) {
+    FrameContext& planFrame(Scene const& scene, View const& view, Effects const& effects, FrameOutput const& output,
+                            PipelineSource pipelines, framegraph::TransientPool& pool) {
         arena.reset();
         graph.reset();
         plan = {};
-        const std::array views{ inputFor(scene, view, static_cast<bool>(output.depth)) };
+        const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet =
                 prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
-        addDebugQuads(context, view, output);
+        addDebugQuads(context, view, effects, output);
         useShadows(context, pipelines);
         blocks.begin();
         context.blocks = &blocks;
@@ -200,16 +197,16 @@ struct Renderer::Impl final : engine::Dependent {
         used.shadowMoments = pipelines.isRequesting() ? used.white : shadows.moments();
     }
 
-    void addDebugQuads(FrameContext& context, View const& view, FrameOutput const& output) {
+    void addDebugQuads(FrameContext& context, View const& view, Effects const& effects, FrameOutput const& output) {
         if (view.debugDraw && !view.debugDraw->empty())
-            context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, wholeInputOf(view, 0));
+            context.debugDraw.quads = prepare::debugQuads(arena, *view.debugDraw, wholeInputOf(view, effects, 0));
         context.keepsDepth = output.depth || context.debugDraw.quads.tested > 0;
     }
 
     /// Out of memory: the next frame starts without history.
-    void keepLast(Scene const& scene, View const& view, Target const& target, prepare::FramePacket const& packet) {
+    void keepLast(Scene const& scene, prepare::ViewInput const& input, prepare::FramePacket const& packet) {
         try {
-            last.keep(scene.impl().upToDate(), inputFor(scene, view, target.depth != nullptr), packet);
+            last.keep(scene.impl().upToDate(), input, packet);
         } catch (std::bad_alloc const&) {
             last.forget();
         }
@@ -244,10 +241,13 @@ struct Renderer::Impl final : engine::Dependent {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
         timers.clear();
         stamps = { .begin = clock() };
-        beginAnewWithAnother(scene, view, target);
-        chooseShare(view);
+        const Effects effects = clamped(view.effects);
+        const auto input = [&] { return inputFor(scene, view, effects, target.depth != nullptr); };
+        beginAnewWithAnother(scene, input());
+        chooseShare(effects.resolution);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
-        FrameContext& context = planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines), transients);
+        FrameContext& context =
+                planFrame(scene, view, effects, outputOf(target), PipelineSource(engine.pipelines), transients);
         scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
         if (material) return samplesTarget(*material, target);
         if (target.isSampled && isDirtOf(context, target)) return dirtIsTarget(target);
@@ -255,7 +255,7 @@ struct Renderer::Impl final : engine::Dependent {
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
         stamps.recorded = clock();
-        keepLast(scene, view, target, context.packet);
+        keepLast(scene, input(), context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
@@ -345,7 +345,8 @@ struct Renderer::Impl final : engine::Dependent {
             CommandBuffer& commands;
             ~ExpectedTextures() { pool.destroyAll(commands); }
         } expected{ framegraph::TransientPool(*engine.stream), engine.pending };
-        planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &requests), expected.pool);
+        planFrame(scene, view, clamped(view.effects), outputOf(target), PipelineSource(engine.pipelines, &requests),
+                  expected.pool);
         framegraph::rehearse(plan);
     }
 
@@ -357,8 +358,9 @@ struct Renderer::Impl final : engine::Dependent {
     PickTicket pick(Scene const& scene, View const& view, uint2 pixel, PickAim aim) {
         FILAMENT_ASSERT(pixel.x < view.size.x && pixel.y < view.size.y, "a picked pixel lies in the view");
         return engine.orNone("picking", {}, [&] {
-            return pickerOfRenderer().ask(scene.impl().upToDate(), view, wholeInputOf(view, contentsOf(scene)),
-                                          resources, pixel, aim);
+            return pickerOfRenderer().ask(scene.impl().upToDate(), view,
+                                          wholeInputOf(view, clamped(view.effects), contentsOf(scene)), resources,
+                                          pixel, aim);
         });
     }
 
