@@ -208,125 +208,76 @@ void Viewer::playOrPause() {
 }
 
 void Viewer::perform(Action action) {
+    struct Row {
+        Action action;
+        void (*perform)(Viewer& v);
+    };
+    static constexpr Row kRows[] = {
+        { Action::ShowShortcuts, [](Viewer& v) { v.mPanels.state.showsShortcuts = !v.mPanels.state.showsShortcuts; } },
+        { Action::TogglePanels, [](Viewer& v) { v.mPanels.state.showsPanels = !v.mPanels.state.showsPanels; } },
+        { Action::ToggleFullScreen, [](Viewer& v) { v.mIsFullScreen = !v.mIsFullScreen; } },
+        { Action::Quit, [](Viewer& v) { v.mIsClosed = true; } },
+        { Action::Open, [](Viewer& v) { v.mPanels.fileDialog.open(FilePurpose::Open); } },
+        { Action::SaveDocument, [](Viewer& v) { v.saveDocumentFile(); } },
+        { Action::CopyDocument, [](Viewer& v) { v.copy(toJson(v.mDocument), "document"); } },
+        { Action::CopyCamera, [](Viewer& v) { v.copy(toJson(v.mDocument.view.camera), "camera"); } },
+        { Action::Paste, [](Viewer& v) { v.paste(); } },
+        { Action::Reload, [](Viewer& v) { v.mStage->reload(); } },
+        { Action::CancelLoading,
+          [](Viewer& v) {
+              if (v.isLoading()) v.mStage->cancel();
+              v.mPanels.state.selectedNode.reset();
+          } },
+        { Action::Undo, [](Viewer& v) { v.mHistory.undo(v.mDocument); } },
+        { Action::Redo, [](Viewer& v) { v.mHistory.redo(v.mDocument); } },
+        { Action::FrameSelection, [](Viewer& v) { v.frame(v.boundsOfSelection()); } },
+        { Action::FrameAll, [](Viewer& v) { v.frame(v.mStage->bounds()); } },
+        { Action::ResetCamera,
+          [](Viewer& v) {
+              v.mDocument.view.camera = withPlaceOf(v.mDocument.view.camera, v.mFirstCamera);
+              v.mHands.targetWorld = double3(0);
+          } },
+        { Action::ToggleParallel, [](Viewer& v) { v.toggleParallel(); } },
+        { Action::AddBookmark, [](Viewer& v) { addBookmark(v.mDocument); } },
+        { Action::AddPathKey,
+          [](Viewer& v) {
+              addKey(shownPath(v.mDocument, v.mPanels.state.path), v.mPanels.state.path, v.mDocument.view.camera);
+          } },
+        { Action::PlayPath, [](Viewer& v) { togglePathPlaying(v.mDocument, v.mPanels.state.path); } },
+        { Action::HideSelection, [](Viewer& v) { v.hideSelection(); } },
+        { Action::IsolateSelection,
+          [](Viewer& v) {
+              if (v.mPanels.state.selectedNode)
+                  isolate(v.mDocument, sceneNodes(*v.mStage), *v.mPanels.state.selectedNode);
+          } },
+        { Action::ShowAll, [](Viewer& v) { showAll(v.mDocument); } },
+        { Action::PlayPause, [](Viewer& v) { v.playOrPause(); } },
+        { Action::MoveHandles, [](Viewer& v) { v.mGizmo.mode = GizmoMode::Move; } },
+        { Action::RotateHandles, [](Viewer& v) { v.mGizmo.mode = GizmoMode::Rotate; } },
+        { Action::ScaleHandles, [](Viewer& v) { v.mGizmo.mode = GizmoMode::Scale; } },
+        { Action::NoHandles, [](Viewer& v) { v.mGizmo.mode = GizmoMode::Off; } },
+        { Action::HandleAxes,
+          [](Viewer& v) { v.mGizmo.axes = v.mGizmo.axes == GizmoAxes::Local ? GizmoAxes::World : GizmoAxes::Local; } },
+        { Action::NextDebugView, [](Viewer& v) { showNextDebugView(v.mDocument); } },
+        { Action::LockPixel, [](Viewer& v) { v.mInspector.toggleLock(); } },
+        { Action::Compare, [](Viewer& v) { v.changeCompareMode(); } },
+        { Action::CompareWith,
+          [](Viewer& v) {
+              v.mCompared.with =
+                      v.mCompared.with == CompareWith::OtherApi ? CompareWith::PathTracer : CompareWith::OtherApi;
+              if (v.mCompared.mode == CompareMode::Off) v.mCompared.mode = CompareMode::Wipe;
+          } },
+        { Action::ChangeBackend, [](Viewer& v) { v.setBackend(otherThan(v.mStage->engine().device().backend)); } },
+        { Action::SavePicture, [](Viewer& v) { v.savePicture(); } },
+        { Action::SavePictureAs,
+          [](Viewer& v) {
+              v.mPanels.fileDialog.open(FilePurpose::SavePicture, v.freshName(".png").filename().string());
+          } },
+        { Action::SaveFrame, [](Viewer& v) { v.saveFrame(); } },
+    };
+    static_assert(std::size(kRows) == static_cast<size_t>(Action::Count), "every action does something");
     touch();
-    switch (action) {
-    case Action::ShowShortcuts:
-        mPanels.state.showsShortcuts = !mPanels.state.showsShortcuts;
-        break;
-    case Action::TogglePanels:
-        mPanels.state.showsPanels = !mPanels.state.showsPanels;
-        break;
-    case Action::ToggleFullScreen:
-        mIsFullScreen = !mIsFullScreen;
-        break;
-    case Action::Quit:
-        mIsClosed = true;
-        break;
-    case Action::Open:
-        mPanels.fileDialog.open(FilePurpose::Open);
-        break;
-    case Action::SaveDocument:
-        saveDocumentFile();
-        break;
-    case Action::CopyDocument:
-        copy(toJson(mDocument), "document");
-        break;
-    case Action::CopyCamera:
-        copy(toJson(mDocument.view.camera), "camera");
-        break;
-    case Action::Paste:
-        paste();
-        break;
-    case Action::Reload:
-        mStage->reload();
-        break;
-    case Action::CancelLoading:
-        if (isLoading()) mStage->cancel();
-        mPanels.state.selectedNode.reset();
-        break;
-    case Action::Undo:
-        mHistory.undo(mDocument);
-        break;
-    case Action::Redo:
-        mHistory.redo(mDocument);
-        break;
-    case Action::FrameSelection:
-        frame(boundsOfSelection());
-        break;
-    case Action::FrameAll:
-        frame(mStage->bounds());
-        break;
-    case Action::ResetCamera:
-        mDocument.view.camera = withPlaceOf(mDocument.view.camera, mFirstCamera);
-        mHands.targetWorld = double3(0);
-        break;
-    case Action::ToggleParallel:
-        toggleParallel();
-        break;
-    case Action::AddBookmark:
-        addBookmark(mDocument);
-        break;
-    case Action::AddPathKey:
-        addKey(shownPath(mDocument, mPanels.state.path), mPanels.state.path, mDocument.view.camera);
-        break;
-    case Action::PlayPath:
-        togglePathPlaying(mDocument, mPanels.state.path);
-        break;
-    case Action::HideSelection:
-        hideSelection();
-        break;
-    case Action::IsolateSelection:
-        if (mPanels.state.selectedNode) isolate(mDocument, sceneNodes(*mStage), *mPanels.state.selectedNode);
-        break;
-    case Action::ShowAll:
-        showAll(mDocument);
-        break;
-    case Action::PlayPause:
-        playOrPause();
-        break;
-    case Action::MoveHandles:
-        mGizmo.mode = GizmoMode::Move;
-        break;
-    case Action::RotateHandles:
-        mGizmo.mode = GizmoMode::Rotate;
-        break;
-    case Action::ScaleHandles:
-        mGizmo.mode = GizmoMode::Scale;
-        break;
-    case Action::NoHandles:
-        mGizmo.mode = GizmoMode::Off;
-        break;
-    case Action::HandleAxes:
-        mGizmo.axes = mGizmo.axes == GizmoAxes::Local ? GizmoAxes::World : GizmoAxes::Local;
-        break;
-    case Action::NextDebugView:
-        showNextDebugView(mDocument);
-        break;
-    case Action::LockPixel:
-        mInspector.toggleLock();
-        break;
-    case Action::Compare:
-        changeCompareMode();
-        break;
-    case Action::CompareWith:
-        mCompared.with = mCompared.with == CompareWith::OtherApi ? CompareWith::PathTracer : CompareWith::OtherApi;
-        if (mCompared.mode == CompareMode::Off) mCompared.mode = CompareMode::Wipe;
-        break;
-    case Action::ChangeBackend:
-        setBackend(otherThan(mStage->engine().device().backend));
-        break;
-    case Action::SavePicture:
-        savePicture();
-        break;
-    case Action::SavePictureAs:
-        mPanels.fileDialog.open(FilePurpose::SavePicture, freshName(".png").filename().string());
-        break;
-    case Action::SaveFrame:
-        saveFrame();
-        break;
-    case Action::Count:
-        break;
-    }
+    std::ranges::find(kRows, action, &Row::action)->perform(*this);
 }
 
 // ---------------------------------------------------------------------------------------------- time
