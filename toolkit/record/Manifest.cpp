@@ -3,7 +3,7 @@
 
 #include "backend/layers/EnumNames.h"
 #include "filament_core/assets/files/FileBytes.h"
-#include "toolkit/json/JsonReader.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,7 +20,6 @@ using tools::JsonReader;
 constexpr const char* kVersion = "filament-frame 1";
 constexpr size_t kMaxNameLength = 32, kMaxTextLength = 4096;
 constexpr double kMaxBytes = 0x1p40;
-constexpr size_t kMaxNesting = 256;
 
 std::string hexOf(uint64_t value) { return fmt::format("{:016x}", value); }
 
@@ -31,22 +30,6 @@ std::string nameOf(Format format) { return std::string(backend::enumName(format)
 std::optional<Format> formatFromName(std::string_view name) {
     const std::optional<size_t> index = backend::enumIndex<Format>(name);
     return index ? std::optional(static_cast<Format>(*index)) : std::nullopt;
-}
-
-/// Brackets that are not in texts. What is nested deeper than kMaxNesting is no frame.json, and its text would be
-/// written by as many calls in each other.
-bool isTooDeep(std::string_view json) {
-    size_t depth = 0;
-    bool isInText = false;
-    for (size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (isInText && c == '\\') ++i;
-        if (c == '"') isInText = !isInText;
-        if (isInText) continue;
-        if ((c == '[' || c == '{') && ++depth > kMaxNesting) return true;
-        if ((c == ']' || c == '}') && depth > 0) --depth;
-    }
-    return false;
 }
 
 // ---------------------------------------------------------------------------------------------- writing
@@ -269,16 +252,14 @@ std::string toJson(Manifest const& manifest) {
         { "machine", manifest.machine }, { "settings", std::move(settings) }, { "pictures", std::move(pictures) },
         { "traces", std::move(traces) }, { "absent", std::move(absent) }
     };
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+    return tools::jsonText(json);
 }
 
 Result<Manifest> parseManifest(std::string_view text, std::string const& name) {
-    if (isTooDeep(text))
-        return fail(ErrorCode::Corrupt, "{}: nested deeper than {}; save the frame again", name, kMaxNesting);
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON; save the frame again", name);
+    const Result<Json> json = tools::parseJson(text, name);
+    if (!json) return fail(ErrorCode::Corrupt, "{}; save the frame again", json.error().message);
     Manifest manifest;
-    JsonReader reader(json, name);
+    JsonReader reader(*json, name);
     readWhole(reader, manifest);
     if (const Result<void> read = reader.finish(); !read) return Error{ ErrorCode::Corrupt, read.error().message };
     return manifest;

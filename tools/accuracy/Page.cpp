@@ -2,6 +2,7 @@
 #include "tools/accuracy/Page.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 #include "tools/accuracy/PagePictures.h"
 #include "tools/common/Console.h"
 #include "tools/paths/Paths.h"
@@ -76,8 +77,8 @@ Result<void> writeReport(Results const& results, ReportPlaces const& places) {
     return writeReport(jsonOf(results), places);
 }
 
-Result<void> writeReport(nlohmann::ordered_json const& data, ReportPlaces const& places) {
-    const std::string json = data.dump(1) + "\n";
+Result<void> writeReport(tools::Json const& data, ReportPlaces const& places) {
+    const std::string json = tools::jsonText(data);
     if (auto done = writeText(places.out / "results.json", json); !done) return done;
     if (auto done = writeText(places.out / "results.csv", csvOf(data)); !done) return done;
     if (places.plots && !runPlot("accuracy", places.out / "results.json", places.out / "plots"))

@@ -23,6 +23,6 @@ struct ReportPlaces {
 
 Result<void> writeReport(Results const& results, ReportPlaces const& places);
 /// Of the JSON of results (Results.h).
-Result<void> writeReport(nlohmann::ordered_json const& data, ReportPlaces const& places);
+Result<void> writeReport(tools::Json const& data, ReportPlaces const& places);
 
 } // namespace filament_core::accuracy

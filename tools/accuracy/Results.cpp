@@ -10,7 +10,7 @@
 namespace filament_core::accuracy {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 /// Four significant digits: the rest is noise that changes with every run.
 double rounded(double value) {

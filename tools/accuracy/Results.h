@@ -10,11 +10,10 @@
 ///   Thread  any; pure.
 #pragma once
 
+#include "toolkit/json/JsonReader.h"
 #include "toolkit/pictures/Picture.h"
 #include "tools/accuracy/Effect.h"
 #include "tools/accuracy/Statistics.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <filament_core/Math.h>
 
@@ -61,8 +60,8 @@ struct Results {
     std::vector<Skipped> skipped;
 };
 
-nlohmann::ordered_json jsonOf(Results const& results);
+tools::Json jsonOf(Results const& results);
 /// Of such JSON; throws its exception where a value lacks a number.
-std::string csvOf(nlohmann::ordered_json const& data);
+std::string csvOf(tools::Json const& data);
 
 } // namespace filament_core::accuracy

@@ -2,7 +2,6 @@
 #include "tools/accuracy/Shards.h"
 
 #include "base/Suggest.h"
-#include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 namespace filament_core::accuracy {
 namespace {
@@ -126,8 +124,7 @@ Result<void> writeShard(Results const& results, tools::Shard const& shard, std::
                         fs::path const& out) {
     Json json = jsonOf(results);
     json["shard"] = { { "index", shard.index }, { "count", shard.count }, { "rows", rows } };
-    const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-    return assets::replaceFile(out / "results.json", std::as_bytes(std::span(text)));
+    return tools::writeJson(out / "results.json", json, 1);
 }
 
 Result<Json> mergeShards(std::vector<fs::path> const& files) {

@@ -14,8 +14,6 @@
 #include "tools/accuracy/Results.h"
 #include "tools/common/Shard.h"
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <filesystem>
 
 namespace filament_core::accuracy {
@@ -31,6 +29,6 @@ Result<void> writeShard(Results const& results, tools::Shard const& shard, std::
                         std::filesystem::path const& out);
 
 /// Files, or folders with a results.json, in any order.
-Result<nlohmann::ordered_json> mergeShards(std::vector<std::filesystem::path> const& files);
+Result<tools::Json> mergeShards(std::vector<std::filesystem::path> const& files);
 
 } // namespace filament_core::accuracy

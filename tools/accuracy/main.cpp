@@ -74,7 +74,7 @@ int report(Options const& options, Data const& data) {
 }
 
 int merge(Options const& options) {
-    const Result<nlohmann::ordered_json> merged = mergeShards(options.merge);
+    const Result<tools::Json> merged = mergeShards(options.merge);
     return merged ? report(options, *merged) : failed(merged.error());
 }
 

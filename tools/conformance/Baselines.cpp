@@ -2,7 +2,6 @@
 #include "tools/conformance/Baselines.h"
 
 #include "base/Hash.h"
-#include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
@@ -100,8 +99,7 @@ Result<void> Baselines::write(std::filesystem::path const& file) const {
     json["cases"] = Json::object();
     for (auto const& [name, entry] : mEntries)
         json["cases"][name] = { { "hash", entry.hash }, { "thumbnail", entry.thumbnail } };
-    const std::string text = json.dump(0) + '\n';
-    return assets::replaceFile(file, std::as_bytes(std::span(text)));
+    return writeJson(file, json, 0);
 }
 
 BaselineVerdict Baselines::check(std::string const& name, Image const& image, Machine const& machine) const {

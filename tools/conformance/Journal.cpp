@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Journal.h"
 
+#include "toolkit/json/JsonFile.h"
+
 #include <nlohmann/json.hpp>
 
 namespace filament_core::conformance {
@@ -35,10 +37,10 @@ JournalContents readJournal(std::filesystem::path const& file) {
     JournalContents contents;
     std::ifstream lines(file);
     for (std::string text; std::getline(lines, text);) {
-        const Json line = Json::parse(text, nullptr, false);
-        if (!line.is_object()) break;
+        const Result<Json> line = tools::parseJson(text, {});
+        if (!line || !line->is_object()) break;
         try {
-            read(line, contents);
+            read(*line, contents);
         } catch (Json::exception const&) {
             break;
         }

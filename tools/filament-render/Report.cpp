@@ -2,6 +2,7 @@
 #include "tools/filament-render/Report.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,8 +12,6 @@
 
 namespace filament_core::tools {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Spread {
     double min = 0, median = 0, max = 0;

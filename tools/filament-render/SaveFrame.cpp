@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/SaveFrame.h"
 
+#include "toolkit/json/JsonFile.h"
 #include "toolkit/record/SavedFrame.h"
 #include "tools/common/Console.h"
 
@@ -11,10 +12,10 @@ namespace filament_core::tools {
 namespace {
 
 std::string settingsOf(Options const& options, showcase::Files const& files) {
-    const nlohmann::ordered_json json{ { "arguments", options.arguments },
-                                       { "model", files.model.string() },
-                                       { "environment", files.environment.string() } };
-    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return jsonText({ { "arguments", options.arguments },
+                      { "model", files.model.string() },
+                      { "environment", files.environment.string() } },
+                    -1);
 }
 
 } // namespace

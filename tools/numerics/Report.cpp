@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/Report.h"
 
+#include "toolkit/json/JsonFile.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -51,15 +53,15 @@ void appendCsvLine(std::string& csv, RowResult const& row, Column column) {
     csv += fmt::format(",{}\n", at(m.firstOutsideNotFinite));
 }
 
-nlohmann::ordered_json jsonOf(Row const& row, Column column, Measurement const& m) {
-    nlohmann::ordered_json json{ { "inputs", m.inputs },
-                                 { "maxError", m.worst },
-                                 { "p99Error", m.percentile99 },
-                                 { "limit", limitOf(row, column) },
-                                 { "nan", m.nan },
-                                 { "infinite", m.infinite },
-                                 { "outOfRange", m.outOfRange },
-                                 { "notMonotone", m.notMonotone } };
+tools::Json jsonOf(Row const& row, Column column, Measurement const& m) {
+    tools::Json json{ { "inputs", m.inputs },
+                      { "maxError", m.worst },
+                      { "p99Error", m.percentile99 },
+                      { "limit", limitOf(row, column) },
+                      { "nan", m.nan },
+                      { "infinite", m.infinite },
+                      { "outOfRange", m.outOfRange },
+                      { "notMonotone", m.notMonotone } };
     if (m.worstAt) json["maxErrorAt"] = describe(row, *m.worstAt);
     if (m.firstNotFinite) json["firstNotFinite"] = describe(row, *m.firstNotFinite);
     if (m.firstOutsideNotFinite) json["firstOutsideNotFinite"] = describe(row, *m.firstOutsideNotFinite);
@@ -114,23 +116,23 @@ std::string csvOf(Study const& study) {
 }
 
 std::string jsonOf(Study const& study) {
-    nlohmann::ordered_json json{ { "vulkan", study.devices[0] }, { "gles", study.devices[1] } };
-    json["rows"] = nlohmann::ordered_json::array();
+    tools::Json json{ { "vulkan", study.devices[0] }, { "gles", study.devices[1] } };
+    json["rows"] = tools::Json::array();
     for (RowResult const& row : study.rows) {
-        nlohmann::ordered_json one{ { "file", row.row->file },
-                                    { "function", row.row->function },
-                                    { "part", row.row->part },
-                                    { "why", row.row->limits.why },
-                                    { "fp32Only", row.row->fp32Only },
-                                    { "differingInFp32", row.differing[0] },
-                                    { "differingInFp16", row.differing[1] } };
+        tools::Json one{ { "file", row.row->file },
+                         { "function", row.row->function },
+                         { "part", row.row->part },
+                         { "why", row.row->limits.why },
+                         { "fp32Only", row.row->fp32Only },
+                         { "differingInFp32", row.differing[0] },
+                         { "differingInFp16", row.differing[1] } };
         for (const Column column : kColumns) {
             if (row.of(column))
                 one["columns"][std::string(toString(column))] = jsonOf(*row.row, column, *row.of(column));
         }
         json["rows"].push_back(std::move(one));
     }
-    return json.dump(1) + "\n";
+    return tools::jsonText(json);
 }
 
 } // namespace filament_core::shader::numerics

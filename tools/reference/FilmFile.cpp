@@ -3,6 +3,7 @@
 
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonReader.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,7 +16,7 @@
 namespace filament_core::reference {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 static_assert(std::endian::native == std::endian::little, "partial films are little-endian");
 static_assert(sizeof(PixelSums) == 6 * sizeof(double));

@@ -53,9 +53,9 @@ TEST(Measurement, ExactMaskingIsNearestToThePathTracerAndEveryValueIsTimedOnBoth
 
 /// Everything but the times.
 std::string errorsOf(Results const& results) {
-    nlohmann::ordered_json json = jsonOf(results);
-    for (nlohmann::ordered_json& effect : json["effects"]) {
-        for (nlohmann::ordered_json& value : effect["values"]) {
+    tools::Json json = jsonOf(results);
+    for (tools::Json& effect : json["effects"]) {
+        for (tools::Json& value : effect["values"]) {
             for (const char* name : { "milliseconds", "millisecondsInterval", "ratio", "interval" }) value.erase(name);
         }
     }

@@ -76,7 +76,7 @@ protected:
 };
 
 TEST_F(AccuracyShards, MergeToTheBytesOfOneRun) {
-    const nlohmann::ordered_json whole = jsonOf(resultsOf(mRows));
+    const tools::Json whole = jsonOf(resultsOf(mRows));
     for (const uint32_t count : { 1u, 2u, 3u, 5u }) {
         std::vector<fs::path> files;
         for (uint32_t i = 0; i < count; ++i) files.push_back(write({ count - 1 - i, count }, mRows));

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
+#include "toolkit/json/JsonFile.h"
 #include "tools/common/Html.h"
 
 #include <nlohmann/json.hpp>
@@ -16,8 +17,8 @@ namespace filament_core::accuracy {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using tools::escapedHtml;
+using tools::Json;
 
 constexpr double kFullColor = 0.25; // relative difference at which the maps are saturated
 constexpr size_t kMapsOfSteps = 3;  // of the largest steps
@@ -213,10 +214,6 @@ Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const&
     return html + kHowToAddRow + "</section>\n";
 }
 
-Result<void> writeComparisonText(fs::path const& path, std::string const& text) {
-    return assets::replaceFile(path, std::as_bytes(std::span(text)));
-}
-
 } // namespace
 
 Json jsonOf(ComparisonResults const& results) {
@@ -231,9 +228,9 @@ Json jsonOf(ComparisonResults const& results) {
 Result<void> writeComparison(ComparisonResults const& results, fs::path const& out) {
     const Result<std::string> fragment = fragmentOf(results, Pictures(out / "comparison"));
     if (!fragment) return fragment.error();
-    const std::string json = jsonOf(results).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (const Result<void> written = writeComparisonText(out / "comparison.json", json); !written) return written;
-    return writeComparisonText(out / "comparison.fragment.html", *fragment);
+    if (const Result<void> written = tools::writeJson(out / "comparison.json", jsonOf(results), 1); !written)
+        return written;
+    return assets::replaceFile(out / "comparison.fragment.html", std::as_bytes(std::span(*fragment)));
 }
 
 std::string textOf(ComparisonResults const& results) {

@@ -6,13 +6,12 @@
 ///   Thread  one.
 #pragma once
 
+#include "toolkit/json/JsonReader.h"
 #include "tools/accuracy/comparison/Comparison.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 namespace filament_core::accuracy {
 
-nlohmann::ordered_json jsonOf(ComparisonResults const& results);
+tools::Json jsonOf(ComparisonResults const& results);
 
 Result<void> writeComparison(ComparisonResults const& results, std::filesystem::path const& out);
 

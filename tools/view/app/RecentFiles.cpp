@@ -2,6 +2,7 @@
 #include "tools/view/app/RecentFiles.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -38,10 +39,10 @@ std::filesystem::path recentFilesPath() {
 }
 
 std::vector<std::filesystem::path> recentFromJson(std::string_view text) {
-    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    const Result<tools::Json> json = tools::parseJson(text, {});
     std::vector<std::filesystem::path> files;
-    if (!json.is_array()) return files; // also what is no JSON
-    for (nlohmann::json const& each : json) {
+    if (!json || !json->is_array()) return files;
+    for (tools::Json const& each : *json) {
         if (each.is_string() && isAbsolutePath(each.get_ref<std::string const&>()))
             addUnlessKnown(files, each.get<std::string>());
     }
@@ -49,9 +50,9 @@ std::vector<std::filesystem::path> recentFromJson(std::string_view text) {
 }
 
 std::string recentToJson(std::vector<std::filesystem::path> const& files) {
-    nlohmann::json json = nlohmann::json::array();
+    tools::Json json = tools::Json::array();
     for (std::filesystem::path const& file : files) json.push_back(file.string());
-    return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return tools::jsonText(json);
 }
 
 RecentFiles::RecentFiles(std::filesystem::path store) : mStore(std::move(store)) { read(); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// toJson(): every field of a document, so that a later default changes nothing of what was saved.
 #include "base/NumberText.h"
+#include "toolkit/json/JsonFile.h"
 #include "tools/view/document/DocumentVersion.h"
 #include "tools/view/document/Fields.h"
 #include "tools/view/document/TextForms.h"
@@ -13,7 +14,7 @@
 namespace filament_core::view {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using tools::Json;
 
 /// The shortest decimal that is this float again.
 double shortest(float value) {
@@ -98,21 +99,19 @@ Json jsonOf(T const& value) {
         return value;
 }
 
-std::string dumped(Json const& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
 } // namespace
 
 std::string toJson(Document const& document) {
     Json json{ { "version", kDocumentVersion } };
     json.update(membersOf(document));
-    return dumped(json);
+    return tools::jsonText(json);
 }
 
 std::string toJson(Camera const& camera) {
-    return dumped({ { "version", kDocumentVersion }, { "camera", membersOf(camera) } });
+    return tools::jsonText({ { "version", kDocumentVersion }, { "camera", membersOf(camera) } });
 }
 std::string toJson(CameraPath const& path) {
-    return dumped({ { "version", kDocumentVersion }, { "path", membersOf(path) } });
+    return tools::jsonText({ { "version", kDocumentVersion }, { "path", membersOf(path) } });
 }
 
 } // namespace filament_core::view

@@ -5,6 +5,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/PathInside.h"
 #include "filament_core/assets/gltf/GltfUri.h"
+#include "toolkit/json/JsonFile.h"
 
 #include <nlohmann/json.hpp>
 
@@ -37,10 +38,10 @@ std::string decoded(std::string_view uri) {
     return text;
 }
 
-void addUris(nlohmann::json const& tree, const char* list, fs::path const& folder, std::vector<fs::path>& files) {
+void addUris(tools::Json const& tree, const char* list, fs::path const& folder, std::vector<fs::path>& files) {
     const auto found = tree.find(list);
     if (found == tree.end() || !found->is_array()) return;
-    for (nlohmann::json const& element : *found) {
+    for (tools::Json const& element : *found) {
         const auto uri = element.is_object() ? element.find("uri") : element.end();
         if (!element.is_object() || uri == element.end() || !uri->is_string()) continue;
         const std::string text = uri->get<std::string>();
@@ -74,10 +75,10 @@ std::vector<std::string_view> includesOf(std::string_view text) {
 std::vector<fs::path> filesOf(fs::path const& file) {
     std::vector<fs::path> files{ file };
     if (file.extension() == ".gltf") {
-        const nlohmann::json tree = nlohmann::json::parse(textOfFile(file), nullptr, false);
-        if (!tree.is_object()) return files;
-        addUris(tree, "buffers", file.parent_path(), files);
-        addUris(tree, "images", file.parent_path(), files);
+        const Result<tools::Json> tree = tools::readJson(file);
+        if (!tree || !tree->is_object()) return files;
+        addUris(*tree, "buffers", file.parent_path(), files);
+        addUris(*tree, "images", file.parent_path(), files);
     } else if (file.extension() == ".mat") {
         const std::string text = textOfFile(file);
         for (const std::string_view name : includesOf(text)) {
