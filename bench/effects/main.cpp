@@ -4,6 +4,7 @@
 // then the other first, and the ratio is that of each pair: its median, and the interval in which the true median lies
 // with 95 % certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program
 // fails. The last line is the time of a pass that fetches one texel a pixel: the lower bound of all full-screen passes.
+#include "base/Statistics.h"
 #include "tools/common/CommandLine.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/paths/Paths.h"
@@ -507,8 +508,7 @@ Result<double> millisecondsOfOneFetch(Backend backend, Options const& options) {
             if (pass.name == "distances") times.push_back(pass.gpuMilliseconds);
     }
     if (times.empty()) return Error{ ErrorCode::NotFound, "no frame had a pass 'distances'" };
-    std::ranges::sort(times);
-    return times[times.size() / 2];
+    return median(std::move(times));
 }
 
 void print(Pair const& pair, Backend backend, Measured const& m) {

@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "base/Statistics.h"
 #include "tools/common/CommandLine.h"
 #include "tools/paths/Paths.h"
 
@@ -73,9 +74,8 @@ Result<Measured> measure(Backend backend, std::filesystem::path const& assets, S
     std::vector<double> times;
     times.reserve(static_cast<size_t>(frames));
     for (int i = 0; i < frames; ++i) times.push_back(frame() * 1e3);
-    std::sort(times.begin(), times.end());
-    measured.minimum = times.front();
-    measured.median = times[times.size() / 2];
+    measured.minimum = *std::ranges::min_element(times);
+    measured.median = median(std::move(times));
 
     const auto begin = Clock::now();
     for (int i = 0; i < frames; ++i) renderer.render(scene, view, target);

@@ -2,12 +2,14 @@
 #include <filament_core/QualityCosts.h>
 
 #include "base/Assert.h"
+#include "base/Statistics.h"
 
 #include <filament_core/Options.h>
 #include <filament_core/Quality.h>
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace filament_core {
 
@@ -19,9 +21,7 @@ double QualityCosts::frameMilliseconds(Backend backend) const {
             if (cost.value == standard) defaults.push_back(cost.on(backend).milliseconds);
         }
     }
-    if (defaults.empty()) return 0;
-    std::ranges::sort(defaults);
-    return (defaults[(defaults.size() - 1) / 2] + defaults[defaults.size() / 2]) / 2;
+    return median(std::move(defaults));
 }
 
 void addBackend(QualityCosts& costs, QualityCosts const& other, Backend backend) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/BackendRun.h"
 
+#include "base/Statistics.h"
 #include "tools/common/CommandLine.h"
 #include "tools/common/Console.h"
 #include "tools/filament-render/HeapCounter.h"
@@ -234,13 +235,11 @@ Result<void> Stage::fitBudget(BackendRun& run) {
     std::vector<double> milliseconds;
     for (FrameTimings const& frame : mRenderer.takeTimings()) milliseconds.push_back(frame.gpuMilliseconds);
     if (!milliseconds.empty()) milliseconds.erase(milliseconds.begin()); // the first frame compiles and uploads
-    std::sort(milliseconds.begin(), milliseconds.end());
-    Result<QualityDecision> decision =
-            chooseQuality({ .gpuMilliseconds = *mOptions.budgetMilliseconds,
-                            .size = mOptions.view.size,
-                            .backend = run.backend,
-                            .frameMilliseconds = milliseconds.empty() ? 0 : milliseconds[milliseconds.size() / 2] },
-                          *costs, mOptions.view.quality);
+    Result<QualityDecision> decision = chooseQuality({ .gpuMilliseconds = *mOptions.budgetMilliseconds,
+                                                       .size = mOptions.view.size,
+                                                       .backend = run.backend,
+                                                       .frameMilliseconds = median(std::move(milliseconds)) },
+                                                     *costs, mOptions.view.quality);
     if (!decision) return decision.error();
     mView.quality = decision->quality;
     run.decision = std::move(*decision);

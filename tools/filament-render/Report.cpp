@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/Report.h"
 
-#include "filament_core/assets/files/FileBytes.h"
+#include "base/Statistics.h"
 #include "toolkit/json/JsonFile.h"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <utility>
 
 namespace filament_core::tools {
 namespace {
@@ -19,8 +20,8 @@ struct Spread {
 
 Spread spreadOf(std::vector<double> values) {
     if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
-    return { values.front(), values[values.size() / 2], values.back() };
+    const auto [min, max] = std::ranges::minmax(values);
+    return { min, median(std::move(values)), max };
 }
 
 Json toJson(Spread spread) { return { { "min", spread.min }, { "median", spread.median }, { "max", spread.max } }; }
@@ -185,8 +186,7 @@ Result<void> writeReport(std::filesystem::path const& path, ReportInput const& i
                                  { "maxDifference", input.comparison->maxDifference } };
     }
     report["errors"] = input.errors;
-    const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+    return writeJson(path, report);
 }
 
 std::string timingText(BackendRun const& run) {
