@@ -73,6 +73,7 @@ public:
     virtual void edit(CmdUploadTexture&) {}
     virtual void edit(CmdUpdateBuffer&) {}
     virtual void edit(CmdSetViewport&) {}
+    virtual void edit(CmdDrawIndexed&) {}
 };
 
 /// The tool's interface to the layer: EngineOptions::debug.capture. One per engine.

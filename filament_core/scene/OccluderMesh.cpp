@@ -2,13 +2,13 @@
 #include "filament_core/scene/OccluderMesh.h"
 
 #include "base/Assert.h"
-#include "base/Hash.h"
+#include "filament_core/scene/VertexPositions.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <map>
-#include <unordered_map>
 
 namespace filament_core {
 namespace {
@@ -25,14 +25,19 @@ double areaOf(float3 a, float3 b, float3 c) {
     return std::isfinite(area) ? area : 0;
 }
 
-std::vector<SizedTriangle> trianglesBySize(std::span<const float3> positions, std::span<const uint32_t> indices) {
+/// The `most` largest first.
+std::vector<SizedTriangle> trianglesBySize(std::span<const float3> positions, std::span<const uint32_t> indices,
+                                           uint32_t most) {
     std::vector<SizedTriangle> sized;
     sized.reserve(indices.size() / 3);
     for (uint32_t i = 0; i + 3 <= indices.size(); i += 3) {
         const double area = areaOf(positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]);
         if (area > 0) sized.push_back({ area, i });
     }
-    std::ranges::stable_sort(sized, std::ranges::greater{}, &SizedTriangle::area);
+    std::ranges::partial_sort(sized, sized.begin() + static_cast<ptrdiff_t>(std::min<size_t>(sized.size(), most)),
+                              [](SizedTriangle const& a, SizedTriangle const& b) {
+                                  return a.area != b.area ? a.area > b.area : a.first < b.first;
+                              });
     return sized;
 }
 
@@ -77,11 +82,32 @@ void connect(std::vector<OccluderMesh::Triangle>& triangles) {
     }
 }
 
+template <class Index>
+std::vector<uint32_t> indicesFrom(std::span<const std::byte> bytes) {
+    std::vector<uint32_t> indices(bytes.size() / sizeof(Index));
+    for (size_t i = 0; i < indices.size(); ++i) {
+        Index index;
+        std::memcpy(&index, &bytes[i * sizeof index], sizeof index);
+        indices[i] = index;
+    }
+    return indices;
+}
+
 } // namespace
+
+Occluder scene::occluderOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices,
+                           backend::IndexFormat format, std::span<const std::byte> indices) {
+    constexpr size_t kMostIndices = 3 * 65536;
+    const bool isSmall = format == backend::IndexFormat::UInt16;
+    if (indices.size() / (isSmall ? 2 : 4) > kMostIndices) return {};
+    const std::vector<float3> positions = positionsOf(layout, vertices);
+    if (positions.empty()) return {};
+    return makeOccluder(positions, isSmall ? indicesFrom<uint16_t>(indices) : indicesFrom<uint32_t>(indices));
+}
 
 Occluder makeOccluder(std::span<const float3> positions, std::span<const uint32_t> indices, uint32_t maxTriangles) {
     FILAMENT_ASSERT(maxTriangles <= kMostTriangles, "an occluder has at most 4096 triangles");
-    std::vector<SizedTriangle> sized = trianglesBySize(positions, indices);
+    std::vector<SizedTriangle> sized = trianglesBySize(positions, indices, maxTriangles);
     double all = 0, kept = 0;
     for (SizedTriangle const& triangle : sized) all += triangle.area;
     if (sized.size() > maxTriangles) sized.resize(maxTriangles);

@@ -4,11 +4,15 @@
 ///   Thread  immutable once made.   Memory: 24 bytes a triangle, about 12 a vertex.
 #pragma once
 
+#include "backend/api/Descriptions.h"
+
 #include <filament_core/Occluder.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace filament_core {
@@ -24,5 +28,13 @@ public:
     std::vector<float3> positions; ///< each once
     std::vector<Triangle> triangles;
 };
+
+namespace scene {
+
+/// Of an interleaved stream; null also for more than 65 536 triangles, whose largest hardly have half of the area.
+Occluder occluderOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices,
+                    backend::IndexFormat format, std::span<const std::byte> indices);
+
+} // namespace scene
 
 } // namespace filament_core

@@ -73,16 +73,33 @@ std::optional<double3> positionAt(const std::byte* source, VertexFormat format) 
     }
 }
 
-MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices) {
-    MinMax bounds;
+namespace {
+
+template <class Visit>
+void forEachPosition(backend::VertexLayout const& layout, std::span<const std::byte> vertices, Visit const& visit) {
     const auto attributes = std::span(layout.attributes).first(layout.attributeCount);
     const auto found = std::ranges::find(attributes, shader::kAttributePosition, &backend::VertexAttribute::location);
-    if (found == attributes.end()) return bounds;
+    if (found == attributes.end()) return;
     const size_t stride = layout.buffers[0].stride;
     for (size_t at = 0; at + stride <= vertices.size(); at += stride) {
-        const std::optional<double3> position = positionAt(&vertices[at + found->offset], found->format);
-        if (position && std::isfinite(position->x + position->y + position->z)) bounds.add(float3(*position));
+        if (const std::optional<double3> position = positionAt(&vertices[at + found->offset], found->format))
+            visit(*position);
     }
+}
+
+} // namespace
+
+std::vector<float3> positionsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices) {
+    std::vector<float3> positions;
+    forEachPosition(layout, vertices, [&](double3 const& position) { positions.emplace_back(position); });
+    return positions;
+}
+
+MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices) {
+    MinMax bounds;
+    forEachPosition(layout, vertices, [&](double3 const& position) {
+        if (std::isfinite(position.x + position.y + position.z)) bounds.add(float3(position));
+    });
     return bounds;
 }
 

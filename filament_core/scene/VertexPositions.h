@@ -10,11 +10,15 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace filament_core::scene {
 
 /// Components that the format lacks are 0. None: shaders cannot read it as a position.
 std::optional<double3> positionAt(const std::byte* source, backend::VertexFormat format);
+
+/// As stored, those that are not finite as well; none if the layout has none.
+std::vector<float3> positionsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);
 
 /// Around the finite positions of an interleaved stream; empty if there are none, or the layout has none.
 MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);

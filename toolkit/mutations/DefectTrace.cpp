@@ -62,6 +62,7 @@ void DefectTrace::name(Object object, std::string_view kind, std::string_view na
 void DefectTrace::begin() {
     mDrawn.clear();
     mChanged.erase(kViewports);
+    mChanged.erase(kDraws);
 }
 
 DefectReach DefectTrace::reach() const {
@@ -73,7 +74,7 @@ DefectReach DefectTrace::reach() const {
     std::set<std::string> names;
     for (Object const& object : changed) {
         const auto known = mNames.find(object);
-        names.insert(known != mNames.end() ? known->second : "viewports");
+        names.insert(known != mNames.end() ? known->second : object == kDraws ? "draws" : "viewports");
         reach.isDrawn = reach.isDrawn || mDrawn.contains(object);
     }
     reach.changed = fmt::format("{}", fmt::join(names, ", "));
@@ -137,9 +138,18 @@ void DefectTrace::edit(CmdUpdateBuffer& command) {
 void DefectTrace::edit(CmdSetViewport& command) {
     const backend::Viewport before = command.viewport;
     mDefect->edit(command);
-    if (command.viewport == before) return;
-    change(kViewports);
-    mDrawn.insert(kViewports); // passes set what they draw with
+    if (command.viewport != before) changeDrawn(kViewports);
+}
+
+void DefectTrace::edit(CmdDrawIndexed& command) {
+    const uint32_t before = command.instanceCount;
+    mDefect->edit(command);
+    if (command.instanceCount != before) changeDrawn(kDraws);
+}
+
+void DefectTrace::changeDrawn(Object object) {
+    change(object);
+    mDrawn.insert(object); // passes set what they draw with
 }
 
 void DefectTrace::execute(CmdCreateBuffer const& command) {

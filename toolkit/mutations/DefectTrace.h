@@ -48,6 +48,7 @@ public:
     void edit(backend::CmdUploadTexture& command) override;
     void edit(backend::CmdUpdateBuffer& command) override;
     void edit(backend::CmdSetViewport& command) override;
+    void edit(backend::CmdDrawIndexed& command) override;
 
     // For replay(): what draws have.
     template <class C>
@@ -65,14 +66,15 @@ public:
     void execute(backend::CmdDispatch const&) { noteDraw(); }
 
 private:
-    enum class Kind : uint8_t { Buffer, Texture, Sampler, Program, Pipeline, Group, Viewport };
+    enum class Kind : uint8_t { Buffer, Texture, Sampler, Program, Pipeline, Group, Viewport, Draw };
     using Object = std::pair<Kind, uint64_t>; // and the bits of its handle
-    static constexpr Object kViewports{ Kind::Viewport, 0 };
+    static constexpr Object kViewports{ Kind::Viewport, 0 }, kDraws{ Kind::Draw, 0 };
 
     template <class Handle>
     static Object objectOf(Handle handle);
     void name(Object object, std::string_view kind, std::string_view name);
     void change(Object object) { mChanged.insert(object); }
+    void changeDrawn(Object object); ///< of commands that name no object
     void changeNumbers(Object object, std::span<const std::byte> before, std::span<const std::byte>& after);
     void unbind();
     void noteDraw();

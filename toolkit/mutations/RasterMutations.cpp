@@ -108,10 +108,22 @@ public:
     }
 };
 
+/// As if culling had left out one object too many.
+class FirstInstanceEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdDrawIndexed& command) override {
+        if (command.instanceCount < 2) return;
+        ++command.firstInstance;
+        --command.instanceCount;
+    }
+};
+
 constexpr Mutation kRasterMutations[] = {
     { "depthCompare", "depth test always passes", make<DepthCompareEdit> },
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
     { "blendOff", "blending off", make<BlendOffEdit> },
+    { "firstInstance", "one object of every instanced draw is missing", make<FirstInstanceEdit> },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "oneWeight", "transparent objects in any order weigh the same at any distance", make<OneWeightEdit> },
     { "layerAgain", "every peeled layer is the nearest one", make<LayerAgainEdit> },

@@ -138,6 +138,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     reader.read("samples", samples, 1, 4);
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
     view.samples = static_cast<uint8_t>(samples);
+    reader.read("occlusionCulling", view.occlusionCulling);
     readOptions(reader, view.display);
     readLook(reader, spec);
     reader.choice("debugView", view.debugView, listed(enumNames<DebugView>()).c_str(), enumFromName<DebugView>);

@@ -5,6 +5,7 @@
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
+#include "filament_core/scene/OccluderMesh.h"
 #include "filament_core/scene/VertexPositions.h"
 
 #include <utility>
@@ -43,17 +44,25 @@ assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& 
 
 namespace {
 
+/// Deformed geometry moves away from its triangles.
+Occluder occluderOf(assets::PrimitiveData const& primitive) {
+    const bool isRigid = !primitive.isSkinned && primitive.morphTargets.empty();
+    if (!isRigid || primitive.topology != backend::PrimitiveType::Triangles) return {};
+    return scene::occluderOf(primitive.layout, primitive.vertices, primitive.indexFormat, primitive.indices);
+}
+
 /// What an upload would otherwise compute between frames.
 void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, GltfMaterialChoice const& choice) {
     if (model.data.imageBasedLight) model.light = assets::environmentFromCube(model.data.imageBasedLight->light, jobs);
     model.materials = readMaterials(model.data, choice, jobs);
     model.bounds = assets::boundsOf(model.data);
     std::vector<assets::MeshData> const& meshes = model.data.meshes;
-    model.positions.resize(meshes.size());
-    jobs::parallelFor<"bounds">(jobs, meshes.size(), 8, [&](size_t begin, size_t end) {
+    model.shapes.resize(meshes.size());
+    jobs::parallelFor<"shapes">(jobs, meshes.size(), 8, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
             for (assets::PrimitiveData const& primitive : meshes[i].primitives)
-                model.positions[i].push_back(scene::boundsOf(primitive.layout, primitive.vertices));
+                model.shapes[i].push_back(
+                        { scene::boundsOf(primitive.layout, primitive.vertices), occluderOf(primitive) });
     });
 }
 

@@ -24,7 +24,7 @@ class ModelUpload::Builder {
 public:
     Builder(Engine::Impl& engine, ReadModel model)
             : mEngine(engine), mData(std::move(model.data)), mLight(std::move(model.light)),
-              mPositions(std::move(model.positions)), mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
+              mShapes(std::move(model.shapes)), mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
               mMaterials(mEngine, *mModel, mModel->textures, std::move(model.materials)) {
         mModel->bounds = model.bounds;
         mModel->name = mData.name;
@@ -86,7 +86,7 @@ private:
 
     size_t uploadMesh(assets::MeshData& mesh) {
         size_t bytes = 0;
-        std::vector<scene::MinMax> const& positions = mPositions[mMeshes.size()];
+        std::vector<ReadModel::Shape> const& shapes = mShapes[mMeshes.size()];
         std::vector<Part>& parts = mMeshes.emplace_back();
         for (PrimitiveData& primitive : mesh.primitives) {
             bytes += primitive.indices.size() + primitive.vertices.size();
@@ -94,14 +94,14 @@ private:
             if (!materialOf(primitive.material).transmission.isSolid())
                 instanceFor(primitive.material, verticesOf(primitive), double4x4(1.0));
             parts.push_back(
-                    { upload(primitive, positions[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
+                    { upload(primitive, shapes[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
                       primitive.positionScale != 1 || primitive.positionOffset != float3(0), primitive.isSkinned });
             if (!primitive.morphTargets.empty()) parts.back().targetNames = mesh.targetNames;
         }
         return bytes;
     }
 
-    RenderableDesc upload(PrimitiveData& primitive, scene::MinMax const& positions, std::string const& name) {
+    RenderableDesc upload(PrimitiveData& primitive, ReadModel::Shape const& shape, std::string const& name) {
         const SharedBytes ofVertices = sharedBytes(primitive.vertices), ofIndices = sharedBytes(primitive.indices);
         VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
                                    .stride = primitive.layout.buffers[0].stride,
@@ -114,7 +114,7 @@ private:
         }
         mModel->vertexBuffers.push_back({});
         mModel->indexBuffers.push_back({});
-        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices, ofVertices, positions);
+        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices, ofVertices, shape.bounds);
         mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
                                                                   .format = primitive.indexFormat,
                                                                   .data = *ofIndices,
@@ -124,6 +124,7 @@ private:
                  .indices = mModel->indexBuffers.back(),
                  .primitive = primitive.topology,
                  .bounds = Box{ double3(primitive.boundsMin), double3(primitive.boundsMax) },
+                 .occluder = shape.occluder,
                  .boneBounds = boneBounds(primitive),
                  .morphTargets = uploadTargets(primitive, name),
                  .name = name };
@@ -291,7 +292,7 @@ private:
     Engine::Impl& mEngine;
     ModelData mData;
     std::optional<assets::EnvironmentData> mLight;
-    std::vector<std::vector<scene::MinMax>> mPositions; // by mesh of the file and primitive
+    std::vector<std::vector<ReadModel::Shape>> mShapes; // by mesh of the file and primitive
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
     std::map<InstanceKey, MaterialInstance> mInstances;

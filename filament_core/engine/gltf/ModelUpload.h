@@ -24,8 +24,12 @@ struct ReadModel {
     std::optional<assets::EnvironmentData> light; ///< the image-based light of `data`, baked
     GltfReadyMaterials materials;
     Box bounds; ///< assets::boundsOf(data)
-    /// What scene::boundsOf() says of the vertices, by mesh and primitive.
-    std::vector<std::vector<scene::MinMax>> positions;
+    /// What follows from the vertices of a primitive.
+    struct Shape {
+        scene::MinMax bounds; ///< scene::boundsOf()
+        Occluder occluder;    ///< scene::occluderOf()
+    };
+    std::vector<std::vector<Shape>> shapes; ///< by mesh and primitive
 };
 
 /// Of the loader, with `progress` of the options.

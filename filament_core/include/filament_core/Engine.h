@@ -197,8 +197,8 @@ public:
 
     /// For set() in every frame, without the search by name. NotFound names the nearest parameter.
     Result<ParameterId> findParameter(Material material, std::string_view name) const;
-    /// `parameter`: its name, or an id of the instance's material. NotFound names the nearest parameter; InvalidArgument
-    /// names the parameter's type and the type given.
+    /// `parameter`: its name, or an id of the instance's material. NotFound names the nearest parameter;
+    /// InvalidArgument names the parameter's type and the type given.
     Result<void> set(MaterialInstance instance, ParameterKey const& parameter, ParameterValue const& value);
     /// A number, or a value of any type of ParameterValue. Parameters of float take doubles, rounded, and integers;
     /// integer parameters take integers of any type. InvalidArgument if the parameter cannot hold the number: 1e39 or

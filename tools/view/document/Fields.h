@@ -105,6 +105,7 @@ template <> struct Fields<View> {
                                              field("effects", &View::effects),
                                              field("clearColor", &View::clearColor, -kFinite, kFinite),
                                              field("samples", &View::samples, 1, 4),
+                                             field("occlusionCulling", &View::occlusionCulling),
         field("debugView", &View::debugView),
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
