@@ -133,6 +133,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     for (engine::ToneTable const& table : engine.defaults.toneTables) engine.destroy(table.texture);
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
+    if (engine.drawingSplats) engine.destroy(std::exchange(engine.drawingSplats, {}));
     for (MaterialInstance& instance : engine.drawingDebug)
         if (instance) engine.destroy(std::exchange(instance, {}));
     for (auto const& [key, material] : engine.engineMaterials) engine.retire(engine.materials, material);

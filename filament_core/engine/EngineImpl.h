@@ -230,6 +230,8 @@ struct Engine::Impl {
     scene::MaterialInstance const* motionInstance();
     /// Of the material `debug_draw`, created once: with and without depth test.
     scene::MaterialInstance const* debugDrawInstance(bool isTested);
+    /// Of the material `splats`, created once.
+    MaterialInstance splatInstance();
     /// engineMaterial() for a full-screen pass; asserts that they fit.
     scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
                                               passes::FullScreenInterface const& given);
@@ -292,6 +294,7 @@ struct Engine::Impl {
     engine::Defaults defaults;
     MaterialInstance drawingMotion;                  ///< none: no frame needed motion vectors
     std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
+    MaterialInstance drawingSplats;                  ///< none: no scene had splats
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     uint64_t rasterChanges = 0;                      ///< of instances; they change the order in which scenes draw
     uint64_t instanceChanges = 0;                    ///< by the app: parameters, textures, raster states

@@ -2,6 +2,7 @@
 #include "filament_core/engine/FrameResourceCache.h"
 
 #include "filament_core/passes/DebugDrawPass.h"
+#include "filament_core/passes/SplatPass.h"
 #include "filament_core/prepare/DebugViews.h"
 
 #include <filament_core/DebugDraw.h>
@@ -50,6 +51,10 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
         resources.debugTested = mEngine.debugDrawInstance(true);
         resources.debugThrough = mEngine.debugDrawInstance(false);
         resources.debugLayout = mEngine.layouts.intern(passes::debugDrawLayout());
+    }
+    if (packet.demand.needs(prepare::Effect::Splats)) {
+        resources.splats = &mEngine.instances.get(mEngine.splatInstance());
+        resources.splatLayout = mEngine.layouts.intern(passes::splatLayout());
     }
     if (prepare::showsEdges(view.debugView)) resources.edges = edges();
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);

@@ -14,6 +14,7 @@
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
+#include "filament_core/passes/SplatPass.h"
 #include "filament_core/prepare/GuardBand.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
@@ -110,8 +111,9 @@ bool joinsLastImage(View const& view) { return view.viewport && view.viewport->c
 struct Renderer::Impl final : engine::Dependent {
     Impl(Engine& ofEngine, RendererOptions const& rendererOptions)
             : engine(ofEngine.impl()), link(ofEngine), options(rendererOptions), resources(engine),
-              data(*engine.stream), blocks(*engine.stream), debugBuffers(*engine.stream), shadows(engine), graph(arena),
-              transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine), imageTarget(engine) {
+              data(*engine.stream), blocks(*engine.stream), debugBuffers(*engine.stream), splatBuffers(*engine.stream),
+              shadows(engine), graph(arena), transients(*engine.stream), ranges(engine.jobs), timings(engine),
+              pixels(engine), imageTarget(engine) {
         engine.dependents.push_back(this);
     }
 
@@ -126,6 +128,7 @@ struct Renderer::Impl final : engine::Dependent {
         data.destroy(engine.pending);
         blocks.destroy(engine.pending);
         debugBuffers.destroy(engine.pending);
+        splatBuffers.destroy(engine.pending);
         shadows.destroy();
         transients.destroyAll(engine.pending);
         imageTarget.destroy();
@@ -227,6 +230,7 @@ struct Renderer::Impl final : engine::Dependent {
         data.upload(engine.jobs, *commands, context.packet);
         blocks.upload(*commands);
         context.debugDraw.buffers = debugBuffers.upload(*commands, arena, context.debugDraw.quads);
+        context.splats = splatBuffers.upload(engine.jobs, *commands, arena, context.packet.splats);
         context.views = data.views();
         context.deformations = data.deformations();
         context.lastDeformations = data.lastDeformations();
@@ -374,6 +378,7 @@ struct Renderer::Impl final : engine::Dependent {
     passes::FrameData data;
     passes::PassBlocks blocks;
     passes::DebugBuffers debugBuffers;
+    passes::SplatBuffers splatBuffers;
     engine::ShadowTexture shadows;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;

@@ -4,6 +4,7 @@
 #include "filament_core/engine/LightRecords.h"
 #include "filament_core/engine/RequiredAttributes.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/passes/SplatPass.h"
 #include "filament_core/scene/SceneNodes.h"
 #include "filament_core/scene/SceneSkins.h"
 
@@ -39,6 +40,20 @@ scene::Deformation deformationOf(Scene::Impl const& scene, RenderableDesc const&
     return deformation;
 }
 
+Renderable addSplatsTo(Scene::Impl& scene, RenderableDesc const& desc) {
+    scene::SplatData const& splats = *desc.splats.data();
+    const scene::RenderableInput input{ .geometry = { .layout = scene.engine.layouts.intern(passes::splatLayout()) },
+                                        .material = &scene.engine.instances.get(scene.engine.splatInstance()),
+                                        .boundsMin = splats.bounds.min,
+                                        .boundsMax = splats.bounds.max,
+                                        .worldFromObject = desc.worldFromObject,
+                                        .culled = desc.culled,
+                                        .name = desc.name,
+                                        .castsShadows = false,
+                                        .layers = desc.layers };
+    return scene::addSplats(scene.changed(), input, desc.splats.data());
+}
+
 } // namespace
 
 Scene::Scene(Engine& engine) : mImpl(std::make_shared<Impl>(engine)) {}
@@ -50,6 +65,12 @@ Renderable Scene::add(RenderableDesc const& desc) {
     const PublicCall call(mImpl, "Scene::add(RenderableDesc)", desc.name);
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
+    if (desc.splats) {
+        const Renderable splats = addSplatsTo(*mImpl, desc);
+        if (desc.node) scene::attach(mImpl->changed(), splats, desc.node);
+        mImpl->follow(splats, { .bounds = Box{} });
+        return splats;
+    }
     const GeometryDesc shape{ desc.vertices,   desc.indices, desc.primitive, desc.firstIndex,
                               desc.indexCount, desc.bounds,  desc.occluder };
     scene::MaterialInstance const& material = mImpl->engine.instances.get(desc.material);

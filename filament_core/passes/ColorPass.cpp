@@ -6,6 +6,7 @@
 #include "filament_core/passes/PassGroup.h"
 #include "filament_core/passes/ResolvePass.h"
 #include "filament_core/passes/SceneColorCopyPass.h"
+#include "filament_core/passes/SplatPass.h"
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -154,7 +155,8 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
                            : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
     const bool isPeeled = !context.packet.mainView().anyOrder.empty() &&
                           context.settings().quality.transparency == TransparencyOrder::Peeled;
-    if (context.packet.demand.needs(prepare::Effect::Refraction) || context.keepsDepth || isPeeled)
+    if (context.packet.demand.needs(prepare::Effect::Refraction) ||
+        context.packet.demand.needs(prepare::Effect::Splats) || context.keepsDepth || isPeeled)
         made.sceneDepth = samples == 1 ? made.depth : createLike(graph, made.color, depth, 1, "depth of the picture");
     return made;
 }
@@ -239,6 +241,16 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
     if (!blocks.part.blended.empty()) addPart(graph, context, to, "blended", blocks);
 }
 
+/// The opaque objects of the first part, and the splats over them. Leaves the rest of the part.
+void addSplatsFirst(FrameGraph& graph, FrameContext const& context, ColorAttachments const& to, ColorBlocks& blocks) {
+    ColorPart rest = blocks.part;
+    rest.isFirst = false;
+    blocks.part = before(blocks.part, 0);
+    addPart(graph, context, to, "color", blocks);
+    addSplatPasses(graph, context, { .color = to.color, .samples = to.samples, .depth = to.sceneDepth });
+    blocks.part = rest;
+}
+
 } // namespace
 
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
@@ -259,7 +271,9 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
             addPart(graph, context, to, name, blocks);
     };
     blocks.part = partOf(view, 0);
-    add("color");
+    const bool hasSplats = context.packet.demand.needs(prepare::Effect::Splats);
+    if (hasSplats) addSplatsFirst(graph, context, to, blocks);
+    if (!hasSplats || !blocks.part.blended.empty()) add(hasSplats ? "blended" : "color");
     for (size_t i = 0; i < view.pictures.size(); ++i) {
         targets.sceneColor = addSceneColorCopyPasses(graph, context, to.color, to.sceneDepth, view.pictures[i]);
         showPicture(context, like, view.pictures[i], targets.sceneColor, blocks);

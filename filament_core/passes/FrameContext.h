@@ -38,6 +38,11 @@ struct FrameDebugDraw {
     DebugDrawBuffers buffers{}; ///< where they are on the device
 };
 
+/// Where FramePacket::splats are on the device.
+struct FrameSplats {
+    backend::BufferHandle vertices, indices;
+};
+
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
@@ -48,6 +53,7 @@ struct FrameContext {
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
     FrameDebugDraw debugDraw{};
+    FrameSplats splats{};
 
     // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views;                        ///< by view of the packet

@@ -45,6 +45,8 @@ struct FrameResources {
     scene::MaterialInstance const* debugTested = nullptr;  ///< draw rectangles of DebugDraw that surfaces hide
     scene::MaterialInstance const* debugThrough = nullptr; ///< and those that they do not
     uint32_t debugLayout = 0;                              ///< of these rectangles, into GeometryLayouts
+    scene::MaterialInstance const* splats = nullptr;       ///< draws FramePacket::splats; null: there are none
+    uint32_t splatLayout = 0;                              ///< of their quads, into GeometryLayouts
     backend::TextureHandle shadowAtlas{};   ///< of ShadowPacket::atlasSize texels a side; none without shadow maps
     backend::TextureHandle shadowMoments{}; ///< of the same size; none if the filter reads depths
     backend::TextureHandle toneTable{};     ///< of the view's mapper (ToneTable.h); none: it is computed

@@ -153,6 +153,12 @@ EffectDemand demandOfTransparency(DemandInput const& input) {
     return { true, R::MayOverlap, objects, isPeeled ? quality.transparencyLayers : 0u };
 }
 
+EffectDemand demandOfSplats(DemandInput const& input) {
+    if (input.splatClouds == 0) return {};
+    if (input.settings.debugView != DebugView::None) return { .reason = R::HiddenByDebugView };
+    return demandOfDraws(input.splats, { .reason = R::NotInView });
+}
+
 EffectDemand demandOfPrepass(DemandInput const& input, SceneDemand const& demand) {
     if (input.counts.opaqueDraws == 0) return { .reason = R::NoOpaqueSurface };
     const auto readsDepth = [&](EffectRow const& row) { return row.has(kReadsDepth) && demand.needs(row.effect); };
@@ -185,7 +191,8 @@ EffectDemand demandOfImageEffect(DemandInput const& input, bool isOn, DemandReas
     if (!isOn) return { .reason = R::SwitchedOff };
     if (input.settings.debugView != DebugView::None && input.settings.debugView != shown)
         return { .reason = R::HiddenByDebugView };
-    const bool isAnythingVisible = input.counts.visible > 0 || input.hasSky || input.discsInView > 0;
+    const bool isAnythingVisible =
+            input.counts.visible > 0 || input.hasSky || input.discsInView > 0 || input.splats > 0;
     if (!isAnythingVisible) return { .reason = R::NothingVisible };
     return { true, reason };
 }
@@ -336,6 +343,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::SunDisc, "sun disc", Stage::Lighting, demandOfDiscs },
         { Effect::Blending, "blending", Stage::Geometry, demandOfBlending },
         { Effect::Transparency, "transparency", Stage::Geometry, demandOfTransparency, "transparency=sorted" },
+        { Effect::Splats, "splats", Stage::Geometry, demandOfSplats },
         { Effect::Deformation, "deformation", Stage::Geometry, demandOfDeformation },
         { Effect::Stencil, "stencil", Stage::Geometry, demandOfStencil, "", 0, "nothing in view has a stencil state" },
         { Effect::DepthPrepass, "depth prepass", Stage::Geometry, demandOfPrepass },

@@ -14,6 +14,7 @@
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/ShadowMaps.h"
 #include "filament_core/prepare/SortKey.h"
+#include "filament_core/prepare/SplatPacket.h"
 #include "filament_core/prepare/ViewCounts.h"
 #include "filament_core/prepare/ViewInput.h"
 #include "filament_core/scene/SceneData.h"
@@ -196,6 +197,7 @@ struct FramePacket {
     backend::Rect covered{ 0, 0, 1, 1 };
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;
+    SplatPacket splats; ///< of the main view
     SceneDemand demand; ///< of the main view
 
     /// Of the picture that the user asked for.

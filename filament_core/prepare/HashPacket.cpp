@@ -45,6 +45,14 @@ uint64_t hashEffects(Effects const& effects, uint64_t seed) {
     return hashWords(seed, effects.bloom.dirt.number());
 }
 
+uint64_t hashSplats(SplatPacket const& splats, uint64_t seed) {
+    for (SplatList const& list : splats.lists) {
+        for (SortItem const& item : list.order) seed = hashBytes(std::as_bytes(list.quads.subspan(item.draw, 1)), seed);
+        seed = hashWords(seed, list.size());
+    }
+    return seed;
+}
+
 } // namespace
 
 uint64_t hashPacket(FramePacket const& packet) {
@@ -53,6 +61,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashDeformations(packet.deformations, hash);
     if (!packet.shadows.maps.empty()) hash = hashShadows(packet.shadows, hash);
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
+    if (packet.splats.inScene > 0) hash = hashSplats(packet.splats, hash);
     hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.accumulation.isFixed, packet.last.isExposed,

@@ -8,6 +8,7 @@
 #include "filament_core/prepare/LightChannels.h"
 #include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
+#include "filament_core/prepare/PrepareSplats.h"
 #include "filament_core/prepare/PrepareView.h"
 #include "filament_core/prepare/SunDiscs.h"
 
@@ -59,7 +60,9 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, flo
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
-                        .discsOutOfView = packet.discsOutOfView });
+                        .discsOutOfView = packet.discsOutOfView,
+                        .splats = packet.splats.count(),
+                        .splatClouds = packet.splats.inScene });
 }
 
 /// The views of the maps follow those that were asked for.
@@ -116,6 +119,14 @@ FramePacket packetOf(Arena& arena, scene::SceneData const& scene, FrameViews con
     return { .views = packets, .deformations = placeDeformations(arena, scene, visible) };
 }
 
+/// A debug view hides them.
+SplatPacket splatsOf(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                     FrameSettings const& settings) {
+    if (scene.splats.empty() || settings.debugView != DebugView::None)
+        return { .inScene = static_cast<uint32_t>(scene.splats.size()) };
+    return prepareSplats(jobs, arena, scene, makeViewSpace(view), view.size);
+}
+
 void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& last, FramePacket& packet) {
     const PreparedMotion motion = prepareMotion(arena, scene, packet.mainView(), last, packet.last);
     if (motion.view.opaque.empty()) return;
@@ -159,6 +170,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const SunDiscs discs = findSunDiscs(arena, scene.lights, drawn[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
+    packet.splats = splatsOf(jobs, arena, scene, drawn[0], settings);
     packet.focus = focusOf(main.camera, settings.effects.depthOfField, settings.insideSize().y);
     // The demand comes after all that it counts; what only an effect needs, after the demand.
     packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));

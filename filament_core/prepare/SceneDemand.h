@@ -31,6 +31,7 @@ enum class Effect : uint8_t {
     SunDisc, ///< discs of suns, and their halos
     Blending,
     Transparency, ///< order-independent
+    Splats,       ///< 3D Gaussians
     Deformation,
     Stencil,      ///< stencil values beside the depths
     DepthPrepass, ///< of opaque objects, before anything is shaded
@@ -92,6 +93,7 @@ struct DemandInput {
     FrameSettings settings{};
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
+    uint32_t splats = 0, splatClouds = 0;         ///< in view; in the scene
 };
 
 SceneDemand findDemand(DemandInput const& input);

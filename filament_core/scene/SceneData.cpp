@@ -9,6 +9,13 @@ namespace filament_core::scene {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 
+Renderable addSplats(SceneData& scene, RenderableInput const& input, std::shared_ptr<const SplatData> data) {
+    scene.splats.reserve(scene.splats.size() + 1);
+    const Renderable renderable = addRenderable(scene, input);
+    scene.splats.push_back({ renderable, std::move(data) });
+    return renderable;
+}
+
 Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation) {
     const Skin skin = deformation.skin;
     input.deformation = scene.deformations.add(std::move(deformation));
@@ -23,6 +30,7 @@ void removeRenderable(SceneData& scene, Renderable renderable) {
     const uint32_t deformation = deformationAt(scene.renderables, scene.renderables.index.at(renderable));
     remove(scene.renderables, renderable);
     if (deformation != kNotDeformed) scene.deformations.remove(deformation);
+    std::erase_if(scene.splats, [&](SplatRecord const& record) { return record.renderable == renderable; });
     scene.atNodes.renderables.detach(renderable);
 }
 

@@ -10,6 +10,7 @@
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/PickRules.h"
 #include "filament_core/scene/Renderables.h"
+#include "filament_core/scene/SplatData.h"
 #include "filament_core/scene/Transforms.h"
 
 #include <filament_core/Box.h>
@@ -94,6 +95,12 @@ struct SkyboxRecord {
     float rotationRadians = 0;
 };
 
+/// A cloud of splats, placed as a renderable without geometry is.
+struct SplatRecord {
+    Renderable renderable;
+    std::shared_ptr<const SplatData> data;
+};
+
 struct SceneData {
     uint64_t serial = newOwnerSerial();
     Renderables renderables{ ownerTag(serial) };
@@ -101,6 +108,7 @@ struct SceneData {
     Transforms transforms{ ownerTag(serial) }; ///< of the nodes
     NodeContents atNodes;
     Deformations deformations{ ownerTag(serial) };
+    std::vector<SplatRecord> splats;           ///< in the order in which they were added
     ContentVersions const* versions = nullptr; ///< of buffers and textures; null: they never change
     IndirectLightRecord indirectLight;         ///< specular: none means no indirect light
     SkyboxRecord skybox;                       ///< cube: none means no skybox
@@ -108,6 +116,8 @@ struct SceneData {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
 void removeRenderable(SceneData& scene, Renderable renderable);
+/// `input` has no geometry, and the bounds of the splats.
+Renderable addSplats(SceneData& scene, RenderableInput const& input, std::shared_ptr<const SplatData> data);
 /// A renderable moved by a skin or by morph targets. Fills in `deformation.renderable`.
 Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation);
 /// place() of Renderables.h, by handle. A renderable attached to a node is moved by its node instead.

@@ -59,6 +59,7 @@ namespace {
 #include "shaders/lib/screen_occlusion.glsl"
 #include "shaders/lib/sheen.glsl"
 #include "shaders/lib/specular.glsl"
+#include "shaders/lib/splats.glsl"
 #include "shaders/lib/subsurface.glsl"
 #include "shaders/lib/tangent.glsl"
 #include "shaders/lib/temporal.glsl"

@@ -78,6 +78,11 @@ scene::MaterialInstance const* Engine::Impl::debugDrawInstance(bool isTested) {
     return &instances.get(known);
 }
 
+MaterialInstance Engine::Impl::splatInstance() {
+    if (!drawingSplats) drawingSplats = createInstance(engineMaterial("splats", {}), "splats");
+    return drawingSplats;
+}
+
 scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package,
                                                         std::vector<MaterialConstant> constants,
                                                         passes::FullScreenInterface const& given) {

@@ -14,6 +14,7 @@
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Node.h>
 #include <filament_core/Occluder.h>
+#include <filament_core/Splats.h>
 
 #include <memory>
 #include <optional>
@@ -79,6 +80,8 @@ struct RenderableDesc {
     LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
     Layers layers = kDefaultLayers;                      ///< views of these layers show it; none: no view does
     DrawOrder drawOrder{};                               ///< among what is drawn in an order
+    /// Instead of all that draws above: of the other members only transform, node, culled, layers and name count.
+    SplatCloud splats{};
     std::string name{};
 };
 

@@ -42,6 +42,7 @@
 #include <filament_core/ResolutionController.h>
 #include <filament_core/Result.h>
 #include <filament_core/Scene.h>
+#include <filament_core/Splats.h>
 #include <filament_core/Stencil.h>
 #include <filament_core/Units.h>
 #include <filament_core/Version.h>

@@ -27,6 +27,7 @@ struct DemandCase {
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;
     uint32_t discsInView = 0, discsOutOfView = 0;
+    uint32_t splats = 0, splatClouds = 0;
 
     FrameSettings settings() const {
         return resolve({ .size = size + 2u * band,
@@ -53,7 +54,9 @@ SceneDemand demandFor(DemandCase const& of) {
                         .cascades = of.cascades,
                         .atlasSize = of.atlasSize,
                         .discsInView = of.discsInView,
-                        .discsOutOfView = of.discsOutOfView });
+                        .discsOutOfView = of.discsOutOfView,
+                        .splats = of.splats,
+                        .splatClouds = of.splatClouds });
 }
 
 /// The pixels that a view of `size` draws.
@@ -439,6 +442,20 @@ TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
     input.quality.refraction = RefractionSource::Environment;
     EXPECT_EQ(words(Effect::Refraction, input), "switched off: refraction=environment");
     EXPECT_FALSE(demandFor(input).needs(Effect::Refraction));
+}
+
+TEST(SceneDemand, SplatsNeedACloudInViewAndCountAsVisible) {
+    DemandCase input;
+    EXPECT_EQ(words(Effect::Splats, input), "none in the scene");
+    input.splatClouds = 2;
+    EXPECT_EQ(words(Effect::Splats, input), "none in view");
+    input.effects.bloom.enabled = true;
+    EXPECT_FALSE(demandFor(input).needs(Effect::Bloom));
+    input.splats = 7;
+    EXPECT_EQ(words(Effect::Splats, input), "7 in view");
+    EXPECT_TRUE(demandFor(input).needs(Effect::Bloom)) << "they are something visible";
+    input.debugView = DebugView::Fog;
+    EXPECT_EQ(words(Effect::Splats, input), "a debug view is shown");
 }
 
 TEST(SceneDemand, ComposesInAnyOrderOnlyWhatMayOverlap) {

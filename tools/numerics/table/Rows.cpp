@@ -8,7 +8,7 @@ std::span<const Row> rows() {
         std::vector<Row> joined;
         for (auto const& source : { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(),
                                     imageRows(), areaRows(), geometryRows(), screenRows(), temporalRows(),
-                                    gradingRows(), toneRows(), resolutionRows(), transparencyRows() })
+                                    gradingRows(), toneRows(), resolutionRows(), transparencyRows(), splatRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();
