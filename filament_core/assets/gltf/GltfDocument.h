@@ -99,6 +99,15 @@ struct GltfMorphTarget {
     uint32_t position = kNone, normal = kNone, tangent = kNone;
 };
 
+/// KHR_gaussian_splatting: accessors of what POSITION is not. `harmonics`: by degree and order.
+struct GltfSplats {
+    static constexpr uint32_t kMaxDegree = 3, kMaxHarmonics = 16;
+    uint32_t rotation = kNone, scale = kNone, opacity = kNone;
+    uint32_t degree = 0;
+    std::array<uint32_t, kMaxHarmonics> harmonics{}; ///< (degree + 1)^2 of them
+    SplatColors colors = SplatColors::Srgb;
+};
+
 struct GltfPrimitive {
     GltfAttributes attributes;
     uint32_t indices = kNone, material = kNone;
@@ -106,6 +115,7 @@ struct GltfPrimitive {
     GltfMode mode = GltfMode::Triangles;
     std::vector<GltfMorphTarget> targets;
     std::optional<GltfDraco> draco;
+    std::optional<GltfSplats> splats;
     bool restarts = false; ///< the largest index of its type begins another strip, loop or fan
 };
 

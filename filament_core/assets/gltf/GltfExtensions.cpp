@@ -18,6 +18,8 @@ constexpr std::array kExtensions{
                    "buffers compressed by meshoptimizer, codec versions 0 and 1, with filtered colours" },
     GltfExtension{ "KHR_mesh_quantization", kRatified,
                    "positions, normals and texture coordinates as 8- and 16-bit integers" },
+    GltfExtension{ "KHR_gaussian_splatting", kRatified,
+                   "splats, 3D Gaussians, of the kernel `ellipse` with spherical harmonics up to degree 3" },
     GltfExtension{ "EXT_mesh_primitive_restart", kDraft, "strips, loops and fans that are drawn as one" },
     GltfExtension{ "KHR_texture_transform", kRatified, "textures are moved, turned and scaled, each on its own" },
     GltfExtension{ "KHR_texture_basisu", kRatified, "textures in KTX 2.0 files, compressed by Basis Universal" },

@@ -2,6 +2,7 @@
 #include "filament_core/assets/gltf/GltfMeshes.h"
 
 #include "filament_core/assets/gltf/GltfGeometry.h"
+#include "filament_core/assets/gltf/GltfSplats.h"
 
 #include <exception>
 #include <optional>
@@ -40,6 +41,7 @@ void morph(GltfDocument const& document, GltfMeshRequest const& request, GltfPri
 
 PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
                     GeometryStorage const& storage, std::string const& path, Diagnostics& diagnostics) {
+    if (primitive.splats) return buildSplats(document, primitive, path, diagnostics);
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
     makeList(primitive, path, geometry, diagnostics);
@@ -111,7 +113,7 @@ std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene cons
         meshes.push_back({ mesh.name, {}, mesh.targetNames });
     }
     for (GltfPrimitiveJob& job : jobs) {
-        if (job.data.indexCount == 0) continue;
+        if (job.data.indexCount == 0 && !job.data.splats) continue;
         GltfPrimitive const& primitive = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive];
         job.data.material = primitive.material;
         job.data.variants = primitive.variants;

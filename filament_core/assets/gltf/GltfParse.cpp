@@ -198,6 +198,7 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
         primitive.draco = GltfDraco{ draco["bufferView"].requiredIndex(counts.views, "bufferViews"),
                                      parseAttributes(draco["attributes"], kNone, "ids") };
     }
+    primitive.splats = parseGltfSplats(node, primitive.mode, counts.accessors);
     return primitive;
 }
 

@@ -28,6 +28,9 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
 /// EXT_mesh_primitive_restart: each group of primitives becomes one, at the place of its first; all stay if a group
 /// breaks a rule, with a warning.
 void mergeRestartGroups(JsonNode const& extension, std::vector<GltfAccessor> const& accessors, GltfMesh& mesh);
+/// KHR_gaussian_splatting of a primitive of such a mode. Nothing where its splats can only be drawn as points, with a
+/// warning.
+std::optional<GltfSplats> parseGltfSplats(JsonNode const& primitive, GltfMode mode, size_t accessorCount);
 Sampler parseGltfSampler(JsonNode const& node);
 /// Nothing for a light of a type that is unknown, with a warning.
 std::optional<LightData> parseGltfLight(JsonNode const& node);

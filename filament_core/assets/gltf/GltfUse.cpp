@@ -74,7 +74,13 @@ private:
                 for (const uint32_t index : { target.position, target.normal, target.tangent }) accessor(index);
             }
             if (primitive.draco) view(primitive.draco->view);
+            if (primitive.splats) splats(*primitive.splats);
         }
+    }
+
+    void splats(GltfSplats const& splats) {
+        for (const uint32_t index : { splats.rotation, splats.scale, splats.opacity }) accessor(index);
+        for (uint32_t i = 0; i < (splats.degree + 1) * (splats.degree + 1); ++i) accessor(splats.harmonics[i]);
     }
 
     void attributes(GltfAttributes const& attributes) {

@@ -64,6 +64,11 @@ Box transformed(Box const& box, double4x4 const& matrix) {
 } // namespace
 
 void growBounds(Box& box, PrimitiveData const& primitive, double4x4 const& worldFromMesh) {
+    if (primitive.splats) {
+        const scene::MinMax& bounds = primitive.splats->bounds;
+        const Box placed = transformed({ double3(bounds.min), double3(bounds.max) }, worldFromMesh);
+        growPoint(box, placed.min), growPoint(box, placed.max);
+    }
     if (primitive.vertexCount == 0) return;
     const bool isDeformed = primitive.isSkinned || !primitive.morphTargets.empty();
     if (!isDeformed && contains(box, transformed(storedBounds(primitive), worldFromMesh))) return;

@@ -14,11 +14,13 @@
 #include "filament_core/assets/gltf/NodePose.h"
 #include "filament_core/assets/image/Image.h"
 #include "filament_core/assets/tables/IesFile.h"
+#include "filament_core/scene/SplatData.h"
 
 #include <filament_core/Quality.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,6 +95,8 @@ struct PrimitiveData {
     std::vector<MorphTargetData> morphTargets{};
     BoundsData restBounds{}; ///< in the final space of positions, with the weights and joints of the rest pose
     std::vector<float3> restPositions{}; ///< the vertices of that box, if the device deforms them; else empty
+
+    std::shared_ptr<const scene::SplatData> splats{}; ///< KHR_gaussian_splatting: instead of vertices and indices
 };
 
 struct MeshData {

@@ -91,7 +91,7 @@ private:
         for (PrimitiveData& primitive : mesh.primitives) {
             bytes += primitive.indices.size() + primitive.vertices.size();
             // In the order of the meshes, which determines the order of draws.
-            if (!materialOf(primitive.material).transmission.isSolid())
+            if (!primitive.splats && !materialOf(primitive.material).transmission.isSolid())
                 instanceFor(primitive.material, verticesOf(primitive), double4x4(1.0));
             parts.push_back(
                     { upload(primitive, shapes[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
@@ -102,6 +102,7 @@ private:
     }
 
     RenderableDesc upload(PrimitiveData& primitive, ReadModel::Shape const& shape, std::string const& name) {
+        if (primitive.splats) return { .splats = SplatCloud(primitive.splats), .name = name };
         const SharedBytes ofVertices = sharedBytes(primitive.vertices), ofIndices = sharedBytes(primitive.indices);
         VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
                                    .stride = primitive.layout.buffers[0].stride,
@@ -232,6 +233,10 @@ private:
         placed.node = at;
         placed.ofNode = node;
         placed.targetNames = part.targetNames;
+        if (primitive.splats) {
+            placed.desc.material = mEngine.splatInstance();
+            return;
+        }
         const GltfVertices vertices = verticesOf(primitive);
         placed.desc.material = instanceFor(primitive.material, vertices, worldFromNode);
         for (assets::VariantMaterial const& variant : primitive.variants)

@@ -92,7 +92,8 @@ GltfReadyMaterials readMaterials(assets::ModelData const& model, GltfMaterialCho
                                  jobs::JobSystem& jobs) {
     Collector collector(model, choice);
     for (assets::MeshData const& mesh : model.meshes)
-        for (assets::PrimitiveData const& primitive : mesh.primitives) collector.add(primitive);
+        for (assets::PrimitiveData const& primitive : mesh.primitives)
+            if (!primitive.splats) collector.add(primitive);
     std::map<std::string, OfPackage> packages = collector.take();
     {
         const jobs::AdoptedThread seat(jobs);

@@ -75,7 +75,21 @@ inline const char* brokenPromise(ModelData const& model, MaterialData const& m) 
     return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
 }
 
+inline const char* brokenPromise(scene::SplatData const& splats) {
+    const size_t perSplat = size_t{ splats.degree + 1 } * (splats.degree + 1);
+    if (splats.count() == 0 || splats.degree > 3) return "splats";
+    if (splats.covariances.size() != splats.count() || splats.opacities.size() != splats.count() ||
+        splats.harmonics.size() != splats.count() * perSplat)
+        return "lists of splats";
+    for (const float opacity : splats.opacities)
+        if (!(opacity >= 0 && opacity <= 1)) return "opacity";
+    for (scene::Covariance const& c : splats.covariances)
+        if (!std::isfinite(c.xx + c.yy + c.zz + c.xy + c.xz + c.yz)) return "covariance";
+    return nullptr;
+}
+
 inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p) {
+    if (p.splats) return brokenPromise(*p.splats);
     const size_t indexBytes = p.indexFormat == backend::IndexFormat::UInt16 ? 2 : 4;
     if (p.vertexCount == 0 || p.indexCount == 0) return "empty primitive";
     if (p.vertices.size() != size_t{ p.vertexCount } * p.layout.buffers[0].stride) return "vertex bytes";

@@ -236,10 +236,34 @@ inline Specimen restartSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
+/// Splats of degree 1, with integers of both signs, and others that no node shows.
+inline Specimen splatSpecimen() {
+    TestFile file;
+    file.positions({ 0, 0, 0, 1, 0, 0 });
+    const std::string prefix = "KHR_gaussian_splatting:";
+    const auto attribute = [&](std::string const& name, auto const& values, Component type, const char* of,
+                               size_t size) {
+        file.attribute((prefix + name).c_str(), values, type, of, size, type != kFloat);
+    };
+    attribute("ROTATION", std::vector<int8_t>{ 0, 0, 0, 127, 90, 0, 0, 90 }, kByte, "VEC4", 4);
+    attribute("SCALE", std::vector<uint16_t>{ 900, 90, 9, 100, 200, 300 }, kUShort, "VEC3", 3);
+    attribute("OPACITY", std::vector<uint8_t>{ 200, 255 }, kUByte, "SCALAR", 1);
+    for (const char* name : { "0_COEF_0", "1_COEF_0", "1_COEF_1", "1_COEF_2" })
+        attribute(std::string("SH_DEGREE_") + name, std::vector<float>{ 1, 2, 3, -1, 0, 0.5f }, kFloat, "VEC3", 3);
+    file.primitive()["mode"] = 0;
+    file.primitive()["extensions"]["KHR_gaussian_splatting"] = { { "kernel", "ellipse" },
+                                                                 { "colorSpace", "srgb_rec709_display" },
+                                                                 { "projection", "perspective" } };
+    file.root["meshes"].push_back(file.root["meshes"][0]);
+    file.root["meshes"][1]["primitives"][0]["mode"] = 4;
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 /// Written ones, and models of the asset folder if there is one.
 inline std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(), basisSpecimen(), pointerSpecimen(),
-                                     restartSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen(),   basisSpecimen(),
+                                     pointerSpecimen(), restartSpecimen(), splatSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
