@@ -152,5 +152,6 @@ std::span<const Mutation> textureMutations();
 std::span<const Mutation> lightMutations();
 std::span<const Mutation> rasterMutations();
 std::span<const Mutation> effectMutations();
+std::span<const Mutation> splatMutations();
 
 } // namespace filament_core::tools

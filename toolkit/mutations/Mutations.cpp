@@ -10,8 +10,8 @@ namespace filament_core::tools {
 std::span<const Mutation> mutations() {
     static const std::vector<Mutation> all = [] {
         std::vector<Mutation> list{ { kNoDefect, "nothing: must not be noticed", make<StreamEdit> } };
-        for (const auto subject :
-             { materialMutations(), textureMutations(), lightMutations(), rasterMutations(), effectMutations() })
+        for (const auto subject : { materialMutations(), textureMutations(), lightMutations(), rasterMutations(),
+                                    effectMutations(), splatMutations() })
             list.insert(list.end(), subject.begin(), subject.end());
         return list;
     }();
