@@ -56,6 +56,7 @@ namespace {
 #include "shaders/lib/refraction.glsl"
 #include "shaders/lib/resolution.glsl"
 #include "shaders/lib/sampling.glsl"
+#include "shaders/lib/scatter.glsl"
 #include "shaders/lib/screen_occlusion.glsl"
 #include "shaders/lib/sheen.glsl"
 #include "shaders/lib/specular.glsl"

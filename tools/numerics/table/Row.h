@@ -94,7 +94,7 @@ std::span<const Row> rows();
 // The rows of one source file each; rows() joins them.
 std::vector<Row> mathRows();
 std::vector<Row> brdfRows();
-std::vector<Row> scatterRows(); ///< cloth, refraction, specular, subsurface
+std::vector<Row> scatterRows(); ///< cloth, refraction, scatter, specular, subsurface
 std::vector<Row> detailRows();  ///< iridescence, normals, occlusion, parallax, plausible
 std::vector<Row> layerRows();   ///< anisotropic GGX, coat, sheen
 std::vector<Row> colorRows();

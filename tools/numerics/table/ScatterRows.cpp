@@ -214,6 +214,50 @@ std::vector<Row> transmissionRows() {
     };
 }
 
+/// A row of a function of three colours.
+Row mediumRow(std::string_view function, Call call, Interval range, Limits limits) {
+    return { .file = "scatter", .function = function, .call = call, .range = range, .limits = limits };
+}
+
+std::vector<Row> mediumRows() {
+    const Argument depth = inHalf(colour("depth", 64), 0, 64), loss = colour("loss", 1);
+    const Argument anisotropy = number("anisotropy", -0.9990234375, 0.9990234375);
+    std::vector<Row> rows{
+        mediumRow("scatterLoss(vec3)", NUMERICS_CALL(scatterLoss(u)), { 0, 1.001 },
+                  absolute(3e-7, 3e-3, "absolute: the colour is taken from 1")),
+        mediumRow("scatterSimilarity(vec3, float)", NUMERICS_CALL(scatterSimilarity(u, s.x)), { 0, 2.001 },
+                  absolute(3e-7, 2e-3, "absolute: the anisotropy is taken from 1")),
+        mediumRow("ballTransmittance(vec3)", NUMERICS_CALL(ballTransmittance(u)), { 0, 1 },
+                  relative(4e-7, 5e-3, "four roundings")),
+        mediumRow("ballEscape(vec3)", NUMERICS_CALL(ballEscape(u)), { 0, 1 }, relative(6e-7, 6e-3, "seven roundings")),
+        mediumRow("diffuseReflectedInside(float)", NUMERICS_CALL(diffuseReflectedInside(s.x)), { 0, 1 },
+                  absolute(5e-7, 4e-3, "absolute: taken from 1")),
+        mediumRow("scatteredShare(vec3, vec3, float)", NUMERICS_CALL(scatteredShare(u, v, s.x)), { 0, 1.001 },
+                  absolute(2e-6, 2e-2, "absolute: the light that is left, next to what is lost")),
+        mediumRow("scatteredFromBehind(vec3, float, float)", NUMERICS_CALL(scatteredFromBehind(u, s.x, s.y)), { 0, 1 },
+                  absolute(5e-7, 3e-3, "absolute: backward scattering is taken from 1")),
+    };
+    rows[0].u = colour("color", 1);
+    rows[0].monotone = Monotone::Falling;
+    rows[0].openOutside = "color -1 has the root of a negative number";
+    rows[1].u = loss;
+    rows[1].s = { anisotropy };
+    rows[2].u = rows[3].u = depth;
+    rows[2].monotone = rows[3].monotone = Monotone::Falling;
+    rows[2].openOutside = rows[3].openOutside = "a depth below -1 divides by zero";
+    rows[4].s = { ior() };
+    rows[4].monotone = Monotone::Rising;
+    rows[4].openOutside = "ior 0 and -1 divide by zero";
+    rows[5].u = depth;
+    rows[5].v = loss;
+    rows[5].s = { ior() };
+    rows[5].openOutside = "a loss beyond 1 returns less than nothing, and ior 0 divides by zero";
+    rows[6].u = depth;
+    rows[6].s = { anisotropy, ior() };
+    rows[6].openOutside = "ior 0 and a depth of -1 divide by zero";
+    return rows;
+}
+
 std::vector<Row> subsurfaceRows() {
     const Argument power = inHalf(number("power", 0, 1000), 0, 64), opacity = unit("opacity");
     const Argument nol = number("nol", -1, 1), lov = number("lov", -1, 1);
@@ -297,7 +341,7 @@ std::vector<Row> subsurfaceRows() {
 
 std::vector<Row> scatterRows() {
     std::vector<Row> rows = specularRows();
-    for (std::vector<Row> const& more : { directionRows(), transmissionRows(), subsurfaceRows() })
+    for (std::vector<Row> const& more : { directionRows(), transmissionRows(), mediumRows(), subsurfaceRows() })
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
