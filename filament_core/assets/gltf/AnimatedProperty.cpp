@@ -60,6 +60,9 @@ constexpr std::array kRows{
     PropertyRow{ EXTENSION "volume/thicknessFactor", kMaterial, Thickness, 1, 0, kHalfs },
     PropertyRow{ EXTENSION "volume/attenuationDistance", kMaterial, AttenuationDistance, 1, 1e-6f, kFloats },
     PropertyRow{ EXTENSION "volume/attenuationColor", kMaterial, AttenuationColor, 3, 0, 1 },
+    PropertyRow{ EXTENSION "volume_scatter/multiscatterColorFactor", kMaterial, MultiscatterColor, 3, 0, 1 },
+    PropertyRow{ EXTENSION "volume_scatter/scatterAnisotropy", kMaterial, ScatterAnisotropy, 1, -kMaxScatterAnisotropy,
+                 kMaxScatterAnisotropy },
     PropertyRow{ TRANSFORM "offset", kMaterial, UvOffset, 2, -kFloats, kFloats },
     PropertyRow{ TRANSFORM "rotation", kMaterial, UvRotation, 1, -kFloats, kFloats },
     PropertyRow{ TRANSFORM "scale", kMaterial, UvScale, 2, -kFloats, kFloats },
@@ -104,6 +107,7 @@ constexpr std::array kTexturePaths{
     TexturePath{ EXTENSION "volume/thicknessTexture", MapName::Thickness },
     TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionColorTexture", MapName::DiffuseTransmission },
     TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionTexture", MapName::DiffuseTransmissionFactor },
+    TexturePath{ EXTENSION "volume_scatter/multiscatterColorTexture", MapName::Multiscatter },
 };
 #undef EXTENSION
 
@@ -155,6 +159,10 @@ Field layerField(MaterialData& m, PropertyName name) {
         return one(m.transmission.attenuationDistanceMeters);
     case AttenuationColor:
         return three(m.transmission.attenuationColor);
+    case MultiscatterColor:
+        return three(m.volumeScatter.color);
+    case ScatterAnisotropy:
+        return one(m.volumeScatter.anisotropy);
     default:
         return {};
     }
@@ -290,6 +298,8 @@ TextureRef& mapOf(MaterialData& m, MapName map) {
         return m.diffuseTransmission.maps.texture;
     case MapName::DiffuseTransmissionFactor:
         return secondOf(m.diffuseTransmission.maps);
+    case MapName::Multiscatter:
+        return m.volumeScatter.map;
     case MapName::BaseColor:
     case MapName::None:
         break;
@@ -311,6 +321,7 @@ void keepProperty(MaterialData& m, PropertyName name) {
     if (first == Specular || first == SpecularColor) m.specular.isAnimated = true;
     if (first == Transmission) m.transmission.isAnimated = true;
     if (first == Thickness) m.transmission.isThicknessAnimated = true;
+    if (first == MultiscatterColor) m.volumeScatter.isAnimated = true;
     if (first == AttenuationDistance || first == AttenuationColor) m.transmission.isAbsorptionAnimated = true;
 }
 

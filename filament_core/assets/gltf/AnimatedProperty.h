@@ -55,6 +55,8 @@ enum class PropertyName : uint8_t {
     Thickness,
     AttenuationDistance,
     AttenuationColor,
+    MultiscatterColor,
+    ScatterAnisotropy,
     UvOffset, ///< KHR_texture_transform of AnimatedProperty::map
     UvRotation,
     UvScale,
@@ -96,6 +98,7 @@ enum class MapName : uint8_t {
     Thickness,
     DiffuseTransmission,
     DiffuseTransmissionFactor,
+    Multiscatter,
 };
 
 struct AnimatedProperty {

@@ -221,7 +221,7 @@ struct GltfTexturePair {
 struct GltfMaterial {
     MaterialData values;
     GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive, bump;
-    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness;
+    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness, multiscatter;
     GltfTexturePair clearCoat, sheen, specular, iridescence, transmission, diffuseTransmission;
 };
 

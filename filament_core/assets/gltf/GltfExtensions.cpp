@@ -59,6 +59,8 @@ constexpr std::array kExtensions{
     GltfExtension{ "KHR_materials_unlit", kRatified, "colours without light" },
     GltfExtension{ "KHR_materials_variants", kRatified, "sets of materials by name" },
     GltfExtension{ "KHR_materials_volume", kRatified, "refraction and absorption by a body of some thickness" },
+    GltfExtension{ "KHR_materials_volume_scatter", kDraft,
+                   "light scattered inside such a body, in a colour, forwards or backwards" },
     GltfExtension{ "KHR_xmp", kArchived, "metadata, without effect" },
     GltfExtension{ "KHR_xmp_json_ld", kRatified, "metadata, without effect" },
 };

@@ -111,6 +111,21 @@ void parseVolume(Extensions const& extensions, GltfMaterial& material) {
     material.transmission.second = extensions.texture(node, "thicknessTexture");
 }
 
+/// The published draft and files of its time name the colour multiscatterColor; later texts, multiscatterColorFactor.
+void parseVolumeScatter(Extensions const& extensions, GltfMaterial& material) {
+    const JsonNode node = extensions.at("KHR_materials_volume_scatter");
+    if (!node.exists()) return;
+    if (!extensions.at("KHR_materials_volume").exists()) {
+        node.diagnostics().warn("{}: needs KHR_materials_volume and is left out without it", node.path());
+        return;
+    }
+    VolumeScatterData& scatter = material.values.volumeScatter;
+    const JsonNode color = node["multiscatterColorFactor"];
+    scatter.color = parseColor(color.exists() ? color : node["multiscatterColor"], 0, 1);
+    scatter.anisotropy = node["scatterAnisotropy"].numberInRange(0, -kMaxScatterAnisotropy, kMaxScatterAnisotropy);
+    material.multiscatter = extensions.texture(node, "multiscatterColorTexture");
+}
+
 void parseTransmission(Extensions const& extensions, GltfMaterial& material) {
     const JsonNode node = extensions.at("KHR_materials_transmission");
     material.values.transmission.factor = node["transmissionFactor"].numberInRange(0, 0, 1);
@@ -136,11 +151,12 @@ void parseSpecularGlossiness(Extensions const& extensions, JsonNode const& node,
     material.specularGlossiness = extensions.texture(node, "specularGlossinessTexture");
 }
 
-constexpr std::array kLayers{ "KHR_materials_clearcoat",    "KHR_materials_sheen",
-                              "KHR_materials_specular",     "KHR_materials_anisotropy",
-                              "KHR_materials_iridescence",  "KHR_materials_ior",
-                              "KHR_materials_transmission", "KHR_materials_diffuse_transmission",
-                              "KHR_materials_volume",       "KHR_materials_dispersion" };
+constexpr std::array kLayers{ "KHR_materials_clearcoat",     "KHR_materials_sheen",
+                              "KHR_materials_specular",      "KHR_materials_anisotropy",
+                              "KHR_materials_iridescence",   "KHR_materials_ior",
+                              "KHR_materials_transmission",  "KHR_materials_diffuse_transmission",
+                              "KHR_materials_volume",        "KHR_materials_dispersion",
+                              "KHR_materials_volume_scatter" };
 
 /// The layers' specifications forbid combining them with a model that lacks their properties.
 void warnAboutLayers(Extensions const& extensions, const char* model) {
@@ -174,6 +190,7 @@ void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMate
     parseIor(extensions, material.values);
     parseTransmission(extensions, material);
     parseDiffuseTransmission(extensions, material);
+    parseVolumeScatter(extensions, material);
 }
 
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,

@@ -222,6 +222,8 @@ GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map) {
         return &m.diffuseTransmission.first;
     case MapName::DiffuseTransmissionFactor:
         return &m.diffuseTransmission.second;
+    case MapName::Multiscatter:
+        return &m.multiscatter;
     }
     return nullptr;
 }

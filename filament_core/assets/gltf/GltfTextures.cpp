@@ -57,13 +57,15 @@ private:
         if (data.specular.isUsed()) data.specular.maps = pairFor(material.specular, PackLayout::ColorAlpha);
         if (data.anisotropy.isUsed()) data.anisotropy.map = textureFor(material.anisotropy, Use::Data);
         if (data.iridescence.isUsed()) data.iridescence.maps = pairFor(material.iridescence, PackLayout::RedGreen);
-        if (data.transmission.isUsed()) {
+        if (data.transmission.isUsed() || data.scatters()) {
             GltfTexturePair maps = material.transmission;
-            if (!data.transmission.isSolid()) maps.second = {};
+            if (!data.transmission.isUsed()) maps.first = {};
+            if (!data.transmission.isSolid() && !data.scatters()) maps.second = {};
             data.transmission.maps = pairFor(maps, PackLayout::RedGreen);
         }
         if (data.diffuseTransmission.isUsed())
             data.diffuseTransmission.maps = pairFor(material.diffuseTransmission, PackLayout::ColorAlpha);
+        if (data.scatters()) data.volumeScatter.map = textureFor(material.multiscatter, Use::Color);
     }
 
     enum class Use : uint8_t { Color, Data, Normals };

@@ -27,7 +27,8 @@ void visitMaps(GltfMaterial& material, Visit const& visit) {
         if (map == MapName::Anisotropy) return m.anisotropy.isUsed();
         if (map == MapName::Iridescence || map == MapName::IridescenceThickness) return m.iridescence.isUsed();
         if (map == MapName::Transmission) return m.transmission.isUsed();
-        if (map == MapName::Thickness) return m.transmission.isSolid();
+        if (map == MapName::Thickness) return m.transmission.isSolid() || m.scatters();
+        if (map == MapName::Multiscatter) return m.scatters();
         const bool isDiffuse = map == MapName::DiffuseTransmission || map == MapName::DiffuseTransmissionFactor;
         return !isDiffuse || m.diffuseTransmission.isUsed();
     };

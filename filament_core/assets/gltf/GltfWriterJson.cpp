@@ -106,10 +106,7 @@ void addAlpha(MaterialData const& material, Json& json) {
     addUnlessDefault(json, "alphaCutoff", material.alphaCutoff, 0.5f);
 }
 
-void addTransmission(TransmissionData const& transmission, Json& json, Json& root) {
-    json["extensions"]["KHR_materials_transmission"] = { { "transmissionFactor", transmission.factor } };
-    useExtension("KHR_materials_transmission", root);
-    if (!transmission.isSolid()) return;
+void addVolume(TransmissionData const& transmission, Json& json, Json& root) {
     const float3 color = transmission.attenuationColor;
     Json volume{ { "thicknessFactor", transmission.thicknessMeters },
                  { "attenuationColor", { color.x, color.y, color.z } } };
@@ -117,6 +114,27 @@ void addTransmission(TransmissionData const& transmission, Json& json, Json& roo
         volume["attenuationDistance"] = transmission.attenuationDistanceMeters;
     json["extensions"]["KHR_materials_volume"] = std::move(volume);
     useExtension("KHR_materials_volume", root);
+}
+
+void addTransmission(MaterialData const& material, Json& json, Json& root) {
+    if (material.transmission.isUsed()) {
+        json["extensions"]["KHR_materials_transmission"] = { { "transmissionFactor", material.transmission.factor } };
+        useExtension("KHR_materials_transmission", root);
+    }
+    if (material.diffuseTransmission.isUsed()) {
+        const float3 color = material.diffuseTransmission.color;
+        json["extensions"]["KHR_materials_diffuse_transmission"] = {
+            { "diffuseTransmissionFactor", material.diffuseTransmission.factor },
+            { "diffuseTransmissionColorFactor", { color.x, color.y, color.z } }
+        };
+        useExtension("KHR_materials_diffuse_transmission", root);
+    }
+    if (material.transmission.isSolid() || material.scatters()) addVolume(material.transmission, json, root);
+    if (!material.scatters()) return;
+    const float3 color = material.volumeScatter.color;
+    json["extensions"]["KHR_materials_volume_scatter"] = { { "multiscatterColorFactor", { color.x, color.y, color.z } },
+                                                           { "scatterAnisotropy", material.volumeScatter.anisotropy } };
+    useExtension("KHR_materials_volume_scatter", root);
 }
 
 void addBump(BumpData const& bump, TextureWriter& textures, Json& json, Json& root) {
@@ -134,7 +152,7 @@ void addMaterialExtensions(MaterialData const& material, Json& json, Json& root)
         json["extensions"]["KHR_materials_emissive_strength"] = { { "emissiveStrength", material.emissiveStrength } };
         useExtension("KHR_materials_emissive_strength", root);
     }
-    if (material.transmission.isUsed()) addTransmission(material.transmission, json, root);
+    addTransmission(material, json, root);
 }
 
 Json materialJson(MaterialData const& material, TextureWriter& textures, Json& root) {

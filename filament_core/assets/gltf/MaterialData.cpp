@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/MaterialData.h"
 
+#include <cmath>
+
 namespace filament_core::assets {
+
+bool MaterialData::scatters() const {
+    const bool isEntered = (transmission.isUsed() || diffuseTransmission.isUsed()) && !unlit && !specularGlossiness;
+    const bool isSolid = transmission.thicknessMeters > 0 || transmission.isThicknessAnimated;
+    const bool isDim =
+            std::isfinite(transmission.attenuationDistanceMeters) && transmission.attenuationColor != float3(1.0f);
+    return volumeScatter.isUsed() && isEntered && isSolid && (isDim || transmission.isAbsorptionAnimated);
+}
 
 std::array<float, 4> turnOf(TextureRef const& map) {
     float3x3 const& m = map.uvTransform;

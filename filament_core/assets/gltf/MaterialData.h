@@ -154,12 +154,25 @@ struct DiffuseTransmissionData {
     bool isUsed() const { return factor > 0 || isAnimated; }
 };
 
+/// KHR_materials_volume_scatter: what scatters light inside the volume, whose attenuation it splits into absorption and
+/// scattering.
+struct VolumeScatterData {
+    float3 color{ 0.0f }; ///< multi-scatter albedo: of a body so thick that no light crosses it
+    float anisotropy = 0; ///< mean cosine of the angle by which light turns, (-1, 1); > 0: forwards
+    TextureRef map;       ///< RGB: colour (sRGB)
+    bool isAnimated = false;
+    bool isUsed() const { return color != float3(0.0f) || isAnimated; }
+};
+
 /// KHR_materials_pbrSpecularGlossiness: replaces metallic and roughness; the base colour is the diffuse colour.
 struct SpecularGlossinessData {
     float3 specularFactor{ 1.0f };
     float glossinessFactor = 1;
     TextureRef map; ///< RGB: specular colour (sRGB); alpha: glossiness
 };
+
+/// Of scatterAnisotropy, whose range is open.
+inline constexpr float kMaxScatterAnisotropy = 0.999f;
 
 /// Stands for the value 0 of KHR_materials_ior: so high that everything is reflected.
 inline constexpr float kOpaqueIor = 65504;
@@ -189,8 +202,12 @@ struct MaterialData {
     IridescenceData iridescence;
     TransmissionData transmission;
     DiffuseTransmissionData diffuseTransmission;
+    VolumeScatterData volumeScatter;
 
     bool isAnimated = false, isIorAnimated = false; ///< KHR_animation_pointer: any property; the index of refraction
+
+    /// Light scatters inside: it enters a volume that attenuates it, and not all of it is absorbed.
+    bool scatters() const;
 };
 
 } // namespace filament_core::assets

@@ -57,6 +57,8 @@ constexpr std::array kParameters{
     ParameterRow{ Thickness, "thickness" },
     ParameterRow{ AttenuationDistance, "absorption" },
     ParameterRow{ AttenuationColor, "absorption" },
+    ParameterRow{ MultiscatterColor, "multiscatterColor" },
+    ParameterRow{ ScatterAnisotropy, "scatterAnisotropy" },
 };
 
 struct MapRow {
@@ -85,6 +87,7 @@ constexpr std::array kMaps{
     MapRow{ MapName::Thickness, "thickness", "thicknessUvMatrix" },
     MapRow{ MapName::DiffuseTransmission, "diffuseTransmission", "diffuseTransmissionUvMatrix" },
     MapRow{ MapName::DiffuseTransmissionFactor, "diffuseTransmissionFactor", "diffuseTransmissionFactorUvMatrix" },
+    MapRow{ MapName::Multiscatter, "multiscatter", "multiscatterUvMatrix" },
 };
 
 void requireDone(Result<void> const& result) {

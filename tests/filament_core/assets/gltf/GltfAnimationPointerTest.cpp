@@ -174,7 +174,7 @@ TEST(GltfAnimationPointer, ARestModelDoesNotKeepWhatNoAnimationCanChange) {
 TEST(AnimatedProperties, EveryPropertyHasOneRowAndEveryMapOneTexture) {
     for (size_t i = 0; i < propertyRows().size(); ++i)
         EXPECT_EQ(propertyRows()[i].name, static_cast<PropertyName>(i)) << propertyRows()[i].pointer;
-    for (auto map = MapName::BaseColor; map <= MapName::DiffuseTransmissionFactor;
+    for (auto map = MapName::BaseColor; map <= MapName::Multiscatter;
          map = static_cast<MapName>(static_cast<int>(map) + 1)) {
         EXPECT_EQ(std::ranges::count(texturePaths(), map, &TexturePath::map), 1);
     }

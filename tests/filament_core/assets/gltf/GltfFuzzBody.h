@@ -36,7 +36,8 @@ inline std::vector<TextureRef> texturesOf(MaterialData const& m) {
                                       m.anisotropy.map,
                                       m.iridescence.maps.texture,
                                       m.transmission.maps.texture,
-                                      m.diffuseTransmission.maps.texture };
+                                      m.diffuseTransmission.maps.texture,
+                                      m.volumeScatter.map };
     if (m.specularGlossiness) textures.push_back(m.specularGlossiness->map);
     return textures;
 }
@@ -53,7 +54,8 @@ inline std::vector<float> unitFactorsOf(MaterialData const& m) {
              m.iridescence.factor,
              m.transmission.factor,
              m.transmission.attenuationColor.z,
-             m.diffuseTransmission.factor };
+             m.diffuseTransmission.factor,
+             m.volumeScatter.color.y };
 }
 
 inline const char* brokenPromise(ModelData const& model, MaterialData const& m) {
@@ -71,6 +73,7 @@ inline const char* brokenPromise(ModelData const& model, MaterialData const& m) 
     if (!(std::abs(m.bump.factor) <= 65504)) return "height of bumps";
     if (!(m.ior >= 1 && m.ior <= kOpaqueIor)) return "index of refraction";
     if (!(m.transmission.attenuationDistanceMeters > 0 && m.transmission.dispersion <= 100)) return "volume";
+    if (!(std::abs(m.volumeScatter.anisotropy) <= kMaxScatterAnisotropy)) return "anisotropy of scattering";
     if (m.unlit && m.specularGlossiness) return "shading model";
     return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
 }

@@ -4,6 +4,7 @@
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -274,6 +275,77 @@ TEST(GltfMaterialExtensions, BumpsHaveAFactorInMetresAndAMapOfData) {
     EXPECT_EQ(bump.map.uvTransform[1].y, 3.0f);
     ASSERT_LT(bump.map.image, model.images.size());
     EXPECT_EQ(model.images[bump.map.image].format, backend::Format::RGBA8) << "linear";
+}
+
+TEST(GltfMaterialExtensions, AVolumeScattersInAColorWithAMap) {
+    const ModelData model = modelWith(R"({ "KHR_materials_transmission": { "transmissionFactor": 1 },
+        "KHR_materials_volume": { "thicknessFactor": 2, "attenuationColor": [ 0.1, 0.5, 0.9 ],
+            "attenuationDistance": 3 },
+        "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 0.75, 0.5, 0.25 ], "scatterAnisotropy": -0.5,
+            "multiscatterColorTexture": { "index": 1 } } })");
+    MaterialData const& material = model.materials[0];
+    EXPECT_THAT(model.warnings, IsEmpty());
+    EXPECT_TRUE(material.scatters());
+    EXPECT_EQ(material.volumeScatter.color, float3(0.75f, 0.5f, 0.25f));
+    EXPECT_EQ(material.volumeScatter.anisotropy, -0.5f);
+    EXPECT_THAT(texel(model, material.volumeScatter.map), ElementsAre(11, 12, 13, 14));
+    EXPECT_EQ(model.images[material.volumeScatter.map.image].format, backend::Format::RGBA8Srgb);
+}
+
+TEST(GltfMaterialExtensions, TheColorOfScatteringHasAnOlderName) {
+    const MaterialData material = materialWith(R"({ "KHR_materials_volume": { "thicknessFactor": 2,
+            "attenuationDistance": 3, "attenuationColor": [ 0.5, 0.5, 0.5 ],
+            "thicknessTexture": { "index": 2 } },
+        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 },
+        "KHR_materials_volume_scatter": { "multiscatterColor": [ 0.1, 0.2, 0.3 ] } })");
+    EXPECT_EQ(material.volumeScatter.color, float3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(material.volumeScatter.anisotropy, 0.0f);
+    EXPECT_TRUE(material.scatters());
+    EXPECT_TRUE(material.transmission.maps.hasSecond) << "light that enters diffusely goes through the volume, too";
+}
+
+TEST(GltfMaterialExtensions, OnlyAVolumeThatDimsLightScattersIt) {
+    const auto scatters = [](const char* entry, const char* volume, const char* scatter) {
+        const std::string json = fmt::format(
+                R"({{ "KHR_materials_{}": {{ "{}Factor": 1 }},
+            "KHR_materials_volume": {}, "KHR_materials_volume_scatter": {} }})",
+                entry, entry == std::string("transmission") ? entry : "diffuseTransmission", volume, scatter);
+        return materialWith(json.c_str()).scatters();
+    };
+    const char* dim = R"({ "thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [ 1, 0.5, 1 ] })";
+    const char* red = R"({ "multiscatterColorFactor": [ 0.5, 0, 0 ] })";
+    EXPECT_TRUE(scatters("transmission", dim, red));
+    EXPECT_TRUE(scatters("diffuse_transmission", dim, red));
+    EXPECT_FALSE(scatters("transmission", dim, "{}")) << "the colour is black";
+    EXPECT_FALSE(scatters("transmission", R"({ "attenuationDistance": 1, "attenuationColor": [ 0, 0, 0 ] })", red));
+    EXPECT_FALSE(scatters("transmission", R"({ "thicknessFactor": 1, "attenuationColor": [ 0, 0, 0 ] })", red));
+    EXPECT_FALSE(scatters("transmission", R"({ "thicknessFactor": 1, "attenuationDistance": 1 })", red));
+}
+
+TEST(GltfMaterialExtensions, ScatteringThatCannotBeIsClampedOrLeftOutWithAWarning) {
+    const ModelData model = modelWith(R"({ "KHR_materials_transmission": { "transmissionFactor": 1 },
+        "KHR_materials_volume": { "thicknessFactor": 1 },
+        "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 2, -1, 0.5 ], "scatterAnisotropy": -1 } })");
+    EXPECT_EQ(model.materials[0].volumeScatter.color, float3(1, 0, 0.5f));
+    EXPECT_EQ(model.materials[0].volumeScatter.anisotropy, -kMaxScatterAnisotropy);
+    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("KHR_materials_volume_scatter.multiscatterColorFactor: 2"),
+                                            HasSubstr("KHR_materials_volume_scatter.multiscatterColorFactor: -1"),
+                                            HasSubstr("KHR_materials_volume_scatter.scatterAnisotropy: -1")));
+    const ModelData alone = modelWith(R"({ "KHR_materials_transmission": { "transmissionFactor": 1 },
+        "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 1, 1, 1 ] } })");
+    EXPECT_FALSE(alone.materials[0].volumeScatter.isUsed());
+    EXPECT_THAT(alone.warnings, ElementsAre(HasSubstr("needs KHR_materials_volume")));
+    const ModelData unlit = modelWith(R"({ "KHR_materials_unlit": {}, "KHR_materials_volume_scatter": {} })");
+    EXPECT_THAT(unlit.warnings, ElementsAre(HasSubstr("must not be used with KHR_materials_unlit")));
+    for (const char* wrong : { R"({ "multiscatterColorFactor": "red" })", R"({ "multiscatterColorFactor": [ 1, 1 ] })",
+                               R"({ "scatterAnisotropy": "forwards" })", R"({ "multiscatterColorTexture": 3 })" }) {
+        const TestFile file = triangleWith({ { "KHR_materials_transmission", { { "transmissionFactor", 1 } } },
+                                             { "KHR_materials_volume", { { "thicknessFactor", 1 } } },
+                                             { "KHR_materials_volume_scatter", Json::parse(wrong) } });
+        const Result<ModelData> broken = file.load();
+        ASSERT_FALSE(broken) << wrong;
+        EXPECT_THAT(broken.error().message, HasSubstr("KHR_materials_volume_scatter.")) << wrong;
+    }
 }
 
 TEST(GltfMaterialExtensions, TheFactorOfBumpsIsOneAndWithoutAMapThereAreNone) {

@@ -42,7 +42,9 @@ inline constexpr const char* kSpecimenExtensions = R"({
     "KHR_materials_ior": { "ior": 1.4 }, "KHR_materials_transmission": { "transmissionFactor": 1 },
     "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [ 0.5, 0.5, 0.5 ] },
     "KHR_materials_dispersion": { "dispersion": 1 },
-    "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 } })";
+    "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 },
+    "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 0.5, 0.25, 1 ], "scatterAnisotropy": 0.5,
+        "multiscatterColorTexture": { "index": 1 } } })";
 inline constexpr const char* kSpecimenGlossiness = R"({ "KHR_materials_pbrSpecularGlossiness": {
     "diffuseFactor": [ 1, 0, 1, 0.5 ], "glossinessFactor": 0.5, "specularGlossinessTexture": { "index": 0 } } })";
 
@@ -110,6 +112,7 @@ inline Specimen pointerSpecimen() {
     file.root["materials"][0]["extensions"].erase("KHR_materials_sheen");
     file.root["materials"][0]["extensions"]["KHR_materials_iridescence"].erase("iridescenceThicknessTexture");
     file.root["materials"][0]["extensions"]["EXT_materials_bump"].erase("bumpTexture");
+    file.root["materials"][0]["extensions"]["KHR_materials_volume_scatter"].erase("multiscatterColorTexture");
     file.root["nodes"][0]["camera"] = 0;
     file.root["nodes"][0]["extensions"] =
             Json::parse(R"({ "KHR_node_visibility": { "visible": false }, "KHR_lights_punctual": { "light": 0 },
@@ -131,6 +134,8 @@ inline Specimen pointerSpecimen() {
         { "/nodes/0/extensions/KHR_node_visibility/visible", 1 },
         { "/materials/0/pbrMetallicRoughness/roughnessFactor", 0 },
         { "/materials/0/extensions/KHR_materials_volume/attenuationColor", 2 },
+        { "/materials/0/extensions/KHR_materials_volume_scatter/multiscatterColorFactor", 2 },
+        { "/materials/0/extensions/KHR_materials_volume_scatter/scatterAnisotropy", 0 },
         { "/materials/0/extensions/KHR_materials_ior/ior", 0 },
         { "/materials/0/extensions/EXT_materials_bump/bumpFactor", 0 },
         { "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", 0 },

@@ -42,7 +42,9 @@ TestFile fileWithSets(std::vector<int> const& order) {
     file.root["materials"] = { Json::parse(R"({ "extensions": {
         "KHR_materials_clearcoat": { "clearcoatFactor": 1 }, "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ] },
         "KHR_materials_anisotropy": { "anisotropyStrength": 0.5 }, "KHR_materials_specular": {},
-        "KHR_materials_iridescence": { "iridescenceFactor": 1 }, "KHR_materials_volume": { "thicknessFactor": 1 },
+        "KHR_materials_iridescence": { "iridescenceFactor": 1 }, "KHR_materials_volume": { "thicknessFactor": 1,
+            "attenuationDistance": 1, "attenuationColor": [ 0.5, 0.5, 0.5 ] },
+        "KHR_materials_volume_scatter": { "multiscatterColorFactor": [ 1, 1, 1 ] },
         "KHR_materials_transmission": { "transmissionFactor": 1 },
         "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 } } })") };
     return file;

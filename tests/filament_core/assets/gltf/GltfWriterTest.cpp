@@ -47,6 +47,8 @@ GlbScene exampleScene() {
     rich.transmission.thicknessMeters = 0.25f;
     rich.transmission.attenuationColor = { 0.5f, 1, 0.25f };
     rich.transmission.attenuationDistanceMeters = 2;
+    rich.diffuseTransmission = { .color = { 1, 0.5f, 0 }, .factor = 0.75f, .maps = {} };
+    rich.volumeScatter = { .color = { 0.75f, 0.5f, 0 }, .anisotropy = -0.5f, .map = {} };
     unlit.name = "unlit";
     unlit.unlit = true;
     unlit.alphaMode = AlphaMode::Blend;
@@ -111,6 +113,10 @@ void expectEqual(MaterialData const& actual, MaterialData const& expected) {
     EXPECT_EQ(actual.transmission.thicknessMeters, expected.transmission.thicknessMeters);
     EXPECT_EQ(actual.transmission.attenuationColor, expected.transmission.attenuationColor);
     EXPECT_EQ(actual.transmission.attenuationDistanceMeters, expected.transmission.attenuationDistanceMeters);
+    EXPECT_EQ(actual.diffuseTransmission.factor, expected.diffuseTransmission.factor);
+    EXPECT_EQ(actual.diffuseTransmission.color, expected.diffuseTransmission.color);
+    EXPECT_EQ(actual.volumeScatter.color, expected.volumeScatter.color);
+    EXPECT_EQ(actual.volumeScatter.anisotropy, expected.volumeScatter.anisotropy);
 }
 
 TEST(GltfWriter, MaterialsSurviveTheRoundTrip) {
