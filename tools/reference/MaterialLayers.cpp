@@ -133,6 +133,20 @@ void addDiffuseTransmission(MaterialPoint const& point, double transmitted, Surf
     surface.diffuse *= 1 - part;
 }
 
+/// KHR_materials_volume_scatter: the colour at the point where light enters is that of the medium.
+void addMedium(MaterialPoint const& point, SurfaceSample& surface) {
+    if (!point.material().scatters()) return;
+    assets::TransmissionData const& volume = point.material().transmission;
+    assets::VolumeScatterData const& data = point.material().volumeScatter;
+    const double3 texel = has(data.map) ? double3(point.fetch(data.map)) : double3(1.0);
+    const double3 loss = lib::scatterLoss(lib::saturate(double3(data.color) * texel));
+    surface.medium = MediumSample{ .extinction = lib::absorptionAtDistance(double3(volume.attenuationColor),
+                                                                           double(volume.attenuationDistanceMeters)) /
+                                                 point.part.worldFromScene,
+                                   .albedo = 1.0 - loss * loss,
+                                   .anisotropy = data.anisotropy };
+}
+
 } // namespace
 
 void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, SurfaceSample& surface) {
@@ -145,6 +159,7 @@ void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, 
     const bool isMixed = surface.metallic > 0 && surface.metallic < 1;
     if (isMixed || point.material().transmission.isUsed()) surface.mixture = mixtureOf(point, baseColor, transmitted);
     addDiffuseTransmission(point, transmitted, surface);
+    addMedium(point, surface);
 }
 
 } // namespace filament_core::reference

@@ -5,6 +5,7 @@
 #include "tools/reference/AmbientOcclusion.h"
 #include "tools/reference/Material.h"
 #include "tools/reference/Mixture.h"
+#include "tools/reference/ScatteringMedium.h"
 
 #include <algorithm>
 
@@ -17,9 +18,10 @@ namespace {
 // Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then six per bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kSource, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22,
-                   kAreaPoint = 1u << 23, kOpenDirections = 1u << 24;
+                   kAreaPoint = 1u << 23, kOpenDirections = 1u << 24, kFlights = 1u << 25;
 
-constexpr uint32_t kRouletteFrom = 4;      // before this event, no path ends by roulette
+constexpr uint32_t kRouletteFrom = 4; // before this event, no path ends by roulette
+constexpr uint32_t kMostFlights = 1u << 16, kScatterRouletteFrom = 8, kPairsOfFlight = 3;
 constexpr uint32_t kMostEvents = 1u << 16; // limit of the dimensions of a path
 
 double powerHeuristic(double pdf, double otherPdf) {
@@ -48,9 +50,11 @@ struct PathTracer::Path {
     uint32_t events = 0; // reflections, and crossings of surfaces
     uint32_t layers = 0;
     PassedTriangles passed{};
-    int color = -1;             // the only one it carries after dispersion
-    double spread = 1;          // index^2 of the medium, by which radiance there is larger
-    bool isBehindGlass = false; // straight crossing since the last reflection
+    int color = -1;                     // the only one it carries after dispersion
+    double spread = 1;                  // index^2 of the medium, by which radiance there is larger
+    bool isBehindGlass = false;         // no light was sampled where the ray began: straight crossing, or scattered
+    std::optional<MediumSample> medium; // that it entered
+    uint32_t flights = 0;               // through solids that scatter
 
     double2 pair(BounceDimension dimension) const {
         return numbers.pair(kFirstBounce + events * kPerBounce + dimension);
@@ -76,6 +80,8 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
 double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) const {
     double3 sum(0.0);
     for (; surface; surface = nextSurface(path)) {
+        if (!crossMedium(path, surface)) return sum;
+        if (!surface) break;
         if (surface->transmits()) enterSurface(path, *surface);
         if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
         coverWithFilm(*surface);
@@ -90,12 +96,38 @@ double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) con
     return sum + path.throughput * missed(path);
 }
 
+/// Follows the path through a solid that scatters to the next surface. False: it ended inside.
+bool PathTracer::crossMedium(Path& path, std::optional<SurfaceSample>& surface) const {
+    const bool isInside = surface->medium && surface->medium->isFromInside;
+    if (!isInside || mSettings.integrator == Integrator::Unoccluded) return true;
+    const MediumSample medium = path.medium.value_or(*surface->medium);
+    while (surface) {
+        const uint32_t dimension = kFlights + path.flights++ * kPairsOfFlight;
+        const Flight flight = sampleFlight(medium, path.throughput, path.hit.distance, path.numbers.pair(dimension));
+        path.throughput *= flight.weight;
+        if (!flight.scatters) return true;
+        const double largest = std::max({ path.throughput.x, path.throughput.y, path.throughput.z }) * path.spread;
+        if (!(largest > 0) || path.flights >= kMostFlights) return false;
+        if (path.flights > kScatterRouletteFrom && largest < 0.5) {
+            if (path.numbers.pair(dimension + 1).x >= 2 * largest) return false;
+            path.throughput /= 2 * largest;
+        }
+        path.ray = { .origin = path.ray.origin + path.ray.direction * flight.distance,
+                     .direction = turned(path.ray.direction, medium.anisotropy, path.numbers.pair(dimension + 2)) };
+        path.passed.count = 0;
+        path.isCamera = false;
+        path.isBehindGlass = true;
+        surface = nextSurface(path);
+    }
+    return true;
+}
+
 /// Applies the absorption on the way to the inner side of a solid, and chooses the colour that continues.
 void PathTracer::enterSurface(Path& path, SurfaceSample& surface) const {
     TransmissionSample& below = surface.transmission;
     if (below.isThin) return;
     if (below.isFromInside) {
-        path.throughput *= lib::transmittance(below.absorption, path.hit.distance);
+        if (!surface.medium) path.throughput *= lib::transmittance(below.absorption, path.hit.distance);
         if (mSettings.bsdf.solidTint == SolidTint::Once) below.color = double3(below.share);
     }
     if (!(below.dispersion > 0) || mSettings.integrator == Integrator::Unoccluded) return;
@@ -260,6 +292,10 @@ bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& b
     path.passed.count = 0;
     const bool goesThrough = sample.isStraight || glm::dot(sample.direction, surface.geometricNormal) < 0;
     if (!goesThrough) ++path.bounce;
+    if (goesThrough) {
+        path.medium = surface.medium;
+        if (surface.medium && surface.medium->isFromInside) path.medium.reset();
+    }
     if (++path.events >= kMostEvents) return false;
     if (sample.isStraight) {
         path.isBehindGlass = true;

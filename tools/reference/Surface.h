@@ -55,6 +55,14 @@ struct DiffuseTransmissionSample {
     }; ///< albedo of the lobe behind the surface; black: none. Already removed from SurfaceSample::diffuse
 };
 
+/// What scatters light inside a solid (KHR_materials_volume_scatter).
+struct MediumSample {
+    double3 extinction{ 0.0 }; ///< 1/m, by colour
+    double3 albedo{ 0.0 };     ///< the part of it that is scattered
+    double anisotropy = 0;     ///< mean cosine of the angle by which light turns
+    bool isFromInside = false; ///< the ray comes from inside it
+};
+
 /// A thin film on the base (KHR_materials_iridescence, shaders/lib/iridescence.glsl).
 struct FilmSample {
     double strength = 0; ///< covered fraction, [0, 1]; 0: none
@@ -100,6 +108,7 @@ struct SurfaceSample {
     TransmissionSample transmission{};
     DiffuseTransmissionSample diffuseTransmission{};
     FilmSample film{};
+    std::optional<MediumSample> medium;   ///< below the surface, if it scatters
     std::optional<MixtureSample> mixture; ///< none: the members above are all there is
 
     double opacity = 1;          ///< covered fraction: all that this struct says is of that fraction
