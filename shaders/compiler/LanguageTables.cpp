@@ -95,12 +95,15 @@ constexpr Model kModels[] = { { ShadingModel::Lit, RefractionMode::None, "lit" }
                               { ShadingModel::SpecularGlossiness, RefractionMode::None, "specular glossiness" },
                               { ShadingModel::Unlit, RefractionMode::None, "unlit" } };
 
-MaterialDefinition definitionOf(Model const& model) {
+/// Both types of refraction have members of their own.
+bool has(Model const& model, MaterialMember const& member) {
     MaterialDefinition definition;
     definition.package.shading = model.model;
     definition.package.refractionMode = model.refraction;
-    definition.package.refractionType = RefractionType::Thin; // which has members of its own
-    return definition;
+    definition.package.refractionType = RefractionType::Thin;
+    if (member.isMemberOf(definition)) return true;
+    definition.package.refractionType = RefractionType::Solid;
+    return member.isMemberOf(definition);
 }
 
 std::string memberTable() {
@@ -118,7 +121,7 @@ std::string memberTable() {
         value = value.substr(value.find('(') + 1);
         value.pop_back();
         fmt::format_to(std::back_inserter(text), "| `{}` | {} | {} |", member.name, guides, value);
-        for (Model const& model : kModels) text += member.isMemberOf(definitionOf(model)) ? " x |" : " |";
+        for (Model const& model : kModels) text += has(model, member) ? " x |" : " |";
         text += fmt::format(" {} |\n", member.meaning);
     }
     return text;

@@ -23,6 +23,7 @@ bool isLayered(Definition const& d) { return isLit(d) || isGlossy(d); }
 bool refractsShaded(Definition const& d) { return isShaded(d) && d.package.refractionMode != RefractionMode::None; }
 bool isThin(Definition const& d) { return refractsShaded(d) && d.package.refractionType == RefractionType::Thin; }
 bool hasThickness(Definition const& d) { return isSubsurface(d) || refractsShaded(d); }
+bool isSolidLit(Definition const& d) { return isLit(d) && refractsShaded(d) && !isThin(d); }
 bool hasIor(Definition const& d) { return isLit(d) || refractsShaded(d); }
 
 constexpr float kAny = std::numeric_limits<float>::quiet_NaN();
@@ -119,6 +120,13 @@ constexpr MaterialMember kMembers[] = {
       "the part of the diffused light that leaves on the other side, [0, 1]",
       1, kZero, isLit, kNeutral, "HAS_DIFFUSE_TRANSMISSION", kZero },
     { "diffuseTransmissionColor", "its colour, [0, 1]", 3, kOne, isLit },
+    { "multiscatterColor",
+      "colour of the light that is scattered, not absorbed, where `absorption` attenuates it in a body of some "
+      "`thickness`: that of a very thick body, [0, 1]",
+      3, kZero, isSolidLit, kNeutral, "HAS_VOLUME_SCATTER", kZero },
+    { "scatterAnisotropy",
+      "mean cosine of the angle by which scattering turns light: forwards if positive, (-1, 1)",
+      1, kZero, isSolidLit },
 };
 // clang-format on
 static_assert(std::size(kMembers) <= 64, "a term is a bit");

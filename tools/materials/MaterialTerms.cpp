@@ -55,6 +55,9 @@ std::vector<MaterialTerm> materialTerms() {
         { "refraction with dispersion",
           refracting("",
                      "material.thickness = materialParams.strength;\nmaterial.dispersion = materialParams.strength;") },
+        { "refraction with scattering",
+          refracting("", "material.thickness = materialParams.strength;\nmaterial.absorption = materialParams.tint;\n"
+                         "material.multiscatterColor = materialParams.color;") },
         { "all layers", { { "// BEFORE", kNormal }, { "// AFTER", std::string(kCoat) + kAnisotropy + kSheen } } },
     };
 }

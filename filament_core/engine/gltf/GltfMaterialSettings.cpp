@@ -38,6 +38,7 @@ bool hasLayers(MaterialData const& m) {
 const char* familyOf(MaterialData const& material, GltfVertices const& vertices) {
     if (material.unlit || !vertices.hasNormals) return "gltf_unlit";
     if (material.specularGlossiness) return "gltf_specular_glossiness";
+    if (material.scatters()) return "gltf_scattering";
     if (material.transmission.isSolid()) return "gltf_transmissive_solid";
     if (material.transmission.isUsed()) return "gltf_transmissive_thin";
     return hasLayers(material) ? "gltf_layered" : "gltf_lit";
@@ -211,11 +212,12 @@ void setDiffuseTransmission(Settings& settings, assets::DiffuseTransmissionData 
                   "diffuseTransmissionFactor", "diffuseTransmissionFactorApart");
 }
 
-void setTransmission(Settings& settings, assets::TransmissionData const& data, float scale) {
-    if (!data.isUsed()) return;
+/// `scatters`: a solid, though light may enter it by diffuse transmission alone.
+void setTransmission(Settings& settings, assets::TransmissionData const& data, bool scatters, float scale) {
+    if (!data.isUsed() && !scatters) return;
     settings.parameter("transmission", data.factor);
     settings.maps("transmission", "hasTransmissionMap", "hasThicknessMap", data.maps, "thickness", "thicknessApart");
-    if (!data.isSolid()) return;
+    if (!data.isSolid() && !scatters) return;
     settings.parameter("thickness", std::min(data.thicknessMeters * scale, kMaxHalf));
     if (data.dispersion > 0 || data.isDispersionAnimated) {
         settings.feature("hasDispersion");
@@ -247,7 +249,11 @@ void setAll(Settings& settings, MaterialData const& material, GltfVertices const
     setAnisotropy(settings, material.anisotropy, vertices);
     setIridescence(settings, material.iridescence);
     setDiffuseTransmission(settings, material.diffuseTransmission);
-    setTransmission(settings, material.transmission, scale);
+    setTransmission(settings, material.transmission, material.scatters(), scale);
+    if (!material.scatters()) return;
+    settings.parameter("multiscatterColor", material.volumeScatter.color);
+    settings.parameter("scatterAnisotropy", material.volumeScatter.anisotropy);
+    settings.map("multiscatter", "hasMultiscatterMap", material.volumeScatter.map);
 }
 
 } // namespace

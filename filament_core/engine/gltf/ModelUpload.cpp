@@ -91,7 +91,7 @@ private:
         for (PrimitiveData& primitive : mesh.primitives) {
             bytes += primitive.indices.size() + primitive.vertices.size();
             // In the order of the meshes, which determines the order of draws.
-            if (!primitive.splats && !materialOf(primitive.material).transmission.isSolid())
+            if (!primitive.splats && !isSolid(materialOf(primitive.material)))
                 instanceFor(primitive.material, verticesOf(primitive), double4x4(1.0));
             parts.push_back(
                     { upload(primitive, shapes[parts.size()], mesh.name), &primitive, meshFromPositions(primitive),
@@ -248,12 +248,17 @@ private:
     /// One per material and kind of vertices; if the material has a volume, also one per scale.
     MaterialInstance instanceFor(uint32_t index, GltfVertices const& vertices, double4x4 const& worldFromNode) {
         assets::MaterialData const& material = materialOf(index);
-        const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
+        const float scale = isSolid(material) ? scaleOf(worldFromNode) : 1.0f;
         MaterialInstance& instance = mInstances[{ index, vertices, scale }];
         if (instance) return instance;
         instance = mMaterials.instanceFor(material, vertices, scale);
         keepAnimated({ index, vertices, scale }, instance);
         return instance;
+    }
+
+    /// A body of some thickness, not a thin wall.
+    static bool isSolid(assets::MaterialData const& material) {
+        return material.transmission.isSolid() || material.scatters();
     }
 
     /// KHR_materials_volume: a thickness is in the space of the mesh and scales with its nodes. For a non-uniform

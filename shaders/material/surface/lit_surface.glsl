@@ -8,6 +8,11 @@
 #define HAS_SPECULAR_WEIGHTS
 #endif
 
+// Light scattered inside is diffuse light that came in on this side or on the other one.
+#if defined(HAS_VOLUME_SCATTER) && !defined(HAS_DIFFUSE_TRANSMISSION)
+#define HAS_DIFFUSE_TRANSMISSION
+#endif
+
 struct Surface {
 #if defined(CUSTOM_SURFACE_SHADING)
     MaterialInputs inputs;    // for the author's surfaceShading()
@@ -201,6 +206,10 @@ vec3 dielectricColor(vec3 baseColor, Surface surface) {
 #endif
 }
 
+#if defined(HAS_VOLUME_SCATTER)
+#include "shaders/material/surface/scatter.glsl"
+#endif
+
 // Both interfaces: light reflected by the far side of a thin layer leaves together with the light reflected by the near
 // side.
 void setThrough(inout Surface surface) {
@@ -236,6 +245,9 @@ void setLayers(MaterialInputs material, vec3 baseColor, inout Surface surface) {
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     setTransmission(material, surface);
+#endif
+#if defined(HAS_VOLUME_SCATTER)
+    setScattering(material, dielectricColor(baseColor, surface), surface);
 #endif
 #if defined(HAS_SHEEN)
     surface.sheen = sheenOf(material);

@@ -121,7 +121,7 @@ TEST_P(FurnaceTest, ABlendedSphereHidesAsMuchAsItsAlpha) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
     for (const char* package : { "gltf_lit_blended", "gltf_layered_blended", "gltf_transmissive_thin_blended",
-                                 "gltf_transmissive_solid_blended" }) {
+                                 "gltf_transmissive_solid_blended", "gltf_scattering_blended" }) {
         Furnace furnace(*engine, package);
         for (const float metallic : { 0.0f, 1.0f }) {
             const Image absent = furnace.render(float4(1, 1, 1, 0), metallic, 0.5f);

@@ -84,6 +84,7 @@ std::vector<Sample> samples() {
         { "unlit", { "shadingModel : unlit", "shadingModel : lit" } },
         { "variables", { "height=0.15", "height=0" } },
         { "variant_filter", {}, Effect::Differs, 1, false },
+        { "volume_scatter", { "material.multiscatterColor = vec3(0.9, 0.6, 0.2);", "" }, kBrighter },
         { "volume_texture", { "getUserWorldPosition() * 0.5 + 0.5", "vec3(0.25)" } },
         { "wide_lines", { "material.lineWidth = materialParams.width;", "" } },
     };

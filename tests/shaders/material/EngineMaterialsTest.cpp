@@ -176,7 +176,7 @@ void expectTheSameInterface(std::string const& family, std::initializer_list<con
 
 TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllMaterialsOfAGltfFamily) {
     for (const char* family : { "gltf_lit", "gltf_layered", "gltf_specular_glossiness", "gltf_transmissive_thin",
-                                "gltf_transmissive_solid" })
+                                "gltf_transmissive_solid", "gltf_scattering" })
         expectTheSameInterface(family, { "_masked", "_blended" });
     EXPECT_NE(read("gltf_lit_masked").findParameter("_maskThreshold"), nullptr);
     EXPECT_EQ(read("gltf_lit_blended").blending, Blending::Fade) << "alpha is coverage, of the reflection too";

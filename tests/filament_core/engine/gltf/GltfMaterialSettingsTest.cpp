@@ -94,6 +94,28 @@ TEST(GltfMaterialSettings, EveryLayerSwitchesOnItselfAndNothingElse) {
                 UnorderedElementsAre("hasDiffuseTransmission"));
 }
 
+TEST(GltfMaterialSettings, AVolumeThatScattersHasAFamilyOfItsOwnHoweverLightEntersIt) {
+    MaterialData material;
+    material.transmission.thicknessMeters = 2;
+    material.transmission.attenuationColor = float3(0.5f);
+    material.transmission.attenuationDistanceMeters = 1;
+    material.volumeScatter = { .color = { 1, 0.5f, 0 }, .map = texture(1) };
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_lit_opaque") << "no light enters";
+    material.diffuseTransmission.factor = 1;
+    const GltfMaterialSettings wax = settingsOf(material, {});
+    EXPECT_EQ(wax.package, "gltf_scattering_opaque");
+    EXPECT_THAT(mapsOf(wax), UnorderedElementsAre("multiscatter"));
+    EXPECT_THAT(constantsOf(wax),
+                UnorderedElementsAre("hasDiffuseTransmission", "hasAbsorption", "hasMultiscatterMap"));
+    material.diffuseTransmission.factor = 0;
+    material.transmission.factor = 1;
+    EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasAbsorption", "hasMultiscatterMap"));
+    material.alphaMode = AlphaMode::Mask;
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_scattering_masked");
+    material.volumeScatter.color = float3(0);
+    EXPECT_EQ(settingsOf(material, {}).package, "gltf_transmissive_solid_masked");
+}
+
 TEST(GltfMaterialSettings, APairOfMapsIsOneTextureAndTwoConstants) {
     MaterialData material;
     material.clearCoat.factor = 1;
