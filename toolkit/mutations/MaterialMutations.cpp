@@ -16,8 +16,8 @@ namespace {
 std::vector<shader::MaterialPackage> const& litPackages() {
     static const std::vector<shader::MaterialPackage> packages = [] {
         std::vector<shader::MaterialPackage> read;
-        for (const char* name :
-             { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended", "gltf_transmissive_solid_opaque" }) {
+        for (const char* name : { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended",
+                                  "gltf_transmissive_solid_opaque", "gltf_scattering_opaque" }) {
             if (auto package = shader::readPackage(shader::engineMaterial(name))) read.push_back(std::move(*package));
         }
         return read;
@@ -130,6 +130,7 @@ std::unique_ptr<StreamEdit> normalWidth() {
 std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
 std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
 std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
+std::unique_ptr<StreamEdit> multiscatter() { return std::make_unique<ParameterEdit>("multiscatterColor", 3, 0.95f); }
 std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
 std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bumpFactor", 1, 1.05f); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
@@ -141,6 +142,7 @@ constexpr Mutation kMaterialMutations[] = {
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
+    { "multiscatter", "colour of light scattered in solids - 5 %", multiscatter },
     { "thickness", "thickness of solids + 5 %", thickness },
     { "bump", "bumps 5 % higher", bump },
 };

@@ -186,6 +186,10 @@ private:
         reader.read("thickness", material.transmission.thicknessMeters, 0, 1e5);
         reader.read("attenuationColor", material.transmission.attenuationColor);
         reader.read("attenuationDistance", material.transmission.attenuationDistanceMeters, 1e-6, 1e9);
+        reader.read("diffuseTransmission", material.diffuseTransmission.factor, 0, 1);
+        reader.read("diffuseTransmissionColor", material.diffuseTransmission.color);
+        reader.read("multiscatterColor", material.volumeScatter.color);
+        reader.read("scatterAnisotropy", material.volumeScatter.anisotropy, -0.999, 0.999);
         reader.object("textures", [&](JsonReader& r) { readTextures(r, material); });
     }
 
