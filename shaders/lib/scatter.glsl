@@ -63,8 +63,9 @@ vec3 scatteredShare(vec3 depth, vec3 loss, float ior) {
 }
 
 // The part of scattered light that arrived on the far side of the ball, for the irradiance of both sides: fitted to a
-// random walk; dark balls are too bright from behind, by up to 0.15. depth: of the similar medium. Backward scattering counts while events are few. Returns
-// [0, 1].
+// random walk; dark balls are too bright from behind, by up to 0.28. Backward scattering counts while events are few.
+//   depth  of the similar medium.
+// Returns [0, 1].
 vec3 scatteredFromBehind(vec3 depth, float anisotropy, float ior) {
     vec3 turned = vec3(1.0f) + min(anisotropy, 0.0f) / (vec3(1.0f) + depth);
     return saturate(turned * min(0.4f + 0.1f * ior, 0.6f) / (vec3(1.0f) + depth * (0.19f / ior)));
