@@ -36,7 +36,7 @@ struct GraphTextureDesc {
     uint8_t samples = 1;
     uint8_t levels = 1;
     uint16_t layers = 1;
-    backend::TextureType type = backend::TextureType::Texture2D;
+    backend::TextureKind type = backend::TextureKind::Texture2D;
     std::string_view name{};
 };
 

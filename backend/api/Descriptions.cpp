@@ -13,11 +13,11 @@ bool isUniform(BindingType type) {
 } // namespace
 
 uint32_t layersOfLevel(DeviceTextureDesc const& desc, uint32_t level) {
-    return desc.type == TextureType::Texture3D ? std::max(1u, uint32_t{ desc.layers } >> level) : desc.layers;
+    return desc.type == TextureKind::Texture3D ? std::max(1u, uint32_t{ desc.layers } >> level) : desc.layers;
 }
 
 uint32_t fullMipCount(DeviceTextureDesc const& desc) {
-    const uint32_t depth = desc.type == TextureType::Texture3D ? desc.layers : 1;
+    const uint32_t depth = desc.type == TextureKind::Texture3D ? desc.layers : 1;
     return fullMipCount(std::max(desc.width, depth), desc.height);
 }
 

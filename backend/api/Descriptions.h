@@ -61,10 +61,7 @@ struct BufferDesc {
 
 // ---------------------------------------------------------------------------------------------- textures
 
-/// Texture3D: uncompressed, and neither attachment nor blitted: its texels are uploaded. What commands call layers are
-/// its slices; deeper levels have fewer.
-enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray, Texture3D };
-constexpr bool isCube(TextureType type) { return type == TextureType::Cube || type == TextureType::CubeArray; }
+constexpr bool isCube(TextureKind type) { return type == TextureKind::Cube || type == TextureKind::CubeArray; }
 
 enum class TextureUsage : uint8_t {
     Sampled = 1,
@@ -83,7 +80,9 @@ constexpr bool has(TextureUsage set, TextureUsage bit) {
 }
 
 struct DeviceTextureDesc {
-    TextureType type = TextureType::Texture2D;
+    /// Texture3D: uncompressed, and neither attachment nor blitted: its texels are uploaded. What commands call layers
+    /// are its slices; deeper levels have fewer.
+    TextureKind type = TextureKind::Texture2D;
     Format format = Format::RGBA8;
     TextureUsage usage = TextureUsage::Sampled;
     uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level, which may be sampled, but not copied

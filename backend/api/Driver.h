@@ -55,7 +55,7 @@ struct DeviceFeatures {
     bool lastVertexProvokes = false; ///< a flat input has the value of the primitive's last vertex; else of its first
     bool depthResolve = false;       ///< PassLayout::resolvesDepth
     bool textureViews = false;       ///< bind groups may show a part of a texture (BindGroupEntry::range)
-    bool cubeArrays = false;         ///< TextureType::CubeArray
+    bool cubeArrays = false;         ///< TextureKind::CubeArray
     bool sharedMemory = false;       ///< DeviceTextureDesc::placedOn
     bool srgbAttachments = false;    ///< passes can store the bytes of an sRGB format (attachmentFormat())
     bool primitiveIds = false;       ///< gl_PrimitiveID in fragment shaders

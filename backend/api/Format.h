@@ -11,6 +11,7 @@ namespace filament_core::backend {
 using filament_core::Format;
 using filament_core::IndexFormat;
 using filament_core::PrimitiveType;
+using filament_core::TextureKind;
 using filament_core::VertexFormat;
 
 enum class FormatKind : uint8_t { Color, UnsignedInteger, SignedInteger, Depth, DepthStencil };

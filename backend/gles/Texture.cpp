@@ -29,7 +29,7 @@ void uploadImage(Api const& gl, GLenum target, GLint level, Area area, GlFormat 
     }
 }
 
-bool is3D(DeviceTextureDesc const& desc) { return desc.type == TextureType::Texture3D; }
+bool is3D(DeviceTextureDesc const& desc) { return desc.type == TextureKind::Texture3D; }
 
 uint32_t mostTexels(DeviceLimits const& limits, DeviceTextureDesc const& desc) {
     return is3D(desc) ? limits.max3DTextureSize : limits.maxTextureSize;

@@ -42,9 +42,9 @@ inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv, "
 template <>
 inline constexpr std::array kEnumNames<IndexFormat>{ "UInt16"sv, "UInt32"sv };
 template <>
-inline constexpr std::array kEnumNames<TextureType>{ "Texture2D"sv, "Texture2DArray"sv, "Cube"sv, "CubeArray"sv,
+inline constexpr std::array kEnumNames<TextureKind>{ "Texture2D"sv, "Texture2DArray"sv, "Cube"sv, "CubeArray"sv,
                                                      "Texture3D"sv };
-static_assert(kEnumNames<TextureType>.size() == static_cast<size_t>(TextureType::Texture3D) + 1);
+static_assert(kEnumNames<TextureKind>.size() == static_cast<size_t>(TextureKind::Texture3D) + 1);
 template <>
 inline constexpr std::array kEnumNames<Filter>{ "Nearest"sv, "Linear"sv };
 template <>

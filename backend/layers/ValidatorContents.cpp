@@ -81,7 +81,7 @@ void Validator::execute(CmdGenerateMips const& command) {
     require(has(texture->desc.usage, TextureUsage::TransferSource) &&
                     has(texture->desc.usage, TextureUsage::TransferTarget),
             Harm::Crash, "generating mips needs TransferSource and TransferTarget");
-    require(texture->desc.type != TextureType::Texture3D, Harm::Crash,
+    require(texture->desc.type != TextureKind::Texture3D, Harm::Crash,
             "mips of a 3D texture cannot be generated; upload them");
     require(format.kind == FormatKind::Color && format.isRenderable, Harm::Crash,
             "mips of {} cannot be generated; upload them", format.name);
@@ -99,7 +99,7 @@ bool Validator::checkBlitSide(TextureModel const& texture, std::string_view role
     FormatInfo const& format = formatInfo(texture.desc.format);
     return require(has(texture.desc.usage, usage), Harm::Crash, "{} '{}' lacks TextureUsage::Transfer{}", role,
                    texture.name, usage == TextureUsage::TransferSource ? "Source" : "Target") &
-           require(texture.desc.type != TextureType::Texture3D, Harm::Crash,
+           require(texture.desc.type != TextureKind::Texture3D, Harm::Crash,
                    "{} '{}' is a 3D texture, which cannot be blitted; upload its texels", role, texture.name) &
            require(texture.desc.samples == 1, Harm::Crash, "{} '{}' has {} samples; resolve it in a pass", role,
                    texture.name, texture.desc.samples) &

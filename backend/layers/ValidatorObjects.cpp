@@ -74,7 +74,7 @@ void Validator::execute(CmdCreateTexture const& command) {
 }
 
 void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
-    const bool is3D = desc.type == TextureType::Texture3D;
+    const bool is3D = desc.type == TextureKind::Texture3D;
     const uint32_t maxSize = is3D ? mInfo.limits.max3DTextureSize : mInfo.limits.maxTextureSize;
     require(desc.width > 0 && desc.height > 0, Harm::Crash, "{} x {} texels; both must be > 0", desc.width,
             desc.height);
@@ -90,15 +90,15 @@ void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
     const uint32_t full = fullMipCount(desc);
     require(desc.levels >= 1 && desc.levels <= full, Harm::Crash, "{} levels; {} x {} has 1..{}", desc.levels,
             desc.width, desc.height, full);
-    const bool is2D = desc.type == TextureType::Texture2D;
+    const bool is2D = desc.type == TextureKind::Texture2D;
     require(desc.layers >= 1, Harm::Crash, "0 layers; at least 1");
     require(!is2D || desc.layers == 1, Harm::Crash, "a 2D texture has 1 layer, not {}; use Texture2DArray",
             desc.layers);
-    if (desc.type == TextureType::Cube) {
+    if (desc.type == TextureKind::Cube) {
         require(desc.layers == 6 && desc.width == desc.height, Harm::Crash,
                 "a cube has 6 square layers, not {} of {} x {}", desc.layers, desc.width, desc.height);
     }
-    if (desc.type == TextureType::CubeArray) {
+    if (desc.type == TextureKind::CubeArray) {
         require(mInfo.features.cubeArrays, Harm::Crash,
                 "an array of cubes needs DeviceFeatures::cubeArrays, which this device lacks");
         require(desc.layers % 6 == 0 && desc.width == desc.height, Harm::Crash,
@@ -374,11 +374,11 @@ void Validator::checkEntryRange(BindingDesc const& binding, BindGroupEntry const
     require(isWhole || mInfo.features.textureViews, Harm::Crash,
             "binding {} shows a part of texture '{}'; this device lacks DeviceFeatures::textureViews", entry.binding,
             texture.name);
-    require(desc.type != TextureType::Texture3D || isWhole, Harm::Crash,
+    require(desc.type != TextureKind::Texture3D || isWhole, Harm::Crash,
             "binding {}: 3D texture '{}' shows all of its levels and slices", entry.binding, texture.name);
-    require(desc.type != TextureType::Cube || range.layerCount == 6, Harm::Crash,
+    require(desc.type != TextureKind::Cube || range.layerCount == 6, Harm::Crash,
             "binding {}: cube '{}' shows all of its 6 layers, not {}", entry.binding, texture.name, range.layerCount);
-    require(desc.type != TextureType::CubeArray || (range.layer % 6 == 0 && range.layerCount % 6 == 0), Harm::Crash,
+    require(desc.type != TextureKind::CubeArray || (range.layer % 6 == 0 && range.layerCount % 6 == 0), Harm::Crash,
             "binding {}: array of cubes '{}' shows whole cubes, not {} layers from {}", entry.binding, texture.name,
             range.layerCount, range.layer);
 }

@@ -34,7 +34,7 @@ VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = isCube(desc.type) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     if (hasTwoFormats(desc)) info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
-    const bool is3D = desc.type == TextureType::Texture3D;
+    const bool is3D = desc.type == TextureKind::Texture3D;
     info.imageType = is3D ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
     info.format = native(desc.format);
     info.extent = { desc.width, desc.height, is3D ? desc.layers : 1u };
@@ -45,17 +45,17 @@ VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     return info;
 }
 
-VkImageViewType viewType(TextureType type) {
+VkImageViewType viewType(TextureKind type) {
     switch (type) {
-    case TextureType::Texture2DArray:
+    case TextureKind::Texture2DArray:
         return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
-    case TextureType::Cube:
+    case TextureKind::Cube:
         return VK_IMAGE_VIEW_TYPE_CUBE;
-    case TextureType::CubeArray:
+    case TextureKind::CubeArray:
         return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
-    case TextureType::Texture3D:
+    case TextureKind::Texture3D:
         return VK_IMAGE_VIEW_TYPE_3D;
-    case TextureType::Texture2D:
+    case TextureKind::Texture2D:
         break;
     }
     return VK_IMAGE_VIEW_TYPE_2D;

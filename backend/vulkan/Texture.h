@@ -57,7 +57,7 @@ public:
     bool isSampled() const { return mSampledView != VK_NULL_HANDLE; }
     uint32_t levels() const { return mLevels; }
     uint32_t layers() const { return mLayers; } ///< 1 of a 3D texture: its slices are one subresource
-    bool is3D() const { return mType == TextureType::Texture3D; }
+    bool is3D() const { return mType == TextureKind::Texture3D; }
     VkExtent2D extent(uint32_t level) const {
         return { std::max(1u, mExtent.width >> level), std::max(1u, mExtent.height >> level) };
     }
@@ -96,7 +96,7 @@ private:
     VkImageView mSampledView = VK_NULL_HANDLE;
     std::vector<PartView> mSampledParts, mAttachmentViews;
     std::shared_ptr<ImageMemory> mMemory;
-    TextureType mType;
+    TextureKind mType;
     Format mFormat;
     VkImageAspectFlags mAspects;
     VkExtent2D mExtent;

@@ -122,7 +122,7 @@ passes::DirtTexture FrameResourceCache::dirt(prepare::FramePacket const& packet)
     if (!packet.demand.needs(prepare::Effect::Bloom) || !bloom.dirt || bloom.dirtStrength == 0) return {};
     TextureState const& state = mEngine.textures.get(bloom.dirt);
     backend::DeviceTextureDesc const& desc = state.desc;
-    FILAMENT_ASSERT(desc.type == backend::TextureType::Texture2D &&
+    FILAMENT_ASSERT(desc.type == backend::TextureKind::Texture2D &&
                             backend::formatInfo(desc.format).kind == backend::FormatKind::Color,
                     "the dirt of bloom is a 2D texture of colours");
     FILAMENT_ASSERT(desc.levels == backend::fullMipCount(desc.width, desc.height),

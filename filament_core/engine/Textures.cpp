@@ -34,7 +34,7 @@ backend::DeviceTextureDesc backendDesc(filament_core::TextureDesc const& desc) {
                     "a renderable texture, or a swap chain, has a format that passes can write");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
-    backend::DeviceTextureDesc device{ .type = engine::textureType(desc.kind),
+    backend::DeviceTextureDesc device{ .type = desc.kind,
                                        .format = desc.format,
                                        .usage = usage,
                                        .levels = static_cast<uint8_t>(desc.levels),
@@ -60,7 +60,7 @@ void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner c
 void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (owner) commands.keep(owner);
-    const DeviceTextureDesc layered{ .type = engine::textureType(desc.kind),
+    const DeviceTextureDesc layered{ .type = desc.kind,
                                      .layers = static_cast<uint16_t>(desc.layers) };
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
@@ -244,7 +244,7 @@ Skybox Engine::create(SkyboxDesc const& desc) {
 namespace {
 
 bool isPicture(DeviceTextureDesc const& desc) {
-    return desc.type == TextureType::Texture2D && has(desc.usage, TextureUsage::ColorAttachment);
+    return desc.type == TextureKind::Texture2D && has(desc.usage, TextureUsage::ColorAttachment);
 }
 
 void checkTarget(engine::HandleTable<TextureObject, engine::TextureState> const& textures,

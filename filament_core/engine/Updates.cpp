@@ -109,7 +109,7 @@ void Engine::Impl::update(engine::TextureState& state, TextureUpdate const& upda
     const uint64_t bytes = imageBytes(desc.format, region.rect.width, region.rect.height) * region.layers;
     if (update.pixels.size() != bytes)
         misused(fmt::format("`pixels` has {} bytes, but the part that is changed has {}", update.pixels.size(), bytes));
-    if (update.generateMips && desc.type == TextureType::Texture3D)
+    if (update.generateMips && desc.type == TextureKind::Texture3D)
         misused("the mip levels of a 3D texture are not computed; give each level");
     const bool isSrgb = formatInfo(desc.format).isSrgb;
     if (update.generateMips && isSrgb && !region.isWholeLevel0(desc))

@@ -77,7 +77,7 @@ TEST_F(Cull, ClearingOneLayerKeepsThePassesOfTheOthers) {
                                                      .height = 32,
                                                      .format = Format::D32F,
                                                      .layers = 2,
-                                                     .type = backend::TextureType::Texture2DArray,
+                                                     .type = backend::TextureKind::Texture2DArray,
                                                      .name = "cascades" });
     const TextureId out = backbuffer();
     for (uint16_t layer = 0; layer < 2; ++layer) {

@@ -159,7 +159,7 @@ TEST_F(HistoryTest, EveryLevelAndLayerIsCleared) {
                                          .format = Format::RGBA16F,
                                          .levels = 3,
                                          .layers = 6,
-                                         .type = TextureType::Cube,
+                                         .type = TextureKind::Cube,
                                          .name = "probe" });
     graph.addPass(
             "show",

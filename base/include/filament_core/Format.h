@@ -36,6 +36,9 @@ enum class VertexFormat : uint8_t {
 /// Storage of one index.
 enum class IndexFormat : uint8_t { UInt16, UInt32 };
 
+/// The texels of a texture: images, or a volume.
+enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray, Texture3D };
+
 /// How vertices form primitives.
 enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
 

@@ -10,39 +10,23 @@ using namespace backend;
 using shader::Parameter;
 using shader::ParameterType;
 
-const char* kindName(TextureType type) {
+const char* kindName(TextureKind type) {
     switch (type) {
-    case TextureType::Texture2D:
+    case TextureKind::Texture2D:
         return "a 2D texture";
-    case TextureType::Texture2DArray:
+    case TextureKind::Texture2DArray:
         return "an array";
-    case TextureType::Cube:
+    case TextureKind::Cube:
         return "a cube";
-    case TextureType::CubeArray:
+    case TextureKind::CubeArray:
         return "an array of cubes";
-    case TextureType::Texture3D:
+    case TextureKind::Texture3D:
         return "a 3D texture";
     }
     return "a texture";
 }
 
 } // namespace
-
-TextureType textureType(TextureKind kind) {
-    switch (kind) {
-    case TextureKind::Texture2D:
-        return TextureType::Texture2D;
-    case TextureKind::Texture2DArray:
-        return TextureType::Texture2DArray;
-    case TextureKind::Cube:
-        return TextureType::Cube;
-    case TextureKind::CubeArray:
-        return TextureType::CubeArray;
-    case TextureKind::Texture3D:
-        return TextureType::Texture3D;
-    }
-    return TextureType::Texture2D;
-}
 
 TextureKind textureKindOf(ParameterType sampler) {
     switch (sampler) {
@@ -98,7 +82,7 @@ Result<void> checkSampler(scene::Material const& material, Parameter const& para
 
 Result<void> checkTexture(scene::Material const& material, Parameter const& parameter, DeviceTextureDesc const& texture,
                           std::string_view name) {
-    if (texture.type != textureType(textureKindOf(parameter.type))) {
+    if (texture.type != textureKindOf(parameter.type)) {
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",
                     parameter.name, material.name, toString(parameter.type), name, kindName(texture.type));
     }

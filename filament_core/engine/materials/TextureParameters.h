@@ -15,7 +15,6 @@
 
 namespace filament_core::engine {
 
-backend::TextureType textureType(TextureKind kind);
 /// What a sampler reads.
 TextureKind textureKindOf(shader::ParameterType sampler);
 

@@ -73,8 +73,6 @@ struct DrawOrder {
     friend bool operator==(DrawOrder const&, DrawOrder const&) = default;
 };
 
-enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray, Texture3D };
-
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If
 /// it is empty, the contents are undefined. Copied before the call returns.
 /// A 3D texture (`sampler3d` of a material) has an uncompressed format, and `pixels` holds all of its levels: its

@@ -87,7 +87,7 @@ DRIVER_TEST(Clear, AnAreaLoadedLeavesTexelsOutsideAlone) {
 
 DRIVER_TEST(Clear, OneLevelAndLayerOfATextureIsClearedAndNoOther) {
     using enum TextureUsage;
-    const TextureHandle target = gpu.texture({ .type = TextureType::Texture2DArray,
+    const TextureHandle target = gpu.texture({ .type = TextureKind::Texture2DArray,
                                                .format = Format::RGBA8,
                                                .usage = ColorAttachment | TransferSource,
                                                .levels = 3,

@@ -89,7 +89,7 @@ DRIVER_TEST(Device, AProgramThatDoesNotCompileIsReportedByNameAndItsDrawsAreSkip
 
 DRIVER_TEST(Device, ATextureThatDoesNotFitIsReportedByNameAndLifeGoesOn) {
     const uint32_t size = gpu.info().limits.maxTextureSize;
-    const TextureHandle huge = gpu.texture({ .type = TextureType::Texture2DArray,
+    const TextureHandle huge = gpu.texture({ .type = TextureKind::Texture2DArray,
                                              .format = Format::RGBA32F,
                                              .usage = TextureUsage::TransferTarget,
                                              .layers = 2048,

@@ -13,7 +13,7 @@ constexpr uint8_t kLevels = 5;
 
 using enum TextureUsage;
 
-TextureHandle mipped(Gpu& gpu, Format format, TextureUsage attachment, TextureType type = TextureType::Texture2D,
+TextureHandle mipped(Gpu& gpu, Format format, TextureUsage attachment, TextureKind type = TextureKind::Texture2D,
                      uint16_t layers = 1) {
     return gpu.texture({ .type = type,
                          .format = format,
@@ -132,7 +132,7 @@ DRIVER_TEST(TextureRanges, LevelsAreAddedUpwardsWithAFilterWhileTheyAreSampled) 
 }
 
 DRIVER_TEST(TextureRanges, TheFirstLevelAndLayerOfTheRangeAreLevelAndLayerZero) {
-    const TextureHandle array = mipped(gpu, Format::R32F, ColorAttachment, TextureType::Texture2DArray, 4);
+    const TextureHandle array = mipped(gpu, Format::R32F, ColorAttachment, TextureKind::Texture2DArray, 4);
     for (uint8_t level = 0; level < kLevels; ++level) {
         for (uint16_t layer = 0; layer < 4; ++layer) {
             const std::vector<float> texels(size_t{ sizeOf(level) } * sizeOf(level),
@@ -159,7 +159,7 @@ DRIVER_TEST(TextureRanges, TheFirstLevelAndLayerOfTheRangeAreLevelAndLayerZero) 
 }
 
 DRIVER_TEST(TextureRanges, OneLayerIsWrittenWhileOthersAreSampled) {
-    const TextureHandle array = mipped(gpu, Format::R32F, ColorAttachment, TextureType::Texture2DArray, 3);
+    const TextureHandle array = mipped(gpu, Format::R32F, ColorAttachment, TextureKind::Texture2DArray, 3);
     for (uint16_t layer = 0; layer < 2; ++layer) {
         std::vector<float> texels = levelZero();
         for (float& texel : texels) texel += layer;
@@ -226,7 +226,7 @@ DRIVER_TEST(TextureRanges, DepthLevelsKeepTheFarthestOfTheOnesAbove) {
 }
 
 DRIVER_TEST(TextureRanges, AFaceOfACubeIsWrittenWhileTheLevelAboveIsSampled) {
-    const TextureHandle cube = mipped(gpu, Format::R32F, ColorAttachment, TextureType::Cube, 6);
+    const TextureHandle cube = mipped(gpu, Format::R32F, ColorAttachment, TextureKind::Cube, 6);
     for (uint16_t face = 0; face < 6; ++face) {
         const std::vector<float> texels(size_t{ kTextureSize } * kTextureSize, static_cast<float>(face + 1));
         gpu.upload(cube, { 0, 0, kTextureSize, kTextureSize }, bytesOf(texels), 0, face);

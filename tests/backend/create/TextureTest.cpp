@@ -223,7 +223,7 @@ DRIVER_TEST(Texture, OddRowsOfNarrowFormatsAreTightlyPacked) {
 
 DRIVER_TEST(Texture, ArrayLayersAreUploadedTogetherAndSampledApart) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture({ .type = TextureType::Texture2DArray,
+    const TextureHandle texture = gpu.texture({ .type = TextureKind::Texture2DArray,
                                                 .format = Format::R32F,
                                                 .usage = Sampled | TransferTarget,
                                                 .layers = 5,
@@ -243,7 +243,7 @@ DRIVER_TEST(Texture, ArrayLayersAreUploadedTogetherAndSampledApart) {
 
 DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture({ .type = TextureType::Cube,
+    const TextureHandle texture = gpu.texture({ .type = TextureKind::Cube,
                                                 .format = Format::R32F,
                                                 .usage = Sampled | TransferTarget,
                                                 .layers = 6,
@@ -272,7 +272,7 @@ DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
 DRIVER_TEST(Texture, AnArrayOfCubesIsSelectedByTheFourthCoordinate) {
     using enum TextureUsage;
     if (!gpu.info().features.cubeArrays) GTEST_SKIP() << "the device has no arrays of cubes";
-    const TextureHandle texture = gpu.texture({ .type = TextureType::CubeArray,
+    const TextureHandle texture = gpu.texture({ .type = TextureKind::CubeArray,
                                                 .format = Format::R32F,
                                                 .usage = Sampled | TransferTarget,
                                                 .levels = 2,
@@ -303,7 +303,7 @@ DRIVER_TEST(Texture, AnArrayOfCubesIsSelectedByTheFourthCoordinate) {
 
 DRIVER_TEST(Texture, SlicesOfA3DTextureAreUploadedApartAndFilteredTogether) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture({ .type = TextureType::Texture3D,
+    const TextureHandle texture = gpu.texture({ .type = TextureKind::Texture3D,
                                                 .format = Format::R32F,
                                                 .usage = Sampled | TransferTarget,
                                                 .levels = 3,

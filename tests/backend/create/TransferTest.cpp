@@ -146,7 +146,7 @@ DRIVER_TEST(Transfer, AReadbackOfARectangleIsTightlyPackedTopRowFirst) {
 
 DRIVER_TEST(Transfer, ReadbacksReachEveryLevelAndLayer) {
     using enum TextureUsage;
-    for (const TextureType type : { TextureType::Texture2DArray, TextureType::Cube }) {
+    for (const TextureKind type : { TextureKind::Texture2DArray, TextureKind::Cube }) {
         const TextureHandle texture = gpu.texture({ .type = type,
                                                     .format = Format::RGBA8,
                                                     .usage = TransferTarget | TransferSource,
@@ -231,7 +231,7 @@ DRIVER_TEST(Transfer, BlitsConvertFormatsAndReachLevelsAndLayers) {
     Bytes level1;
     for (int i = 0; i < 4; ++i) level1.insert(level1.end(), texel.begin(), texel.end());
     gpu.upload(source, { 0, 0, 2, 2 }, level1, 1);
-    const TextureHandle target = gpu.texture({ .type = TextureType::Texture2DArray,
+    const TextureHandle target = gpu.texture({ .type = TextureKind::Texture2DArray,
                                                .format = Format::RGBA8,
                                                .usage = TransferTarget | TransferSource,
                                                .layers = 3,
@@ -286,7 +286,7 @@ DRIVER_TEST(Transfer, ABlitFromSrgbDecodesEveryCode) {
 
 struct MipCase {
     Format format;
-    TextureType type;
+    TextureKind type;
     uint32_t width, height;
     double tolerance; ///< one step of the format: filters of 8 bits may round twice (Mesa's llvmpipe does)
 };
@@ -296,8 +296,8 @@ void checkMips(Gpu& gpu, MipCase const& one) {
     using enum TextureUsage;
     FormatInfo const& info = formatInfo(one.format);
     const auto levels = static_cast<uint8_t>(fullMipCount(one.width, one.height));
-    const auto layers = static_cast<uint16_t>(one.type == TextureType::Cube             ? 6
-                                              : one.type == TextureType::Texture2DArray ? 3
+    const auto layers = static_cast<uint16_t>(one.type == TextureKind::Cube             ? 6
+                                              : one.type == TextureKind::Texture2DArray ? 3
                                                                                         : 1);
     const TextureHandle texture = gpu.texture({ .type = one.type,
                                                 .format = one.format,
@@ -342,12 +342,12 @@ void checkMips(Gpu& gpu, MipCase const& one) {
 }
 
 DRIVER_TEST(Transfer, GeneratedLevelsAreTheBoxAverageOfTheLevelAbove) {
-    for (MipCase const& one : { MipCase{ Format::RGBA8, TextureType::Texture2D, 16, 16, 1.1 / 255 },
-                                MipCase{ Format::R8, TextureType::Texture2D, 16, 4, 1.1 / 255 },
-                                MipCase{ Format::RGBA16F, TextureType::Texture2D, 8, 8, 1.1 / 1024 },
-                                MipCase{ Format::R32F, TextureType::Texture2D, 8, 2, 1e-6 },
-                                MipCase{ Format::RGBA8, TextureType::Texture2DArray, 4, 4, 1.1 / 255 },
-                                MipCase{ Format::RGBA16F, TextureType::Cube, 8, 8, 1.1 / 1024 } }) {
+    for (MipCase const& one : { MipCase{ Format::RGBA8, TextureKind::Texture2D, 16, 16, 1.1 / 255 },
+                                MipCase{ Format::R8, TextureKind::Texture2D, 16, 4, 1.1 / 255 },
+                                MipCase{ Format::RGBA16F, TextureKind::Texture2D, 8, 8, 1.1 / 1024 },
+                                MipCase{ Format::R32F, TextureKind::Texture2D, 8, 2, 1e-6 },
+                                MipCase{ Format::RGBA8, TextureKind::Texture2DArray, 4, 4, 1.1 / 255 },
+                                MipCase{ Format::RGBA16F, TextureKind::Cube, 8, 8, 1.1 / 1024 } }) {
         SCOPED_TRACE(std::string(formatInfo(one.format).name) + " type " + std::to_string(static_cast<int>(one.type)));
         checkMips(gpu, one);
     }

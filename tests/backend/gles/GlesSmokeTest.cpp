@@ -123,7 +123,7 @@ TEST_F(GlesTest, AProgramThatDoesNotCompileIsNamedAndItsDrawsAreSkipped) {
 
 TEST_F(GlesTest, ATextureThatDoesNotFitIsReportedAndItsPassesAreSkipped) {
     DeviceTextureDesc desc;
-    desc.type = TextureType::Texture2DArray;
+    desc.type = TextureKind::Texture2DArray;
     desc.format = Format::RGBA32F;
     desc.usage = TextureUsage::ColorAttachment;
     desc.width = desc.height = 16384;

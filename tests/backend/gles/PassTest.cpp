@@ -115,7 +115,7 @@ TEST_F(GlesTest, AttachmentsOfOnePassBlendAndMaskEachOnItsOwn) {
 
 TEST_F(GlesTest, LayersAndLevelsAreSeparateAttachments) {
     DeviceTextureDesc desc;
-    desc.type = TextureType::Cube;
+    desc.type = TextureKind::Cube;
     desc.usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource;
     desc.layers = 6;
     desc.levels = 2;

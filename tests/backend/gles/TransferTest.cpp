@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Renderable, FormatTest,
 
 TEST_F(GlesTest, AnUploadReplacesItsRectangleOfItsLayersOnly) {
     DeviceTextureDesc desc = copyable(Format::R8, 4, 2);
-    desc.type = TextureType::Texture2DArray;
+    desc.type = TextureKind::Texture2DArray;
     desc.layers = 3;
     const TextureHandle image = texture(desc);
     const std::vector<uint8_t> zeros(24, 0), ones{ 1, 2, 3, 4 };
@@ -66,7 +66,7 @@ TEST_P(DepthReadTest, DepthReadsAsFloatsWithAndWithoutTheExtension) {
     for (QuirkFilter filter : { QuirkFilter{}, QuirkFilter{ [](Quirks& quirks) { quirks.readDepth = false; } } }) {
         start(filter);
         DeviceTextureDesc desc = copyable(GetParam(), 2, 2);
-        desc.type = TextureType::Texture2DArray;
+        desc.type = TextureKind::Texture2DArray;
         desc.usage = TextureUsage::DepthAttachment | TextureUsage::TransferSource;
         desc.layers = 2;
         const TextureHandle depth = texture(desc);
@@ -125,7 +125,7 @@ TEST_F(GlesTest, NothingIsEncodedToSrgb) {
 
 TEST_F(GlesTest, EveryLayerGetsItsOwnMipLevels) {
     DeviceTextureDesc desc = copyable(Format::R32F, 2, 2, 2);
-    desc.type = TextureType::Cube;
+    desc.type = TextureKind::Cube;
     desc.layers = 6;
     const TextureHandle cube = texture(desc);
     std::vector<float> faces;

@@ -45,7 +45,7 @@ void recordEverything(CommandBuffer& to) {
 TEST(Trace, WritesOneReadableLineACommandAndLeavesDefaultsOut) {
     const TraceText trace = textOf([](CommandBuffer& to) {
         to.record(CmdCreateTexture{ TextureHandle::make(3, 2),
-                                    { .type = TextureType::Cube,
+                                    { .type = TextureKind::Cube,
                                       .format = Format::RGBA16F,
                                       .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
                                       .layers = 6,

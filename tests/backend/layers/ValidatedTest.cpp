@@ -279,12 +279,12 @@ std::vector<Case> objectCases() {
           "5 levels; 8 x 8 has 1..4" },
         { "LayersOf2D", [](C& to) { to.record(textureWith([](auto& d) { d.layers = 2; })); }, "use Texture2DArray" },
         { "SlicesBeyondTheLimit",
-          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Texture3D, d.layers = 9'999; })); },
+          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureKind::Texture3D, d.layers = 9'999; })); },
           "max3DTextureSize" },
         { "AttachmentOf3D",
           [](C& to) {
               to.record(textureWith([](auto& d) {
-                  d.type = TextureType::Texture3D, d.layers = 2;
+                  d.type = TextureKind::Texture3D, d.layers = 2;
                   d.usage = TextureUsage::Sampled | TextureUsage::ColorAttachment;
               }));
           },
@@ -292,7 +292,7 @@ std::vector<Case> objectCases() {
         { "CompressedSlices",
           [](C& to) {
               to.record(textureWith([](auto& d) {
-                  d.type = TextureType::Texture3D, d.layers = 2, d.format = Format::BC7,
+                  d.type = TextureKind::Texture3D, d.layers = 2, d.format = Format::BC7,
                   d.usage = TextureUsage::Sampled;
               }));
           },
@@ -300,7 +300,7 @@ std::vector<Case> objectCases() {
         { "SliceOfASmallerLevel",
           [](C& to) {
               to.record(textureWith([](auto& d) {
-                  d.type = TextureType::Texture3D, d.layers = 4, d.levels = 2;
+                  d.type = TextureKind::Texture3D, d.layers = 4, d.levels = 2;
                   d.usage = TextureUsage::Sampled | TextureUsage::TransferTarget;
               }));
               to.record(CmdUploadTexture{ .texture = TextureHandle::make(20, 1),
@@ -313,16 +313,16 @@ std::vector<Case> objectCases() {
         { "MipsOf3D",
           [](C& to) {
               to.record(textureWith([](auto& d) {
-                  d.type = TextureType::Texture3D, d.layers = 4, d.levels = 2;
+                  d.type = TextureKind::Texture3D, d.layers = 4, d.levels = 2;
                   d.usage = TextureUsage::TransferSource | TextureUsage::TransferTarget;
               }));
               to.record(CmdGenerateMips{ TextureHandle::make(20, 1) });
           },
           "mips of a 3D texture cannot be generated" },
-        { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 5; })); },
+        { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureKind::Cube, d.layers = 5; })); },
           "6 square layers" },
         { "CubesOf8",
-          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::CubeArray, d.layers = 8; })); },
+          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureKind::CubeArray, d.layers = 8; })); },
           "6 square layers per cube" },
         { "TwoSamples",
           [](C& to) {
@@ -459,7 +459,7 @@ std::vector<Case> groupCases() {
           "0 layers from 1 of texture 'image'" },
         { "SomeLayersOfACube",
           [](C& to) {
-              to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 6, d.height = d.width; }));
+              to.record(textureWith([](auto& d) { d.type = TextureKind::Cube, d.layers = 6, d.height = d.width; }));
               recordGroupWith(to, [](auto& e) {
                   e[1].texture = TextureHandle::make(20, 1), e[1].range = { 0, 1, 0, 5 };
               });
@@ -468,7 +468,7 @@ std::vector<Case> groupCases() {
         { "ACubeAndAHalf",
           [](C& to) {
               to.record(
-                      textureWith([](auto& d) { d.type = TextureType::CubeArray, d.layers = 12, d.height = d.width; }));
+                      textureWith([](auto& d) { d.type = TextureKind::CubeArray, d.layers = 12, d.height = d.width; }));
               recordGroupWith(to, [](auto& e) {
                   e[1].texture = TextureHandle::make(20, 1), e[1].range = { 0, 1, 0, 9 };
               });

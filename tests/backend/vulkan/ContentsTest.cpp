@@ -21,7 +21,7 @@ std::span<const std::byte> bytesOf(std::vector<T> const& values) {
 }
 
 TEST_F(DriverTest, AnUploadReplacesExactlyItsRectangleOfItsLevelAndLayers) {
-    const TextureHandle texture = makeTexture({ .type = TextureType::Texture2DArray,
+    const TextureHandle texture = makeTexture({ .type = TextureKind::Texture2DArray,
                                                 .usage = TextureUsage::Sampled | kTransferBoth,
                                                 .levels = 2,
                                                 .layers = 3,
@@ -65,7 +65,7 @@ TEST_F(DriverTest, ManyUploadsInOneStreamOutgrowTheRingWithoutMixingUp) {
 }
 
 TEST_F(DriverTest, MipsAreTwoByTwoAveragesInEveryLayer) {
-    const TextureHandle texture = makeTexture({ .type = TextureType::Cube,
+    const TextureHandle texture = makeTexture({ .type = TextureKind::Cube,
                                                 .usage = TextureUsage::Sampled | kTransferBoth,
                                                 .levels = 3,
                                                 .layers = 6,

@@ -152,7 +152,7 @@ protected:
 };
 
 TEST_F(FailureTest, ATextureTooLargeForTheDeviceIsAnErrorAndItsPassesAreSkipped) {
-    const TextureHandle huge = makeTexture({ .type = TextureType::Texture2DArray,
+    const TextureHandle huge = makeTexture({ .type = TextureKind::Texture2DArray,
                                              .format = Format::RGBA32F,
                                              .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
                                              .layers = 2048,

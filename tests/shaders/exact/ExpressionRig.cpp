@@ -63,9 +63,9 @@ TextureHandle ExpressionRig::randomTexture(CommandBuffer& commands, uint32_t see
     return handle;
 }
 
-TextureHandle ExpressionRig::mippedTexture(CommandBuffer& commands, TextureType type, uint32_t seed) {
+TextureHandle ExpressionRig::mippedTexture(CommandBuffer& commands, TextureKind type, uint32_t seed) {
     const TextureHandle handle = mStream->allocateTexture();
-    const auto layers = static_cast<uint16_t>(type == TextureType::Cube ? 6 : 1);
+    const auto layers = static_cast<uint16_t>(type == TextureKind::Cube ? 6 : 1);
     constexpr uint8_t kLevels = 4;
     commands.record(CmdCreateTexture{ handle,
                                       { .type = type,
@@ -109,8 +109,8 @@ void ExpressionRig::createInputs() {
                  { .binding = 2, .texture = randomTexture(commands, 2, -4.0f, 4.0f), .sampler = nearest },
                  { .binding = 3, .texture = randomTexture(commands, 3, -4.0f, 4.0f), .sampler = nearest },
                  { .binding = 4, .texture = randomTexture(commands, 4, 0.001f, 0.999f), .sampler = nearest },
-                 { .binding = 5, .texture = mippedTexture(commands, TextureType::Texture2D, 5), .sampler = trilinear },
-                 { .binding = 6, .texture = mippedTexture(commands, TextureType::Cube, 6), .sampler = trilinear } };
+                 { .binding = 5, .texture = mippedTexture(commands, TextureKind::Texture2D, 5), .sampler = trilinear },
+                 { .binding = 6, .texture = mippedTexture(commands, TextureKind::Cube, 6), .sampler = trilinear } };
     mTarget = mStream->allocateTexture();
     commands.record(CmdCreateTexture{ mTarget,
                                       { .format = Format::RGBA32F,

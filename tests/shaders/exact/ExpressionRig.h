@@ -31,7 +31,7 @@ private:
 
     void createInputs();
     backend::TextureHandle randomTexture(backend::CommandBuffer& commands, uint32_t seed, float low, float high);
-    backend::TextureHandle mippedTexture(backend::CommandBuffer& commands, backend::TextureType type, uint32_t seed);
+    backend::TextureHandle mippedTexture(backend::CommandBuffer& commands, backend::TextureKind type, uint32_t seed);
     void draw(backend::CommandBuffer& commands, ProgramShaders const& shaders, backend::BindGroupHandle group);
 
     std::unique_ptr<backend::CommandStream> mStream;

@@ -123,10 +123,10 @@ BufferHandle MaterialRig::buffer(CommandBuffer& commands, BufferUsage usage, std
     return handle;
 }
 
-TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureType type, Format format, uint32_t side,
+TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureKind type, Format format, uint32_t side,
                                    std::span<const std::byte> texels) {
     const TextureHandle handle = mStream->allocateTexture();
-    const auto layers = static_cast<uint16_t>(type == TextureType::Cube ? 6 : 1);
+    const auto layers = static_cast<uint16_t>(type == TextureKind::Cube ? 6 : 1);
     commands.record(CmdCreateTexture{ handle,
                                       { .type = type,
                                         .format = format,
@@ -146,7 +146,7 @@ TextureHandle MaterialRig::pattern(CommandBuffer& commands, uint8_t binding) {
     std::vector<uint8_t> texels(kPatternSide * kPatternSide * 4);
     std::mt19937 random(11u + binding);
     for (uint8_t& byte : texels) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
-    made = texture(commands, TextureType::Texture2D, Format::RGBA8, kPatternSide, bytesOf(texels));
+    made = texture(commands, TextureKind::Texture2D, Format::RGBA8, kPatternSide, bytesOf(texels));
     return made;
 }
 
@@ -162,9 +162,9 @@ void MaterialRig::createShared() {
     objects.objects[0] = { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 0 }, { 1, 0, 0, 0 } };
     mObjects = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&objects, 1)));
 
-    mWhiteCube = texture(commands, TextureType::Cube, Format::RGBA32F, 1, bytesOf(std::vector<float>(6 * 4, 1.0f)));
+    mWhiteCube = texture(commands, TextureKind::Cube, Format::RGBA32F, 1, bytesOf(std::vector<float>(6 * 4, 1.0f)));
     jobs::JobSystem jobs({ .workers = 1 });
-    mDfg = texture(commands, TextureType::Texture2D, Format::RGBA16F, kDfgSide,
+    mDfg = texture(commands, TextureKind::Texture2D, Format::RGBA16F, kDfgSide,
                    assets::bakeDfgTable(jobs, kDfgSide).data);
     mSampler = mStream->allocateSampler();
     commands.record(CmdCreateSampler{ mSampler, { .magFilter = Filter::Linear, .minFilter = Filter::Linear } });

@@ -45,7 +45,7 @@ private:
     backend::BufferHandle buffer(backend::CommandBuffer& commands, backend::BufferUsage usage,
                                  std::span<const std::byte> bytes);
     backend::TextureHandle pattern(backend::CommandBuffer& commands, uint8_t binding);
-    backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureType type, backend::Format format,
+    backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureKind type, backend::Format format,
                                    uint32_t side, std::span<const std::byte> texels);
     backend::BindGroupHandle viewGroup(backend::CommandBuffer& commands, MaterialScene const& scene);
     backend::BindGroupHandle passGroup(backend::CommandBuffer& commands, MaterialPackage const& package);
