@@ -124,7 +124,7 @@ private:
 std::unique_ptr<StreamEdit> normalY() {
     return std::make_unique<NormalMapEdit>(1, [](std::byte code) { return ~code; });
 }
-std::unique_ptr<StreamEdit> normalWidth() {
+std::unique_ptr<StreamEdit> normalVariance() {
     return std::make_unique<NormalMapEdit>(3, [](std::byte) { return std::byte{ 0 }; });
 }
 std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
@@ -138,7 +138,7 @@ std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_
 constexpr Mutation kMaterialMutations[] = {
     { "roughness", "roughness + 1 %", roughness },
     { "normalY", "normal maps with y flipped", normalY },
-    { "normalWidth", "roughness without that of averaged normals", normalWidth },
+    { "normalVariance", "roughness without that of averaged normals", normalVariance },
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },

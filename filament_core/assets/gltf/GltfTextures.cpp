@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/image/ColorProfile.h"
 #include "filament_core/assets/image/MipMaps.h"
-#include "filament_core/assets/image/NormalWidths.h"
+#include "filament_core/assets/image/NormalVariance.h"
 #include "filament_core/assets/image/TextureDecoder.h"
 
 #include <exception>
@@ -77,9 +77,9 @@ private:
     }
 
     TextureRef normalsFor(GltfTextureInfo const& info) {
-        const bool hasWidths = mNormals == GltfNormals::WithWidths;
-        TextureRef reference = textureFor(info, hasWidths ? Use::Normals : Use::Data);
-        reference.hasWidths = hasWidths && reference.image != kNone;
+        const bool hasVariance = mNormals == GltfNormals::WithVariance;
+        TextureRef reference = textureFor(info, hasVariance ? Use::Normals : Use::Data);
+        reference.hasVariance = hasVariance && reference.image != kNone;
         return reference;
     }
 
@@ -249,7 +249,7 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
         const auto take = [&] { return --uses == 0 ? std::move(*texture) : *texture; };
         if (job.colorTexture != kNone) job.color = withAllLevels(take(), true, maxSize);
         if (job.dataTexture != kNone) job.data = withAllLevels(take(), false, maxSize);
-        if (hasNormals) job.normals = withNormalWidths(withAllLevels(take(), false, 0), maxSize);
+        if (hasNormals) job.normals = withNormalVariance(withAllLevels(take(), false, 0), maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again",
                                source.image);

@@ -5,7 +5,7 @@
 ///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
 ///           expects a pair of maps in one texture and the file has two that are read alike and have one size, they are
 ///           packed, with one job per distinct pair; others stay apart. TextureRef::image is an index into the jobs'
-///           textures, in order. With GltfNormals::WithWidths, normals are a third use: their alpha is filled.
+///           textures, in order. With GltfNormals::WithVariance, normals are a third use: their alpha is filled.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
 ///   Fails   a missing or broken image is an error that names it.
 #pragma once

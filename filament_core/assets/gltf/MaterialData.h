@@ -41,7 +41,7 @@ struct TextureRef {
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;
     bool isAnimated = false; ///< `placement` changes; hasTransform is true then
-    bool hasWidths = false;  ///< of normals: alpha is what their levels average away (image/NormalWidths.h)
+    bool hasVariance = false;  ///< of normals: alpha is what their levels average away (image/NormalVariance.h)
     UvPlacement placement{}; ///< of uvTransform
 };
 

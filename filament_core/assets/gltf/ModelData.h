@@ -36,7 +36,7 @@ enum class GltfLevels : uint8_t {
 /// What textures of normals hold besides the normals.
 enum class GltfNormals : uint8_t {
     Plain,
-    WithWidths, ///< alpha as image/NormalWidths.h fills it
+    WithVariance, ///< alpha as image/NormalVariance.h fills it
 };
 
 /// Where skins and morph targets are applied.

@@ -75,7 +75,7 @@ public:
         if (texture.image == kNone || !vertices.hasTangents || !hasRoomFor(stem)) return;
         feature(has);
         addMap(stem, texture);
-        if (texture.hasWidths) mSettings->constants.push_back({ stem + std::string("Width"), true });
+        if (texture.hasVariance) mSettings->constants.push_back({ stem + std::string("Width"), true });
         const assets::MapFrame frame = assets::frameOf(texture, vertices.basis);
         if (frame != assets::MapFrame::Vertex)
             mSettings->constants.push_back({ stem + std::string("Frame"), static_cast<int32_t>(frame) });

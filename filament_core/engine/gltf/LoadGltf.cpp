@@ -18,7 +18,7 @@ assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
         .storage = { options.positions, options.tangents },
         .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
         .levels = options.allLevels ? assets::GltfLevels::All : assets::GltfLevels::Finest,
-        .normals = options.normalMapRoughness ? assets::GltfNormals::WithWidths : assets::GltfNormals::Plain,
+        .normals = options.normalMapRoughness ? assets::GltfNormals::WithVariance : assets::GltfNormals::Plain,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
     if (options.progress) {

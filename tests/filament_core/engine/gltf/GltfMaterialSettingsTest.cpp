@@ -55,12 +55,12 @@ TEST(GltfMaterialSettings, AMaterialWithoutExtensionsKeepsThePackageWithoutLayer
 
 TEST(GltfMaterialSettings, WidthsOfNormalsAreReadWhereTheLoaderFilledThem) {
     MaterialData material;
-    material.normal = { .image = 0, .hasWidths = true };
+    material.normal = { .image = 0, .hasVariance = true };
     EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasNormalMap", "normalWidth"));
     EXPECT_THAT(constantsOf(settingsOf(material, { .hasTangents = false })), IsEmpty());
-    material.normal.hasWidths = false;
+    material.normal.hasVariance = false;
     EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasNormalMap"));
-    material.clearCoat = { .factor = 1, .normal = { .image = 0, .hasWidths = true } };
+    material.clearCoat = { .factor = 1, .normal = { .image = 0, .hasVariance = true } };
     EXPECT_THAT(constantsOf(settingsOf(material, {})),
                 UnorderedElementsAre("hasNormalMap", "hasClearCoat", "hasClearCoatNormalMap", "clearCoatNormalWidth"));
 }

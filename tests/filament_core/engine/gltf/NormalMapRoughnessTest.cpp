@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // GltfLoadOptions::normalMapRoughness on both APIs: stripes that a pixel averages look like an even surface that is as
 // much rougher, whatever maps the material has.
-#include "filament_core/assets/image/NormalWidths.h"
+#include "filament_core/assets/image/NormalVariance.h"
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/engine/gltf/QuadFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
@@ -43,7 +43,7 @@ float widthOfStripes() {
     for (int i = 0; i < kImageSide * kImageSide; ++i)
         for (const int code : { i % 2 ? 168 : 87, 128, 248, 255 }) image.data.push_back(static_cast<std::byte>(code));
     image.data.resize(image.data.size() + 4);
-    return static_cast<float>(std::to_integer<int>(assets::withNormalWidths(std::move(image)).data.back())) / 255;
+    return static_cast<float>(std::to_integer<int>(assets::withNormalVariance(std::move(image)).data.back())) / 255;
 }
 
 assets::TextureRef mapOf(Map map) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// withNormalWidths: how far the normals spread that each texel of a mip level averages, in alpha of a normal map.
+/// withNormalVariance: the variance of the normals that each texel of a mip level averages, in alpha of a normal map.
 ///   In      a normal map with all levels, RGBA8 or RGBA16F, [0, 1]^3 for [-1, 1]^3; what its alpha holds is lost.
 ///   Out     the same normals. Alpha is 0 in the first level. In the others it is normalWidth() of the length of the
 ///           mean unit normal of what the texel covers of the first level (shaders/lib/normals.glsl).
@@ -13,6 +13,6 @@
 namespace filament_core::assets {
 
 /// Starts with the first level that is not larger than `maxSize` in any direction (0: no limit).
-Image withNormalWidths(Image image, uint32_t maxSize = 0);
+Image withNormalVariance(Image image, uint32_t maxSize = 0);
 
 } // namespace filament_core::assets

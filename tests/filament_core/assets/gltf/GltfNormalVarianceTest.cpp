@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GltfNormals::WithWidths: which textures hold the widths of averaged normals.
+// GltfNormals::WithVariance: which textures hold the variance of averaged normals.
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
@@ -27,7 +27,7 @@ TestFile striped(const char* material) {
 }
 
 ModelData withWidths(const char* material) {
-    Result<ModelData> model = striped(material).load({ .normals = GltfNormals::WithWidths });
+    Result<ModelData> model = striped(material).load({ .normals = GltfNormals::WithVariance });
     EXPECT_TRUE(model) << model.error().message;
     return model ? std::move(*model) : ModelData{};
 }
@@ -38,17 +38,17 @@ int lastAlpha(ModelData const& model, TextureRef const& texture) {
 
 constexpr const char* kNormalsAlone = R"({ "normalTexture": { "index": 0 } })";
 
-TEST(GltfNormalWidths, FillAlphaOfNormalsIfTheyAreAskedFor) {
+TEST(GltfNormalVariance, FillAlphaOfNormalsIfTheyAreAskedFor) {
     const ModelData plain = loaded(striped(kNormalsAlone)), wide = withWidths(kNormalsAlone);
-    EXPECT_FALSE(plain.materials[0].normal.hasWidths);
+    EXPECT_FALSE(plain.materials[0].normal.hasVariance);
     EXPECT_EQ(lastAlpha(plain, plain.materials[0].normal), 255);
-    EXPECT_TRUE(wide.materials[0].normal.hasWidths);
+    EXPECT_TRUE(wide.materials[0].normal.hasVariance);
     EXPECT_NEAR(lastAlpha(wide, wide.materials[0].normal), 255 * 0.617, 1); // a mean of the length 0.8
     EXPECT_EQ(wide.images.size(), 1u);
     EXPECT_EQ(wide.images[0].data.size(), plain.images[0].data.size()) << "no memory";
 }
 
-TEST(GltfNormalWidths, ImagesWithOtherUsesStayWhatTheyAreThere) {
+TEST(GltfNormalVariance, ImagesWithOtherUsesStayWhatTheyAreThere) {
     const ModelData model = withWidths(R"({ "normalTexture": { "index": 0 }, "occlusionTexture": { "index": 0 },
         "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } })");
     MaterialData const& material = model.materials[0];
@@ -57,23 +57,23 @@ TEST(GltfNormalWidths, ImagesWithOtherUsesStayWhatTheyAreThere) {
     EXPECT_EQ(lastAlpha(model, material.occlusion), 255);
     EXPECT_LT(lastAlpha(model, material.normal), 200);
     EXPECT_EQ(model.images[material.baseColor.image].format, backend::Format::RGBA8Srgb);
-    EXPECT_FALSE(material.occlusion.hasWidths || material.baseColor.hasWidths);
+    EXPECT_FALSE(material.occlusion.hasVariance || material.baseColor.hasVariance);
 }
 
-TEST(GltfNormalWidths, NormalsOfCoatsShareTheTextureOfTheSurface) {
+TEST(GltfNormalVariance, NormalsOfCoatsShareTheTextureOfTheSurface) {
     const ModelData model = withWidths(R"({ "normalTexture": { "index": 0 }, "extensions": {
         "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatNormalTexture": { "index": 0 } },
         "KHR_materials_anisotropy": { "anisotropyStrength": 1, "anisotropyTexture": { "index": 0 } } } })");
     MaterialData const& material = model.materials[0];
-    EXPECT_TRUE(material.clearCoat.normal.hasWidths);
+    EXPECT_TRUE(material.clearCoat.normal.hasVariance);
     EXPECT_EQ(material.clearCoat.normal.image, material.normal.image);
-    EXPECT_FALSE(material.anisotropy.map.hasWidths) << "directions are no normals";
+    EXPECT_FALSE(material.anisotropy.map.hasVariance) << "directions are no normals";
     EXPECT_NE(material.anisotropy.map.image, material.normal.image);
 }
 
-TEST(GltfNormalWidths, KnowWhatDroppedLevelsAveragedAway) {
+TEST(GltfNormalVariance, KnowWhatDroppedLevelsAveragedAway) {
     TestFile file = striped(R"({ "normalTexture": { "index": 0 }, "occlusionTexture": { "index": 0 } })");
-    const Result<ModelData> model = file.load({ .maxTextureSize = 2, .normals = GltfNormals::WithWidths });
+    const Result<ModelData> model = file.load({ .maxTextureSize = 2, .normals = GltfNormals::WithVariance });
     ASSERT_TRUE(model) << model.error().message;
     ASSERT_EQ(model->images.size(), 2u);
     for (Image const& image : model->images) EXPECT_EQ(image.width, 2u);

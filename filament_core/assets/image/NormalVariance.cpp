@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/image/NormalWidths.h"
+#include "filament_core/assets/image/NormalVariance.h"
 
 #include "base/Assert.h"
 #include "base/math/Half.h"
@@ -17,7 +17,7 @@ namespace filament_core::assets {
 namespace {
 
 constexpr size_t kTexelChannels = 4;
-constexpr size_t kWidthChannel = 3;
+constexpr size_t kVarianceChannel = 3;
 
 /// Means of the unit normals of the first level.
 struct NormalMeans {
@@ -86,37 +86,37 @@ NormalMeans halveMeans(NormalMeans const& level) {
     return halveNormals(level.width, level.height, [&](uint32_t y) { return &level.means[size_t{ y } * level.width]; });
 }
 
-void writeWidths(Image& image, uint32_t level, NormalMeans const& normals) {
+void writeVariance(Image& image, uint32_t level, NormalMeans const& normals) {
     const bool isDeep = image.format == backend::Format::RGBA16F;
     std::byte* texel = &image.data[image.levelOffset(level)];
     for (double3 const& mean : normals.means) {
-        const float width = shader::lib::normalWidth(static_cast<float>(glm::length(mean)));
-        const uint16_t half = halfFromFloat(width);
+        const float alpha = shader::lib::normalWidth(static_cast<float>(glm::length(mean)));
+        const uint16_t half = halfFromFloat(alpha);
         if (isDeep)
-            std::memcpy(texel + kWidthChannel * sizeof half, &half, sizeof half);
+            std::memcpy(texel + kVarianceChannel * sizeof half, &half, sizeof half);
         else
-            texel[kWidthChannel] = static_cast<std::byte>(std::lround(width * 255));
+            texel[kVarianceChannel] = static_cast<std::byte>(std::lround(alpha * 255));
         texel += kTexelChannels * (isDeep ? sizeof half : 1);
     }
 }
 
-void clearWidths(Image& image) {
+void clearVariance(Image& image) {
     const size_t channel = image.format == backend::Format::RGBA16F ? sizeof(uint16_t) : 1;
-    for (size_t i = kWidthChannel * channel; i < image.levelBytes(0); i += kTexelChannels * channel)
+    for (size_t i = kVarianceChannel * channel; i < image.levelBytes(0); i += kTexelChannels * channel)
         std::fill_n(&image.data[i], channel, std::byte{ 0 });
 }
 
 } // namespace
 
-Image withNormalWidths(Image image, uint32_t maxSize) {
+Image withNormalVariance(Image image, uint32_t maxSize) {
     FILAMENT_ASSERT((image.format == backend::Format::RGBA8 || image.format == backend::Format::RGBA16F) &&
                             image.layers == 1 && image.levels == backend::fullMipCount(image.width, image.height),
-                    "withNormalWidths takes an image of data with all levels");
-    clearWidths(image);
+                    "withNormalVariance takes an image of data with all levels");
+    clearVariance(image);
     NormalMeans normals;
     for (uint32_t i = 1; i < image.levels; ++i) {
         normals = i == 1 ? meansOfFirst(image) : halveMeans(normals);
-        writeWidths(image, i, normals);
+        writeVariance(image, i, normals);
     }
     dropLargeLevels(image, maxSize);
     return image;
