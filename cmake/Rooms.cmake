@@ -183,7 +183,7 @@ set(FILAMENT_OPTIMIZED_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 # the same bits.
 set(FILAMENT_DEVICE_ENVIRONMENT GALLIVM_PERF=nopt)
 
-# Kept in the build folder for all tests and later runs: compiled materials (tools/packages/PackageCache.h), and the shaders
+# Kept in the build folder for all tests and later runs: compiled materials (toolkit/packages/PackageCache.h), and the shaders
 # of Mesa's drivers.
 set(FILAMENT_SHARED_WORK FILAMENT_PACKAGE_CACHE=${CMAKE_BINARY_DIR}/cache/packages
     MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/cache)

@@ -3,7 +3,7 @@
 # among it, changes the hash.
 file(SHA256 ${COMPILER} hash)
 file(WRITE ${OUTPUT} "// Written by cmake/WriteCompilerIdentity.cmake.
-#include \"tools/packages/PackageCache.h\"
+#include \"toolkit/packages/PackageCache.h\"
 
 namespace filament_core::tools {
 

@@ -2,7 +2,7 @@
 // The engine, and what it loads.
 #include "python/Bindings.h"
 
-#include "tools/materials/PlainMaterials.h"
+#include "toolkit/materials/PlainMaterials.h"
 
 #include <filament_core/Environment.h>
 #include <filament_core/Options.h>

@@ -69,18 +69,18 @@ USERS = ["toolkit", "tools", "python", "tests", "bench"]
 
 # What programs share, bottom up; folder: the ones of this table that it may include, besides itself.
 TOOLKIT = {
-    "tools/paths": [],
-    "tools/packages": [],
-    "tools/showcase": [],
+    "toolkit/paths": [],
+    "toolkit/packages": [],
+    "toolkit/showcase": [],
     "toolkit/machine": [],
     "toolkit/json": [],
     "toolkit/pictures": [],
     "toolkit/mutations": [],
-    "tools/common": ["tools/showcase"],
-    "tools/materials": ["tools/packages", "tools/paths", "tools/showcase"],
+    "toolkit/program": ["toolkit/showcase"],
+    "toolkit/materials": ["toolkit/packages", "toolkit/paths", "toolkit/showcase"],
     "toolkit/record": ["toolkit/machine", "toolkit/json", "toolkit/pictures"],
-    "toolkit/scenes": ["tools/showcase", "tools/materials", "toolkit/json"],
-    "tools/reference": ["tools/common", "toolkit/machine", "toolkit/json"],  # the path tracer, and a program around it
+    "toolkit/scenes": ["toolkit/showcase", "toolkit/materials", "toolkit/json"],
+    "tools/reference": ["toolkit/program", "toolkit/machine", "toolkit/json"],  # the path tracer, and a program around it
 }
 # Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
 PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff", "tools/ltcfit", "tools/matc",

@@ -5,9 +5,9 @@
 // with 95 % certainty. What cannot be seen must have the same bits, the same draws and the same passes, or the program
 // fails. The last line is the time of a pass that fetches one texel a pixel: the lower bound of all full-screen passes.
 #include "base/Statistics.h"
-#include "tools/common/CommandLine.h"
-#include "tools/materials/MaterialStand.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/materials/MaterialStand.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
 

@@ -14,8 +14,8 @@
 #include <fstream>
 
 #include "base/Statistics.h"
-#include "tools/common/CommandLine.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 
 namespace {
 

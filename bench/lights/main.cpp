@@ -6,9 +6,9 @@
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
-#include "tools/common/CommandLine.h"
-#include "tools/materials/MaterialStand.h"
-#include "tools/materials/MaterialTerms.h"
+#include "toolkit/materials/MaterialStand.h"
+#include "toolkit/materials/MaterialTerms.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
 

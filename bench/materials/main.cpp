@@ -7,11 +7,11 @@
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/materials/MaterialStand.h"
+#include "toolkit/materials/MaterialTerms.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 #include "toolkit/scenes/SceneAssets.h"
-#include "tools/common/CommandLine.h"
-#include "tools/materials/MaterialStand.h"
-#include "tools/materials/MaterialTerms.h"
-#include "tools/paths/Paths.h"
 
 #include <filament_core/filament_core.h>
 

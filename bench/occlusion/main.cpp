@@ -7,7 +7,7 @@
 //   Status  0: measured, table on standard output; 1: the reason in one line, or images that differ.
 #include "base/Assert.h"
 #include "base/Statistics.h"
-#include "tools/common/CommandLine.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <filament_core/filament_core.h>
 

@@ -9,8 +9,8 @@
 #include "bench/threading/Report.h"
 #include "bench/threading/Workloads.h"
 #include "toolkit/machine/Machine.h"
-#include "tools/common/CommandLine.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -60,8 +60,7 @@ void recordBytes(CommandBuffer& commands, C const& command, engine::BytesOwner c
 void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament_core::TextureDesc const& desc,
                   engine::BytesOwner const& owner) {
     if (owner) commands.keep(owner);
-    const DeviceTextureDesc layered{ .type = desc.kind,
-                                     .layers = static_cast<uint16_t>(desc.layers) };
+    const DeviceTextureDesc layered{ .type = desc.kind, .layers = static_cast<uint16_t>(desc.layers) };
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
     for (uint32_t level = 0; level < levels; ++level) {

@@ -3,7 +3,8 @@
 ///   Names   the .mat files of shaders/material and shaders/post: "gltf_lit_opaque", "skybox", "tonemap", ...
 ///   Exact   their arithmetic is written out, so that both APIs compute the same bits
 ///           (shaders/compiler/ExactLowering.h). Programs that measure what this costs compile the same materials with
-///           the arithmetic left to the drivers (tools/materials/PlainMaterials.h); the library does not contain those.
+///           the arithmetic left to the drivers (toolkit/materials/PlainMaterials.h); the library does not contain
+///           those.
 ///   Thread  any. Memory: read-only data of the program.
 ///   Fails   an unknown name gives an empty span.
 #pragma once

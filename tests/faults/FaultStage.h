@@ -9,7 +9,7 @@
 #include "filament_core/engine/materials/LoadMaterial.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/filament_core.h>
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/Assert.h"
+#include "toolkit/materials/MaterialFile.h"
 #include "toolkit/scenes/SceneFile.h"
 #include "tools/accuracy/Effect.h"
 #include "tools/accuracy/Shards.h"
@@ -11,7 +12,6 @@
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Results.h"
-#include "tools/materials/MaterialFile.h"
 
 #include <nlohmann/json.hpp>
 

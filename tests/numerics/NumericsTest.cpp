@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shaders/lib over edge grids: fp32 and fp16 compared with fp64 of the same text, and a row for every function in the
 // sources.
+#include "toolkit/paths/Paths.h"
 #include "tools/numerics/Report.h"
-#include "tools/paths/Paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

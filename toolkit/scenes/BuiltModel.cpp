@@ -4,8 +4,8 @@
 #include "base/math/Elementary.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "toolkit/scenes/BuiltLight.h"
-#include "tools/showcase/Shapes.h"
-#include "tools/showcase/Textures.h"
+#include "toolkit/showcase/Shapes.h"
+#include "toolkit/showcase/Textures.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>

@@ -8,8 +8,8 @@
 ///   Fails  InvalidArgument: file, field, what is valid; and as readMaterialFile().
 #pragma once
 
+#include "toolkit/materials/MaterialStand.h"
 #include "toolkit/scenes/SceneFile.h"
-#include "tools/materials/MaterialStand.h"
 
 namespace filament_core::tools {
 

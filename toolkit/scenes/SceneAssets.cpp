@@ -7,7 +7,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/scenes/BuiltModel.h"
-#include "tools/showcase/Showcase.h"
+#include "toolkit/showcase/Showcase.h"
 
 #include <filament_core/LightProfile.h>
 #include <glm/ext/matrix_transform.hpp>

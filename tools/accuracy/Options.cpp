@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Options.h"
 
-#include "tools/common/CommandLine.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 
 namespace filament_core::accuracy {
 namespace {

@@ -3,9 +3,9 @@
 ///   Fails   InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
+#include "toolkit/program/Shard.h"
 #include "tools/accuracy/Measure.h"
 #include "tools/accuracy/comparison/Comparison.h"
-#include "tools/common/Shard.h"
 
 #include <filesystem>
 #include <optional>

@@ -3,9 +3,9 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/Console.h"
 #include "tools/accuracy/PagePictures.h"
-#include "tools/common/Console.h"
-#include "tools/paths/Paths.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,8 +2,8 @@
 #include "tools/accuracy/Settings.h"
 
 #include "base/Suggest.h"
-#include "tools/common/CommandLine.h"
-#include "tools/materials/PlainMaterials.h"
+#include "toolkit/materials/PlainMaterials.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <filament_core/QualityBudget.h>
 

@@ -11,8 +11,8 @@
 #pragma once
 
 #include "base/Result.h"
+#include "toolkit/program/Shard.h"
 #include "tools/accuracy/Results.h"
-#include "tools/common/Shard.h"
 
 #include <filesystem>
 

@@ -5,8 +5,8 @@
 #include "base/Suggest.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/lib/LibCppDouble.h"
+#include "toolkit/materials/MaterialMeshes.h"
 #include "toolkit/scenes/MaterialModel.h"
-#include "tools/materials/MaterialMeshes.h"
 #include "tools/reference/Surface.h"
 
 #include <algorithm>

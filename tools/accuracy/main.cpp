@@ -2,12 +2,12 @@
 // filament-accuracy [options]: error and cost of every named choice, as JSON, CSV, plots and one page.
 // Exit status 0: measured and written.
 #include "toolkit/machine/Machine.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Program.h"
 #include "tools/accuracy/Options.h"
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/Shards.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
-#include "tools/common/Console.h"
-#include "tools/common/Program.h"
 
 #include <nlohmann/json.hpp>
 

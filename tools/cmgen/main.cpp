@@ -10,8 +10,8 @@
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCpp.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/Program.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/Program.h"
 
 #include <fmt/format.h>
 

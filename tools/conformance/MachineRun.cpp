@@ -3,8 +3,8 @@
 
 #include "base/Assert.h"
 #include "toolkit/pictures/ImageCompare.h"
-#include "tools/common/ChildProcess.h"
-#include "tools/common/Console.h"
+#include "toolkit/program/ChildProcess.h"
+#include "toolkit/program/Console.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Machines.h"

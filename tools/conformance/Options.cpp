@@ -2,9 +2,9 @@
 #include "tools/conformance/Options.h"
 
 #include "toolkit/mutations/Mutations.h"
-#include "tools/common/CommandLine.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/CommandLine.h"
 #include "tools/conformance/Machines.h"
-#include "tools/paths/Paths.h"
 
 #include <filament_core/Quality.h>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/Result.h"
-#include "tools/common/Shard.h"
+#include "toolkit/program/Shard.h"
 
 #include <filament_core/Engine.h>
 

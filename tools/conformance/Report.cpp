@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/mutations/Mutations.h"
-#include "tools/common/Html.h"
+#include "toolkit/program/Html.h"
 #include "tools/conformance/Machines.h"
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "toolkit/json/JsonReader.h"
-#include "tools/common/Shard.h"
+#include "toolkit/program/Shard.h"
 
 #include <filesystem>
 #include <map>

@@ -2,8 +2,8 @@
 #include "tools/conformance/Stage.h"
 
 #include "base/Result.h"
-#include "tools/materials/PictureFile.h"
-#include "tools/materials/PlainMaterials.h"
+#include "toolkit/materials/PictureFile.h"
+#include "toolkit/materials/PlainMaterials.h"
 
 #include <filament_core/Animator.h>
 #include <filament_core/ModelCopy.h>

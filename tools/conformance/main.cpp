@@ -3,8 +3,8 @@
 // pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. 130: stopped by Ctrl-C, with a
 // report of the cases until then. docs/conformance.md.
 #include "toolkit/mutations/Mutations.h"
-#include "tools/common/Console.h"
-#include "tools/common/Program.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Program.h"
 #include "tools/conformance/Against.h"
 #include "tools/conformance/Machines.h"
 #include "tools/conformance/Report.h"

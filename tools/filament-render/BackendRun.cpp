@@ -2,12 +2,12 @@
 #include "tools/filament-render/BackendRun.h"
 
 #include "base/Statistics.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/Console.h"
+#include "toolkit/materials/MaterialStand.h"
+#include "toolkit/materials/PictureFile.h"
+#include "toolkit/materials/PlainMaterials.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/Console.h"
 #include "tools/filament-render/HeapCounter.h"
-#include "tools/materials/MaterialStand.h"
-#include "tools/materials/PictureFile.h"
-#include "tools/materials/PlainMaterials.h"
 
 #include <filament_core/Animator.h>
 #include <filament_core/Environment.h>

@@ -2,7 +2,7 @@
 #include "tools/filament-render/Options.h"
 
 #include "jobsystem/Topology.h"
-#include "tools/common/CommandLine.h"
+#include "toolkit/program/CommandLine.h"
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 #include "tools/filament-render/SaveFrame.h"
 
 #include "toolkit/json/JsonFile.h"
+#include "toolkit/program/Console.h"
 #include "toolkit/record/SavedFrame.h"
-#include "tools/common/Console.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,8 +5,8 @@
 ///   Fails   errors of saveFrame(); Internal if an API does not draw again what was shown. The folder is then complete.
 #pragma once
 
+#include "toolkit/showcase/Showcase.h"
 #include "tools/filament-render/BackendRun.h"
-#include "tools/showcase/Showcase.h"
 
 #include <span>
 

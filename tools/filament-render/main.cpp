@@ -5,16 +5,16 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/machine/DriverPromise.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/materials/MaterialFile.h"
 #include "toolkit/pictures/ImageCompare.h"
-#include "tools/common/Console.h"
-#include "tools/common/Program.h"
-#include "tools/common/SceneFiles.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Program.h"
+#include "toolkit/program/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
 #include "tools/filament-render/CheckAsset.h"
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/filament-render/SaveFrame.h"
-#include "tools/materials/MaterialFile.h"
 
 #include <filament_core/Look.h>
 

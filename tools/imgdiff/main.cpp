@@ -3,8 +3,8 @@
 // Exit status 0: within the tolerance; 1: not; 2: the pictures could not be compared.
 #include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/pictures/ImageCompare.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/StandardOutput.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/StandardOutput.h"
 
 #include <cstdio>
 

@@ -2,8 +2,8 @@
 #include "tools/matc/Options.h"
 
 #include "shaders/package/PackageFormat.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/StandardOutput.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/StandardOutput.h"
 
 #include <filament_core/Version.h>
 

@@ -13,7 +13,7 @@
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/compiler/Templates.h"
-#include "tools/common/StandardOutput.h"
+#include "toolkit/program/StandardOutput.h"
 #include "tools/matc/Options.h"
 
 #include <atomic>

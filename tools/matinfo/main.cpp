@@ -3,8 +3,8 @@
 ///   Out     parameters, constants, sizes of the variants; with --code the code of one stage.
 ///   Status  0: printed; 1: the package, or what was asked of it; 2: the command line.
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/StandardOutput.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/StandardOutput.h"
 #include "tools/matinfo/Describe.h"
 
 #include <cstdio>

@@ -3,8 +3,8 @@
 // over edge grids in fp32 and fp16 on the CPU and both APIs, and compares with fp64. Exit status 0: every promise is
 // kept. 1: some are broken, or the run failed. See docs/numerics.md.
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/Program.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/Program.h"
 #include "tools/numerics/Report.h"
 
 #include <cstdio>

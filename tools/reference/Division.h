@@ -6,7 +6,7 @@
 ///   Thread  pure functions.
 #pragma once
 
-#include "tools/common/Shard.h"
+#include "toolkit/program/Shard.h"
 #include "tools/reference/PartialFilm.h"
 
 #include <string>

@@ -11,7 +11,7 @@
 ///   Thread  any.
 #pragma once
 
-#include "tools/common/Shard.h"
+#include "toolkit/program/Shard.h"
 #include "tools/reference/PartialFilm.h"
 
 #include <filesystem>

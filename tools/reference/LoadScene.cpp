@@ -6,8 +6,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelVariants.h"
-#include "tools/common/Console.h"
-#include "tools/common/SceneFiles.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/SceneFiles.h"
 
 #include <glm/trigonometric.hpp>
 

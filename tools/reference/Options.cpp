@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/Options.h"
 
-#include "tools/common/CommandLine.h"
+#include "toolkit/program/CommandLine.h"
 #include "tools/reference/Division.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 ///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
-#include "tools/common/SceneOptions.h"
-#include "tools/common/Shard.h"
+#include "toolkit/program/SceneOptions.h"
+#include "toolkit/program/Shard.h"
 #include "tools/reference/PartialFilm.h"
 
 #include <optional>

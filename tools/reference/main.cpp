@@ -2,9 +2,9 @@
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
 // Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C; a part is then not written.
 #include "toolkit/machine/Machine.h"
-#include "tools/common/Console.h"
-#include "tools/common/Program.h"
-#include "tools/common/SceneFiles.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Program.h"
+#include "toolkit/program/SceneFiles.h"
 #include "tools/reference/LoadScene.h"
 #include "tools/reference/Merge.h"
 #include "tools/reference/Output.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/replay/Options.h"
 
-#include "tools/common/CommandLine.h"
+#include "toolkit/program/CommandLine.h"
 
 namespace filament_core::replay {
 namespace {

@@ -2,8 +2,8 @@
 #include "tools/replay/ReplayFolder.h"
 
 #include "base/Hash.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/Console.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/Console.h"
 #include "tools/replay/Attachments.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-replay FOLDER [options]: draws a saved frame again and compares the bits. docs/saved-frames.md
 // Exit status 0: everything has the recorded bits.
-#include "tools/common/Program.h"
+#include "toolkit/program/Program.h"
 #include "tools/replay/ReplayFolder.h"
 
 namespace filament_core::replay {

@@ -3,7 +3,7 @@
 
 #include "filament_core/assets/gltf/GltfExtensions.h"
 #include "shaders/compiler/LanguageTables.h"
-#include "tools/common/SceneChoices.h"
+#include "toolkit/program/SceneChoices.h"
 
 #include <filament_core/View.h>
 

@@ -2,8 +2,8 @@
 // filament-tables [--write] FILE...: the tables of documents, made from those that the programs read. Exit status 0:
 // all are current, or were written. 1: some are not, or a file is at fault.
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/common/CommandLine.h"
-#include "tools/common/Program.h"
+#include "toolkit/program/CommandLine.h"
+#include "toolkit/program/Program.h"
 #include "tools/tables/Tables.h"
 
 #include <cstdio>

@@ -2,8 +2,8 @@
 // filament-view [MODEL] [options]: shows a model or a material in a window.
 // Exit status 0: the window was closed, or all files of the scene were loaded and the frames of --frames or --frames-to
 // drawn, without an error.
-#include "tools/common/Program.h"
-#include "tools/common/SceneFiles.h"
+#include "toolkit/program/Program.h"
+#include "toolkit/program/SceneFiles.h"
 #include "tools/view/app/RunViewer.h"
 
 int main(int argc, char** argv) {

@@ -40,9 +40,9 @@ struct TextureRef {
     uint32_t uvSet = 0;           ///< 0 or 1
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;
-    bool isAnimated = false; ///< `placement` changes; hasTransform is true then
-    bool hasVariance = false;  ///< of normals: alpha is what their levels average away (image/NormalVariance.h)
-    UvPlacement placement{}; ///< of uvTransform
+    bool isAnimated = false;  ///< `placement` changes; hasTransform is true then
+    bool hasVariance = false; ///< of normals: alpha is what their levels average away (image/NormalVariance.h)
+    UvPlacement placement{};  ///< of uvTransform
 };
 
 /// The texture coordinates that the tangents of a primitive follow.

@@ -4,7 +4,7 @@
 #include "backend/layers/Validated.h"
 #include "backend/null/NullDriver.h"
 #include "backend/stream/CommandBuffer.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // What the backend does to the words of shaders before the driver gets them: modules that no compiler writes, and the
 // fuzzer's corpus, whole and damaged.
 #include "tests/backend/vulkan/ShaderWordsFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

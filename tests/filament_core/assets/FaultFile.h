@@ -2,7 +2,7 @@
 /// faultFile: a small input that went wrong once. They lie in "faults" beside the folder of the assets.
 #pragma once
 
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 /// Programs and libraries of other authors that write what ours reads, from npm.
 #pragma once
 
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "shaders/package/Package.h"
-#include "tools/packages/PackageCache.h"
+#include "toolkit/packages/PackageCache.h"
 
 #include <gtest/gtest.h>
 

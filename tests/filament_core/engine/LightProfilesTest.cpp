@@ -6,7 +6,7 @@
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 #include "tests/filament_core/prepare/BoxScene.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/LightProfile.h>
 

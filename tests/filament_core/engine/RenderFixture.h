@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/math/Half.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/filament_core.h>
 

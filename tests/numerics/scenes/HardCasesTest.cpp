@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws every row of the table on both APIs. The images are in <build>/hard/.
 #include "tests/numerics/scenes/HardCase.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

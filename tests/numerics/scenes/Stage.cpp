@@ -4,7 +4,7 @@
 #include "base/math/Half.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/samples/materials/SampleStage.h"
 
+#include "toolkit/paths/Paths.h"
 #include "toolkit/pictures/ImageChecks.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Stage.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "tests/samples/materials/SampleTable.h"
-#include "tools/materials/MaterialFile.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/materials/MaterialFile.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/Backend.h>
 #include <filament_core/Image.h>

@@ -2,7 +2,7 @@
 /// SampleTable: the expected effect of each file in samples/materials.
 #pragma once
 
-#include "tools/materials/MaterialFile.h"
+#include "toolkit/materials/MaterialFile.h"
 
 #include <cstdint>
 #include <ostream>

@@ -2,10 +2,10 @@
 // White furnace of every shading model and layer as drawn: an entirely white sphere in a white environment is nowhere
 // brighter than the background, on both APIs. Prints the largest loss.
 #include "base/math/Half.h"
+#include "toolkit/materials/MaterialStand.h"
+#include "toolkit/materials/MaterialTerms.h"
+#include "toolkit/paths/Paths.h"
 #include "toolkit/scenes/SceneAssets.h"
-#include "tools/materials/MaterialStand.h"
-#include "tools/materials/MaterialTerms.h"
-#include "tools/paths/Paths.h"
 
 #include <filament_core/filament_core.h>
 

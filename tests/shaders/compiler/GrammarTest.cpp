@@ -2,7 +2,7 @@
 // The editor's grammar colours every material of the project as an independent reading of the text says.
 #include "shaders/compiler/GlslKeywords.h"
 #include "tests/shaders/compiler/TextMateTokenizer.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

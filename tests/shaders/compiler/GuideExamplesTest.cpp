@@ -2,7 +2,7 @@
 // Every complete example of the materials guide, extracted from its text, compiles unchanged, or is listed here with
 // its errors.
 #include "shaders/compiler/MaterialCompiler.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "shaders/compiler/GlslKeywords.h"
 #include "shaders/compiler/LanguageTables.h"
 #include "shaders/compiler/MaterialCompiler.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays the fuzzer's corpus of material texts in tests/fuzz/corpus, and edits of it, without clang.
 #include "tests/shaders/compiler/MaterialTextFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Materials that compile and say something odd; and that our own say nothing odd.
 #include "shaders/compiler/IgnoredNames.h"
 #include "shaders/compiler/MaterialCompiler.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

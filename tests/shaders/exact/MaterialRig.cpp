@@ -6,7 +6,7 @@
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/ParameterLayout.h"
 #include "shaders/package/RemoveUnusedTextures.h"
-#include "tools/packages/PackageCache.h"
+#include "toolkit/packages/PackageCache.h"
 
 #include <cmath>
 #include <cstring>

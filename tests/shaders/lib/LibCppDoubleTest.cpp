@@ -2,7 +2,7 @@
 // The shader library in double precision: it is really double, it is the same library, and it is complete.
 #include "shaders/lib/LibCppDouble.h"
 #include "shaders/lib/LibCpp.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

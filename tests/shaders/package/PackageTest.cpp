@@ -8,7 +8,7 @@
 #include "shaders/package/ParameterLayout.h"
 #include "tests/shaders/EditStage.h"
 #include "tests/shaders/package/PackageFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small images of real rows, on both APIs.
+#include "toolkit/paths/Paths.h"
 #include "tools/accuracy/Measure.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

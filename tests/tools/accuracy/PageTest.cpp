@@ -2,8 +2,8 @@
 // The report's images are files in a folder with the page's name: every image that a page shows exists, and those
 // of an earlier report are deleted.
 #include "tools/accuracy/Page.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/accuracy/PagePictures.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows divided among machines merge to the data of one run; what is no complete run is refused with its file.
 #include "tools/accuracy/Shards.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/accuracy/Page.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of effects: committed rows can be measured, and errors are refused in one line.
+#include "toolkit/paths/Paths.h"
 #include "tools/accuracy/Effect.h"
 #include "tools/accuracy/Integrals.h"
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/SceneLibrary.h"
 #include "tools/accuracy/Settings.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays edits of the tools' own files, without clang: each gives contents or an error of one line.
 #include "tests/fuzz/ToolFilesFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/mutations/Mutations.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/program/ChildProcess.h"
+#include "toolkit/program/Interrupt.h"
 #include "toolkit/scenes/BuiltModel.h"
 #include "toolkit/scenes/MaterialModel.h"
-#include "tools/common/ChildProcess.h"
-#include "tools/common/Interrupt.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Runner.h"
-#include "tools/paths/Paths.h"
 
 #include <filament_core/Photometry.h>
 

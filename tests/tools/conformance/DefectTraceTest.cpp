@@ -3,8 +3,8 @@
 #include "toolkit/mutations/DefectTrace.h"
 #include "backend/stream/CommandBuffer.h"
 #include "toolkit/mutations/Mutations.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/Runner.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

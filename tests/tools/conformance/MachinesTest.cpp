@@ -4,12 +4,12 @@
 #include "tools/conformance/Machines.h"
 #include "tests/toolkit/pictures/Pictures.h"
 #include "toolkit/machine/Machine.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/Baselines.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
 #include "tools/conformance/Report.h"
 #include "tools/conformance/Runner.h"
-#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // The case "mip-chain" shows what it claims: changing one code of any level by one changes one pixel, that of its
 // texel.
 #include "toolkit/mutations/Mutations.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/Stage.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

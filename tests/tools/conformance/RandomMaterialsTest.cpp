@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Generated materials compile and are the same for a seed; the reducer keeps what fails and little else.
 #include "shaders/compiler/MaterialCompiler.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/random/MaterialGenerator.h"
 #include "tools/conformance/random/MaterialReducer.h"
 #include "tools/conformance/random/RandomRun.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Report.h"
 #include "tests/toolkit/pictures/Pictures.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/Baselines.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

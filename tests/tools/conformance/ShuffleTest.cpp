@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of --shuffle, and that images do not depend on it.
+#include "toolkit/paths/Paths.h"
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/Dice.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -3,8 +3,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/HdrReader.h"
-#include "tools/paths/Paths.h"
-#include "tools/showcase/Showcase.h"
+#include "toolkit/paths/Paths.h"
+#include "toolkit/showcase/Showcase.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/package/Package.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/Version.h>
 

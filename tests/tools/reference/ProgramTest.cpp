@@ -6,7 +6,7 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageWriter.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/reference/Output.h"
 
 #include <gmock/gmock.h>

@@ -2,7 +2,7 @@
 // filament-replay: its options, what it does with a saved frame, and the program itself.
 #include "tests/toolkit/record/SmallScene.h"
 #include "toolkit/mutations/Mutations.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/replay/ReplayFolder.h"
 
 #include <gmock/gmock.h>

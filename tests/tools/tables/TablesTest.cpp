@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The documents have the tables of the programs, and a document that is not current is found.
 #include "tools/tables/Tables.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

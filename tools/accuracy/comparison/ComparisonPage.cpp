@@ -4,7 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "toolkit/json/JsonFile.h"
-#include "tools/common/Html.h"
+#include "toolkit/program/Html.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,8 +3,8 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/pictures/ImageCompare.h"
-#include "tools/common/Console.h"
-#include "tools/common/Interrupt.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Interrupt.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/MaterialGenerator.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/RunViewer.h"
 
-#include "tools/common/Console.h"
-#include "tools/common/Program.h"
-#include "tools/common/SceneFiles.h"
+#include "toolkit/program/Console.h"
+#include "toolkit/program/Program.h"
+#include "toolkit/program/SceneFiles.h"
 #include "tools/view/app/RecentFiles.h"
 #include "tools/view/app/Viewer.h"
 #include "tools/view/app/Window.h"

@@ -2,7 +2,7 @@
 #include "tools/view/app/VideoFile.h"
 
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/common/ChildProcess.h"
+#include "toolkit/program/ChildProcess.h"
 
 #include <fmt/format.h>
 

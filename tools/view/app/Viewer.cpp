@@ -2,7 +2,7 @@
 // Size: perform() is a table: an action a case.
 #include "tools/view/app/Viewer.h"
 
-#include "tools/materials/PlainMaterials.h"
+#include "toolkit/materials/PlainMaterials.h"
 #include "tools/view/app/ApiPicture.h"
 #include "tools/view/app/OpenFiles.h"
 #include "tools/view/panels/AnimationModel.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/app/ViewerOptions.h"
 
-#include "tools/common/CommandLine.h"
+#include "toolkit/program/CommandLine.h"
 #include "tools/view/panels/Panels.h"
 
 #include <fmt/format.h>

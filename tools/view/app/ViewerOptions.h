@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/Result.h"
-#include "tools/common/SceneOptions.h"
+#include "toolkit/program/SceneOptions.h"
 #include "tools/view/app/ComparedPictures.h"
 #include "tools/view/app/PathFrames.h"
 

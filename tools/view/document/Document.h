@@ -8,7 +8,7 @@
 #pragma once
 
 #include "base/Result.h"
-#include "tools/common/SceneOptions.h"
+#include "toolkit/program/SceneOptions.h"
 #include "tools/view/document/CameraPath.h"
 
 #include <filament_core/Environment.h>

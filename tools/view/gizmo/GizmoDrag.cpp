@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/gizmo/GizmoDrag.h"
 
-#include "tools/common/RoundStep.h"
+#include "toolkit/program/RoundStep.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

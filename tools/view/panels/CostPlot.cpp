@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/panels/CostPlot.h"
 
-#include "tools/common/RoundStep.h"
+#include "toolkit/program/RoundStep.h"
 #include "tools/view/panels/PanelText.h"
 
 #include <fmt/format.h>

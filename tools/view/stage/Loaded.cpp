@@ -6,7 +6,7 @@
 #include "filament_core/engine/materials/LoadMaterial.h"
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/ParameterLayout.h"
-#include "tools/materials/PictureFile.h"
+#include "toolkit/materials/PictureFile.h"
 
 #include <cstring>
 

@@ -7,7 +7,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/image/Image.h"
 #include "filament_core/scene/Materials.h"
-#include "tools/materials/MaterialStand.h"
+#include "toolkit/materials/MaterialStand.h"
 #include "tools/view/document/Document.h"
 #include "tools/view/stage/Background.h"
 

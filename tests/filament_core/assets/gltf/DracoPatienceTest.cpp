@@ -2,7 +2,7 @@
 // One stream of a file may be too slow; those behind it are not decoded.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/Draco.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // EXT_lights_ies: photometric files at nodes.
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

@@ -9,7 +9,7 @@
 #include "tests/filament_core/assets/gltf/ImageBasedLightFile.h"
 #include "tests/filament_core/assets/image/DdsWriter.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 #include "tests/filament_core/assets/blocks/BasisWriter.h"
 #include "tests/filament_core/assets/image/Ktx2Packing.h"
 #include "tests/filament_core/assets/image/Ktx2Writer.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

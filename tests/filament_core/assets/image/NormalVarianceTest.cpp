@@ -102,7 +102,7 @@ TEST(NormalVariance, NormalsThatCancelOutAndThatAreNoneAreKnown) {
     };
     set(0, 255, 128, 128), set(1, 0, 127, 127);
     EXPECT_EQ(widthAt(withNormalVariance(opposed), 1), 255);
-    set(0, 128, 128, 128), set(1, 128, 128, 255);        // no normal counts as +z, as in normalFromTexel()
+    set(0, 128, 128, 128), set(1, 128, 128, 255);          // no normal counts as +z, as in normalFromTexel()
     EXPECT_LE(widthAt(withNormalVariance(opposed), 1), 1); // 128 is not quite 0
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "filament_core/assets/files/FileBytes.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

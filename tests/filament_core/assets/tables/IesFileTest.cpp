@@ -2,7 +2,7 @@
 // Photometric files: every type, symmetry and edition against a function that generates the file, fluxes against closed
 // forms, and errors that name line and cure.
 #include "tests/fuzz/IesFuzzBody.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // Every built-in material on both APIs, against closed forms and against each other; their parameters against the table
 // of docs/built-in-materials.md.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
-#include "tools/materials/PlainMaterials.h"
+#include "toolkit/materials/PlainMaterials.h"
 
 #include <filament_core/BuiltInMaterials.h>
 #include <filament_core/Primitives.h>

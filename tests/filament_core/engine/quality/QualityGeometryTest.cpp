@@ -4,7 +4,7 @@
 #include "tests/scenes/Sphere.h"
 
 #include "filament_core/assets/gltf/GltfWriter.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <fstream>
 

@@ -7,8 +7,8 @@
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
-#include "tools/packages/PackageCache.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/packages/PackageCache.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 /// Shared by the tests of comparisons: the committed rows and scenes, a folder for output, small images.
 #pragma once
 
+#include "toolkit/paths/Paths.h"
 #include "tools/accuracy/comparison/Comparison.h"
-#include "tools/paths/Paths.h"
 
 #include <filesystem>
 #include <fstream>

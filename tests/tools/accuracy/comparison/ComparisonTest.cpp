@@ -2,8 +2,8 @@
 // The engine compared with the path tracer, in small images: the unexplained difference stays below a limit, and the
 // limit detects an engine that shades differently.
 #include "tests/tools/accuracy/comparison/ComparisonFixture.h"
+#include "toolkit/program/Html.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
-#include "tools/common/Html.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tests/tools/view/app/TestScene.h"
-#include "tools/materials/MaterialFile.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/materials/MaterialFile.h"
+#include "toolkit/paths/Paths.h"
 #include "tools/view/app/Viewer.h"
 
 #include <fmt/format.h>

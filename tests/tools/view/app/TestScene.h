@@ -2,7 +2,7 @@
 /// The showcase as a document of the viewer, written once for each process.
 #pragma once
 
-#include "tools/showcase/Showcase.h"
+#include "toolkit/showcase/Showcase.h"
 #include "tools/view/app/ViewerOptions.h"
 #include "tools/view/document/Document.h"
 

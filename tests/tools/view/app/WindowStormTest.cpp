@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What people do to a window, in rounds that end where they began: with the same image, and without more memory.
 #include "tests/tools/view/app/WindowStage.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/paths/Paths.h"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A material file that is loaded again: compiled only if something changed on which its code depends.
-#include "tools/materials/MaterialFile.h"
+#include "toolkit/materials/MaterialFile.h"
 
 #include <gtest/gtest.h>
 

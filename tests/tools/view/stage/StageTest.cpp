@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/view/stage/Stage.h"
 #include "tests/tools/view/stage/StageFiles.h"
-#include "tools/materials/MaterialFile.h"
-#include "tools/paths/Paths.h"
+#include "toolkit/materials/MaterialFile.h"
+#include "toolkit/paths/Paths.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gmock/gmock.h>
