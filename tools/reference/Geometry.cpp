@@ -148,6 +148,10 @@ Part makePart(PrimitiveData const& primitive, double4x4 const& worldFromObject, 
         const auto location = static_cast<uint8_t>(shader::kAttributeUv0 + set);
         for (float4 const& uv : decodeAttribute(primitive, location)) part.uvs[set].emplace_back(uv.x, uv.y);
     }
+    for (float4 const& others : decodeAttribute(primitive, shader::kAttributeCustom0)) {
+        part.uvs[2].emplace_back(others.x, others.y);
+        part.uvs[3].emplace_back(others.z, others.w);
+    }
     return part;
 }
 
@@ -161,7 +165,7 @@ Varyings colorVaryingsAt(Part const& part, TrianglePoint const& point) {
     const Corners corners = cornersOf(part, point);
     Varyings varyings;
     if (!part.colors.empty()) varyings.color = corners.mix(part.colors);
-    for (size_t set = 0; set < 2; ++set) {
+    for (size_t set = 0; set < std::size(part.uvs); ++set) {
         if (!part.uvs[set].empty()) varyings.uvs[set] = corners.mix(part.uvs[set]);
     }
     return varyings;
@@ -176,7 +180,7 @@ Varyings varyingsAt(Part const& part, TrianglePoint const& point) {
     varyings.longestEdge = std::max({ glm::distance(a, b), glm::distance(b, c), glm::distance(c, a) });
     varyings.edges[0] = b - a;
     varyings.edges[1] = c - a;
-    for (size_t set = 0; set < 2; ++set) {
+    for (size_t set = 0; set < std::size(part.uvs); ++set) {
         std::vector<float2> const& uvs = part.uvs[set];
         if (uvs.empty()) continue;
         varyings.uvEdges[set][0] = double2(uvs[corners.b]) - double2(uvs[corners.a]);

@@ -24,7 +24,7 @@ struct Part {
     std::vector<double3> normals;                 ///< world, unit or zero
     std::vector<double4> tangents;                ///< world; w: sign of the bitangent
     std::vector<float4> colors;                   ///< empty: white
-    std::vector<float2> uvs[2];                   ///< empty: (0, 0)
+    std::vector<float2> uvs[4];                   ///< empty: (0, 0)
     std::vector<uint32_t> indices;                ///< three per triangle
     double sceneFromMesh = 1;                     ///< metres of the file's scene per metre of the mesh
     double worldFromScene = 1;                    ///< metres of the world per metre of the scene
@@ -52,9 +52,9 @@ struct Varyings {
     double3 normal{ 0, 0, 1 };
     double4 tangent{ 0, 0, 0, 1 };
     double4 color{ 1.0 };
-    double2 uvs[2]{ double2(0.0), double2(0.0) };
+    double2 uvs[4]{ double2(0.0), double2(0.0), double2(0.0), double2(0.0) };
     double3 edges[2]{ double3(0.0), double3(0.0) }; ///< from the first corner to the second and to the third
-    double2 uvEdges[2][2]{};                        ///< of each set, along those edges
+    double2 uvEdges[4][2]{};                        ///< of each set, along those edges
 };
 
 Varyings varyingsAt(Part const& part, TrianglePoint const& point);

@@ -76,11 +76,12 @@ struct GltfAccessor {
 
 /// Accessor per attribute; kNone: absent.
 struct GltfAttributes {
-    static constexpr uint32_t kUvSets = 2, kJointSets = 2;
+    static constexpr uint32_t kUvSets = 4, kJointSets = 2;
+    static constexpr uint32_t kFirstUvSets = 2; ///< are kept even if no map uses them
     uint32_t position = kNone, normal = kNone, tangent = kNone, color = kNone;
-    std::array<uint32_t, kUvSets> uv{ kNone, kNone }; ///< those of `uvSets` that are kept (GltfUvSets.h)
-    std::array<uint32_t, kUvSets> keptSets{ 0, 1 };   ///< which those are
-    std::vector<uint32_t> uvSets;                     ///< TEXCOORD_n of the file, by n
+    std::array<uint32_t, kUvSets> uv{ kNone, kNone, kNone, kNone }; ///< those of `uvSets` that are kept (GltfUvSets.h)
+    std::array<uint32_t, kUvSets> keptSets{ 0, 1, kNone, kNone };   ///< which those are
+    std::vector<uint32_t> uvSets;                                   ///< TEXCOORD_n of the file, by n
     std::array<uint32_t, kJointSets> joints{ kNone, kNone };
     std::array<uint32_t, kJointSets> weights{ kNone, kNone };
 
@@ -204,7 +205,7 @@ struct GltfSkin {
 
 struct GltfTextureInfo {
     uint32_t texture = kNone;
-    uint32_t uvSet = 0;       ///< of the file, until chooseUvSets() has made it 0 or 1
+    uint32_t uvSet = 0;       ///< of the file, until chooseUvSets() has made it 0 to 3
     uint32_t leftSet = kNone; ///< the set of the file, if it is not kept and another one takes its place
     float3x3 uvTransform{ 1.0f };
     bool hasTransform = false;

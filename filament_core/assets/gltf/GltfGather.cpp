@@ -144,7 +144,7 @@ void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes,
 void chooseFormats(GltfDocument const& document, GltfAttributes const& attributes, GltfGeometry& geometry) {
     geometry.positionFormat = positionFormat(document.accessors[attributes.position]);
     if (attributes.color != kNone) geometry.colorFormat = shareFormat(document.accessors[attributes.color]);
-    for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
+    for (size_t set = 0; set < GltfAttributes::kFirstUvSets; ++set) {
         if (attributes.uv[set] == kNone) continue;
         geometry.uvFormats[set] = uvFormat(document.accessors[attributes.uv[set]]);
     }

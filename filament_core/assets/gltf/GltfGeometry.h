@@ -38,8 +38,8 @@ struct GltfGeometry {
 
     backend::VertexFormat positionFormat = backend::VertexFormat::Float3;
     backend::VertexFormat colorFormat = backend::VertexFormat::Float4;
-    std::array<backend::VertexFormat, GltfAttributes::kUvSets> uvFormats{ backend::VertexFormat::Float2,
-                                                                          backend::VertexFormat::Float2 };
+    std::array<backend::VertexFormat, GltfAttributes::kFirstUvSets> uvFormats{ backend::VertexFormat::Float2,
+                                                                               backend::VertexFormat::Float2 };
 
     backend::VertexFormat weightFormat = backend::VertexFormat::Float4;
     bool isSkinned = false; ///< left to the device: joints and weights are packed too

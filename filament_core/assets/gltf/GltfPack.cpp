@@ -202,6 +202,15 @@ void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive)
     primitive.vertexCount = unique;
 }
 
+/// The third and the fourth set of texture coordinates, in one attribute; empty if there is neither.
+std::vector<float4> otherUvs(GltfGeometry const& geometry) {
+    std::vector<float2> const &third = geometry.uvs[2], &fourth = geometry.uvs[3];
+    std::vector<float4> both(std::max(third.size(), fourth.size()), float4(0));
+    for (size_t i = 0; i < third.size(); ++i) both[i].x = third[i].x, both[i].y = third[i].y;
+    for (size_t i = 0; i < fourth.size(); ++i) both[i].z = fourth[i].x, both[i].w = fourth[i].y;
+    return both;
+}
+
 struct SkinOffsets {
     std::array<uint16_t, GltfAttributes::kJointSets> joints{}, weights{};
     bool isWide = false; ///< joints of 16 bits: glTF has no wider ones
@@ -266,6 +275,8 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
     const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
     const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);
+    const std::vector<float4> others = otherUvs(geometry);
+    const uint16_t uv23 = add(!others.empty(), shader::kAttributeCustom0, VertexFormat::Float4);
     const SkinOffsets skin = geometry.isSkinned ? addJoints(geometry, interleaver) : SkinOffsets{};
     interleaver.allocate();
     interleaver.write(geometry.positions, position, geometry.positionFormat);
@@ -273,6 +284,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     interleaver.write(geometry.colors, color, geometry.colorFormat);
     interleaver.write(geometry.uvs[0], uv0, geometry.uvFormats[0]);
     interleaver.write(geometry.uvs[1], uv1, geometry.uvFormats[1]);
+    interleaver.write(others, uv23, VertexFormat::Float4);
 
     if (geometry.isSkinned) writeJoints(geometry, skin, interleaver);
     primitive.isSkinned = geometry.isSkinned;

@@ -159,7 +159,7 @@ std::vector<uint32_t> parseUvSets(JsonNode const& node, size_t count, const char
         Diagnostics found;
         if (sets.size() <= set) sets.resize(set + 1, kNone);
         sets[set] = value.reportingTo(found).index(count, what);
-        if (set < GltfAttributes::kUvSets)
+        if (set < GltfAttributes::kFirstUvSets)
             node.diagnostics().merge(std::move(found));
         else if (!found.ok())
             node.diagnostics().warn("{}; the set is left out", found.error().message);

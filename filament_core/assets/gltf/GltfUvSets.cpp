@@ -11,9 +11,13 @@ namespace {
 
 constexpr size_t kPlaces = GltfAttributes::kUvSets;
 using Sets = std::array<uint32_t, kPlaces>; ///< of the file, by place
-constexpr Sets kAsInFile{ 0, 1 };
+constexpr size_t kFirstPlaces = GltfAttributes::kFirstUvSets;
+constexpr Sets kAsInFile{ 0, 1, kNone, kNone };
 
-/// Calls visit(map, name, whether it is drawn) for the maps that a material has, the base colour first.
+/// What a map is for; sets are chosen in this order.
+enum class MapUse : uint8_t { Color, Surface, Nothing }; ///< Color: base colour and emission, of unlit materials too
+
+/// Calls visit(map, name, MapUse) for the maps that a material has, the base colour first.
 template <class Visit>
 void visitMaps(GltfMaterial& material, Visit const& visit) {
     MaterialData const& m = material.values;
@@ -34,11 +38,13 @@ void visitMaps(GltfMaterial& material, Visit const& visit) {
     };
     for (TexturePath const& path : texturePaths()) {
         GltfTextureInfo& info = *textureInfoOf(material, path.map);
-        if (info.texture != kNone) visit(info, path.path, isDrawn(path.map));
+        const bool isColor = path.map == MapName::BaseColor || path.map == MapName::Emissive;
+        const MapUse use = isColor ? MapUse::Color : MapUse::Surface;
+        if (info.texture != kNone) visit(info, path.path, isDrawn(path.map) ? use : MapUse::Nothing);
     }
     if (material.specularGlossiness.texture != kNone)
         visit(material.specularGlossiness, "extensions/KHR_materials_pbrSpecularGlossiness/specularGlossinessTexture",
-              true);
+              MapUse::Surface);
 }
 
 /// Materials that primitives have in common: each in one group, named by a material of it.
@@ -75,26 +81,30 @@ private:
     std::vector<uint32_t> mNext; ///< towards the one that names the group
 };
 
-/// Places for at most two sets.
+/// Places for at most four sets.
 Sets placesFor(std::vector<uint32_t> const& wanted) {
     Sets sets = kAsInFile;
+    if (wanted.size() > kFirstPlaces) {
+        std::ranges::copy(wanted, sets.begin());
+        return sets;
+    }
     const auto isWanted = [&](uint32_t set) { return std::ranges::find(wanted, set) != wanted.end(); };
     for (const uint32_t set : wanted) {
-        if (set < kPlaces) continue;
+        if (set < kFirstPlaces) continue;
         auto* place = std::ranges::find_if(sets, [&](uint32_t other) { return !isWanted(other); });
         *place = set;
     }
     return sets;
 }
 
-/// By group: the places of the sets that its maps use; those that are drawn come first.
+/// By group: the places of the sets that its maps use.
 std::vector<Sets> choosePlaces(GltfDocument& document, Groups& groups) {
     std::vector<std::vector<uint32_t>> wanted(document.materials.size());
-    for (const bool wantsDrawn : { true, false }) {
+    for (const MapUse now : { MapUse::Color, MapUse::Surface, MapUse::Nothing }) {
         for (uint32_t i = 0; i < document.materials.size(); ++i) {
             std::vector<uint32_t>& sets = wanted[groups.of(i)];
-            visitMaps(document.materials[i], [&](GltfTextureInfo const& info, std::string_view, bool isDrawn) {
-                if (isDrawn == wantsDrawn && sets.size() < kPlaces && std::ranges::find(sets, info.uvSet) == sets.end())
+            visitMaps(document.materials[i], [&](GltfTextureInfo const& info, std::string_view, MapUse use) {
+                if (use == now && sets.size() < kPlaces && std::ranges::find(sets, info.uvSet) == sets.end())
                     sets.push_back(info.uvSet);
             });
         }
@@ -104,17 +114,18 @@ std::vector<Sets> choosePlaces(GltfDocument& document, Groups& groups) {
     return places;
 }
 
-void follow(GltfTextureInfo& info, Sets const& places) {
-    auto const* place = std::ranges::find(places, info.uvSet);
-    if (place == places.end()) info.leftSet = info.uvSet;
-    info.uvSet = place == places.end() ? 0 : static_cast<uint32_t>(place - places.begin());
+void follow(GltfTextureInfo& info, MapUse use, Sets const& places) {
+    const auto place = static_cast<size_t>(std::ranges::find(places, info.uvSet) - places.begin());
+    const bool isKept = place < (use == MapUse::Color ? kFirstPlaces : kPlaces);
+    if (!isKept) info.leftSet = info.uvSet;
+    info.uvSet = isKept ? static_cast<uint32_t>(place) : 0;
 }
 
 void keepSets(Sets const& places, GltfAttributes& attributes) {
     const auto setAt = [&](uint32_t set) { return set < attributes.uvSets.size() ? attributes.uvSets[set] : kNone; };
     for (size_t i = 0; i < kPlaces; ++i) {
-        attributes.keptSets[i] =
-                setAt(places[i]) == kNone && places[i] >= kPlaces ? 0 : places[i]; // or it lacks the set
+        const bool isLacking = places[i] != kNone && places[i] >= kFirstPlaces && setAt(places[i]) == kNone;
+        attributes.keptSets[i] = isLacking ? 0 : places[i];
         attributes.uv[i] = setAt(attributes.keptSets[i]);
     }
 }
@@ -125,8 +136,9 @@ void chooseUvSets(GltfDocument& document) {
     Groups groups(document);
     const std::vector<Sets> places = choosePlaces(document, groups);
     for (uint32_t i = 0; i < document.materials.size(); ++i) {
-        visitMaps(document.materials[i],
-                  [&](GltfTextureInfo& info, std::string_view, bool) { follow(info, places[groups.of(i)]); });
+        visitMaps(document.materials[i], [&](GltfTextureInfo& info, std::string_view, MapUse use) {
+            follow(info, use, places[groups.of(i)]);
+        });
     }
     for (GltfMesh& mesh : document.meshes) {
         for (GltfPrimitive& primitive : mesh.primitives) {
@@ -141,10 +153,10 @@ void chooseUvSets(GltfDocument& document) {
 void warnAboutUvSets(GltfDocument& document, Diagnostics& diagnostics) {
     for (uint32_t i = 0; i < document.materials.size(); ++i) {
         if (!document.use.has(GltfArray::Materials, i)) continue;
-        visitMaps(document.materials[i], [&](GltfTextureInfo const& info, std::string_view name, bool isDrawn) {
-            if (!isDrawn || info.leftSet == kNone) return;
+        visitMaps(document.materials[i], [&](GltfTextureInfo const& info, std::string_view name, MapUse use) {
+            if (use == MapUse::Nothing || info.leftSet == kNone) return;
             diagnostics.warn("materials[{}]/{}: is drawn with another set of texture coordinates than TEXCOORD_{}: the "
-                             "materials of a primitive may use two sets here",
+                             "materials of a primitive may use four sets here, and two for base colour and emission",
                              i, name, info.leftSet);
         });
     }

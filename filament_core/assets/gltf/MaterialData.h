@@ -37,7 +37,7 @@ float3x3 matrixFrom(UvPlacement const& placement);
 struct TextureRef {
     uint32_t image = kNone; ///< into ModelData::images; kNone: the factor alone
     Sampler sampler{};
-    uint32_t uvSet = 0;           ///< 0 or 1
+    uint32_t uvSet = 0;           ///< 0 to 3
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;
     bool isAnimated = false;  ///< `placement` changes; hasTransform is true then

@@ -73,8 +73,9 @@ struct VariantMaterial {
 /// The geometry of one draw. All attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::PrimitiveType topology = backend::PrimitiveType::Triangles;
-    backend::VertexLayout
-            layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4, ...)
+    /// Buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4, ...). The third and the
+    /// fourth set of texture coordinates are custom0.
+    backend::VertexLayout layout{};
     std::vector<std::byte> vertices;
     std::vector<std::byte> indices; ///< always indexed
     backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;

@@ -20,7 +20,8 @@ using backend::ConstantValue;
 constexpr uint32_t bitOf(Attribute attribute) { return 1u << static_cast<uint32_t>(attribute); }
 
 /// Constants of the glTF materials select which of these a mesh has.
-constexpr uint32_t kOptionalInGltf = bitOf(Attribute::Color) | bitOf(Attribute::Uv0) | bitOf(Attribute::Uv1);
+constexpr uint32_t kOptionalInGltf =
+        bitOf(Attribute::Color) | bitOf(Attribute::Uv0) | bitOf(Attribute::Uv1) | bitOf(Attribute::Custom0);
 
 const char* typeName(ConstantValue::Type type) {
     switch (type) {

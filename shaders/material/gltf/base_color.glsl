@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Base colour and texture coordinates of glTF materials, lit and unlit. glTF 2.0 specification, 3.9.2 and 3.9.4.
+// After `uvSets`, which material() fills.
 
 vec2 mapUv(int set, bool isTransformed, mat3 transform) {
-    vec2 uv = set == 0 ? getUV0() : getUV1();
+    vec2 uv = uvSets[set];
     return isTransformed ? (transform * vec3(uv, 1.0)).xy : uv;
 }
 

@@ -6,6 +6,7 @@
 #include "shaders/material/gltf/layers.glsl"
 
 void material(inout MaterialInputs material) {
+    readUvSets();
     vec2 widths = gltfNormals(material);
     prepareMaterial(material);
     gltfBump();

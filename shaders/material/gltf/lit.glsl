@@ -4,6 +4,7 @@
 #include "shaders/material/gltf/surface.glsl"
 
 void material(inout MaterialInputs material) {
+    readUvSets();
     float width = gltfSurfaceNormal(material);
     prepareMaterial(material);
     gltfBump();

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // KHR_materials_pbrSpecularGlossiness: RGB is the specular colour, alpha glossiness.
 
+#include "shaders/material/gltf/uv_sets.glsl"
+
 #include "shaders/material/gltf/base_color.glsl"
 #include "shaders/material/gltf/maps.glsl"
 
 void material(inout MaterialInputs material) {
+    readUvSets();
     float width = gltfSurfaceNormal(material);
     prepareMaterial(material);
     gltfBump();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The metallic-roughness model of glTF 2.0 (specification, 3.9): roughness is green, metallic blue, occlusion red.
 
+#include "shaders/material/gltf/uv_sets.glsl"
+
 #include "shaders/material/gltf/base_color.glsl"
 #include "shaders/material/gltf/maps.glsl"
 

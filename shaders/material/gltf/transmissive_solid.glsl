@@ -4,6 +4,7 @@
 #include "shaders/material/gltf/transmission.glsl"
 
 void material(inout MaterialInputs material) {
+    readUvSets();
     vec2 widths = gltfNormals(material);
     prepareMaterial(material);
     gltfBump();

@@ -61,7 +61,7 @@ inline std::vector<float> unitFactorsOf(MaterialData const& m) {
 inline const char* brokenPromise(ModelData const& model, MaterialData const& m) {
     for (TextureRef const& texture : texturesOf(m)) {
         if (texture.image != kNone && texture.image >= model.images.size()) return "image index";
-        if (texture.uvSet > 1) return "uv set";
+        if (texture.uvSet > 3) return "uv set";
     }
     for (TexturePair const& pair : { m.clearCoat.maps, m.sheen.maps, m.specular.maps, m.iridescence.maps,
                                      m.transmission.maps, m.diffuseTransmission.maps }) {

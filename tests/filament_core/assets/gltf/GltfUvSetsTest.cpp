@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any set of texture coordinates serves any map: a model is generated for each set and map, and for pairs of sets, and
-// must have what the same model has with the sets moved to 0 and 1.
+// Any set of texture coordinates serves any map: a model is generated for each set and map, and for pairs and fours of
+// sets, and must have what the same model has with the sets moved to the first places.
 #include "filament_core/assets/gltf/AnimatedProperty.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 
@@ -63,12 +63,14 @@ void addMap(TestFile& file, std::string const& path, int set) {
 /// The coordinates of a map at the corners of the triangles.
 std::vector<float2> coordinatesOf(ModelData const& model, MapName map) {
     MaterialData material = model.materials[0];
-    const bool isFirst = mapOf(material, map).uvSet == 0;
+    const uint32_t place = mapOf(material, map).uvSet;
     PrimitiveData const& primitive = model.meshes[0].primitives[0];
     std::vector<float2> coordinates;
-    for (const uint32_t index : indicesOf(primitive))
-        coordinates.emplace_back(
-                vertexValue(primitive, isFirst ? shader::kAttributeUv0 : shader::kAttributeUv1, index));
+    for (const uint32_t index : indicesOf(primitive)) {
+        const auto location = static_cast<uint8_t>(shader::kAttributeUv0 + place);
+        const float4 both = vertexValue(primitive, place < 2 ? location : shader::kAttributeCustom0, index);
+        coordinates.push_back(place == 3 ? float2(both.z, both.w) : float2(both));
+    }
     return coordinates;
 }
 
@@ -129,6 +131,43 @@ TEST(GltfUvSets, AnyPairOfSetsServesAPairOfMaps) {
     }
 }
 
+/// Base colour and emission have one of the first two sets, the other maps any of the four.
+int placeOf(MapName map, size_t index) {
+    if (map == MapName::BaseColor) return 0;
+    return map == MapName::Emissive ? 1 : static_cast<int>(index % 4);
+}
+
+TEST(GltfUvSets, FourSetsServeAllMapsOfAMaterial) {
+    for (int first = 0; first < kSets; ++first) {
+        for (const int step : { 1, 3, 5, 7 }) {
+            std::vector<int> sets;
+            for (int i = 0; i < 4; ++i) sets.push_back((first + i * step) % kSets);
+            TestFile file = fileWithSets(inOrder()), other = fileWithSets(sets);
+            for (size_t i = 0; i < texturePaths().size(); ++i) {
+                TexturePath const& path = texturePaths()[i];
+                const int place = placeOf(path.map, i);
+                addMap(file, path.path, sets[static_cast<size_t>(place)]);
+                addMap(other, path.path, place);
+            }
+            const ModelData model = loaded(file), expected = loaded(other);
+            EXPECT_THAT(model.warnings, IsEmpty());
+            for (size_t i = 0; i < texturePaths().size(); ++i) {
+                const MapName map = texturePaths()[i].map;
+                EXPECT_EQ(coordinatesOf(model, map), cornersOfSet(sets[static_cast<size_t>(placeOf(map, i))]))
+                        << texturePaths()[i].path << " " << first << " " << step;
+            }
+            EXPECT_EQ(framesAtCorners(model), framesAtCorners(expected)) << first << " " << step;
+            EXPECT_EQ(model.meshes[0].primitives[0].vertices.size(), expected.meshes[0].primitives[0].vertices.size());
+        }
+    }
+}
+
+TEST(GltfUvSets, SetsThatNoMapUsesAreNotKept) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 3);
+    EXPECT_EQ(formatOf(onlyPrimitive(file), shader::kAttributeCustom0), backend::VertexFormat::None);
+}
+
 TEST(GltfUvSets, TheTransformOfATextureNamesItsSetToo) {
     TestFile file = fileWithSets(inOrder());
     addMap(file, "emissiveTexture", 1);
@@ -136,16 +175,40 @@ TEST(GltfUvSets, TheTransformOfATextureNamesItsSetToo) {
     EXPECT_EQ(coordinatesOf(loaded(file), MapName::Emissive), cornersOfSet(6));
 }
 
-TEST(GltfUvSets, MapsOfAThirdSetAreNamed) {
+TEST(GltfUvSets, MapsOfAFifthSetAreNamed) {
     TestFile file = fileWithSets(inOrder());
     addMap(file, "pbrMetallicRoughness/baseColorTexture", 4);
     addMap(file, "occlusionTexture", 2);
     addMap(file, "emissiveTexture", 5);
+    addMap(file, "normalTexture", 7);
+    addMap(file, "extensions/KHR_materials_volume/thicknessTexture", 3);
     const ModelData model = loaded(file);
     EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(4));
+    EXPECT_EQ(coordinatesOf(model, MapName::Emissive), cornersOfSet(5));
+    EXPECT_EQ(coordinatesOf(model, MapName::Normal), cornersOfSet(7));
     EXPECT_EQ(coordinatesOf(model, MapName::Occlusion), cornersOfSet(2));
-    EXPECT_EQ(coordinatesOf(model, MapName::Emissive), cornersOfSet(4)) << "the first of the two";
-    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("materials[0]/emissiveTexture"), HasSubstr("TEXCOORD_5"))));
+    EXPECT_EQ(coordinatesOf(model, MapName::Thickness), cornersOfSet(4)) << "the first of the four";
+    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("thicknessTexture"), HasSubstr("TEXCOORD_3"))));
+}
+
+TEST(GltfUvSets, ColorsOfOnePrimitiveHaveTwoSets) {
+    TestFile file = fileWithSets(inOrder());
+    addMap(file, "pbrMetallicRoughness/baseColorTexture", 5);
+    addMap(file, "normalTexture", 4);
+    file.root["extensions"]["KHR_materials_variants"]["variants"] = { { { "name", "a" } }, { { "name", "b" } } };
+    Json& mappings = file.primitive()["extensions"]["KHR_materials_variants"]["mappings"];
+    for (const int set : { 6, 7 }) {
+        const Json info{ { "index", 0 }, { "texCoord", set } };
+        file.root["materials"].push_back({ { "pbrMetallicRoughness", { { "baseColorTexture", info } } } });
+        mappings.push_back({ { "material", set - 5 }, { "variants", { set - 6 } } });
+    }
+    ModelData model = loaded(file);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(5));
+    EXPECT_EQ(coordinatesOf(model, MapName::Normal), cornersOfSet(4));
+    std::swap(model.materials[0], model.materials[1]);
+    EXPECT_EQ(coordinatesOf(model, MapName::BaseColor), cornersOfSet(6));
+    EXPECT_THAT(model.warnings,
+                ElementsAre(AllOf(HasSubstr("materials[2]/pbrMetallicRoughness"), HasSubstr("TEXCOORD_7"))));
 }
 
 TEST(GltfUvSets, MapsThatAreNotDrawnTakeNoPlace) {

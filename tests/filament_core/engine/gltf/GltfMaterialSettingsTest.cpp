@@ -110,7 +110,7 @@ TEST(GltfMaterialSettings, AVolumeThatScattersHasAFamilyOfItsOwnHoweverLightEnte
     material.diffuseTransmission.factor = 0;
     material.transmission.factor = 1;
     EXPECT_THAT(constantsOf(settingsOf(material, {})), UnorderedElementsAre("hasAbsorption", "hasMultiscatterMap"));
-    material.alphaMode = AlphaMode::Mask;
+    material.alphaMode = assets::AlphaMode::Mask;
     EXPECT_EQ(settingsOf(material, {}).package, "gltf_scattering_masked");
     material.volumeScatter.color = float3(0);
     EXPECT_EQ(settingsOf(material, {}).package, "gltf_transmissive_solid_masked");
