@@ -7,9 +7,9 @@
 ///   Inside  a path may enter solids and is absorbed inside. Shadow rays stop at them: paths alone find the lights
 ///           behind, so directional light makes noisy caustics. One solid at a time: where two touch or overlap, each
 ///           behaves as if in air. Where a solid disperses light, a path chooses one of three colours.
-///   Scatter inside solids that scatter, paths fly to an event, where they turn, or to the surface (ScatteringMedium.h),
-///           up to 65536 times, with roulette from the ninth flight on. No light is sampled there, because it would have
-///           to be found through the surface; where the path leaves, it is.
+///   Scatter inside solids that scatter, paths fly to an event, where they turn, or to the surface
+///           (ScatteringMedium.h), up to 65536 times, with roulette from the ninth flight on. No light is sampled
+///           there, because it would have to be found through the surface; where the path leaves, it is.
 ///   Sides   the camera does not see single-sided materials from behind; all other rays hit both sides. Light cannot
 ///           pass through a triangle because of its shading normal. Emissive surfaces light others.
 ///   Fog     between the camera and the first surface, or the sky, alone.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kColors[] = { 0, 0.01, 0.2, 0.5, 0.9, 0.999, 1 };
 constexpr double kDepths[] = { 0, 0.01, 0.3, 1, 3, 10, 64 };
-constexpr double kIors[] = { 1, 1.33, 1.5, 2.4 };
+constexpr double kBallIors[] = { 1, 1.33, 1.5, 2.4 };
 constexpr double kAnisotropies[] = { -0.999, -0.5, 0, 0.5, 0.999 };
 
 double lossOf(double color) { return scatterLoss(vec3(color)).x; }
@@ -57,7 +57,7 @@ TEST(Scatter, FresnelsReflectionInsideIsNearItsIntegral) {
 
 TEST(Scatter, WithoutAbsorptionAllOfTheScatteredLightLeaves) {
     for (const double depth : kDepths) {
-        for (const double ior : kIors) EXPECT_NEAR(scatteredShare(vec3(depth), vec3(0), ior).x, 1, 1e-12);
+        for (const double ior : kBallIors) EXPECT_NEAR(scatteredShare(vec3(depth), vec3(0), ior).x, 1, 1e-12);
     }
 }
 
@@ -77,7 +77,7 @@ TEST(Scatter, AThinBodyScattersEachRayOnce) {
 
 TEST(Scatter, MoreMatterOfTheSameKindLosesMoreLight) {
     for (const double color : kColors) {
-        for (const double ior : kIors) {
+        for (const double ior : kBallIors) {
             double before = 1;
             for (const double depth : kDepths) {
                 const double share = scatteredShare(vec3(depth), vec3(lossOf(color)), ior).x;
