@@ -118,8 +118,9 @@ FrameSettings resolve(ViewInput const& main) {
                                             (main.effects.motionBlur.enabled && isImage),
                             .mipBias = mipBias(main, accumulates) };
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
-    settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 &&
-                             settings.quality.depthRange == DepthRange::Reversed;
+    // Positions that are not relative to the camera are rounded by more than the margin of occluders.
+    const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;
+    settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 && isPrecise;
     return settings;
 }
 

@@ -122,7 +122,7 @@ struct View {
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< of a pixel (MSAA), [1, 4]: 1 or 4
     /// Opaque objects behind RenderableDesc::occluder of others are not drawn, with the same bits; with one sample a
-    /// pixel. Costs nothing without occluders.
+    /// pixel.
     bool occlusionCulling = true;
     DebugView debugView = DebugView::None;
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years

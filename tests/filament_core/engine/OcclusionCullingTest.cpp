@@ -101,9 +101,12 @@ TEST_P(OcclusionCullingTest, IsExplainedAndOffWhereItIsNotExact) {
         return renderer.explain();
     };
     EXPECT_THAT(explained([](View&) {}), testing::HasSubstr("not drawn: they are behind others"));
-    for (const std::string& text : { explained([](View& changed) { changed.occlusionCulling = false; }),
-                                     explained([](View& changed) { changed.samples = 4; }),
-                                     explained([](View& changed) { changed.debugView = DebugView::Overdraw; }) })
+    for (const std::string& text :
+         { explained([](View& changed) { changed.occlusionCulling = false; }),
+           explained([](View& changed) { changed.samples = 4; }),
+           explained([](View& changed) { changed.quality.cameraRelative = false; }),
+           explained([](View& changed) { changed.quality.depthRange = DepthRange::Ordinary; }),
+           explained([](View& changed) { changed.debugView = DebugView::Overdraw; }) })
         EXPECT_THAT(text, testing::Not(testing::HasSubstr("behind others")));
 }
 
