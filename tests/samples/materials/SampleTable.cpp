@@ -57,7 +57,7 @@ std::vector<Sample> samples() {
         { "normal_map", { "material.normal = ", "vec3 ignored = " } },
         { "parallax_occlusion", { "parallaxOcclusion(getUV0(), normalize(view), 0.08, 8).xy", "getUV0()" } },
         { "parallax_plain", { "parallaxPlain(getUV0(), normalize(view), 0.08)", "getUV0()" } },
-        { "parallax_shadow", { "* lit / PI", "/ PI" }, kBrighter },
+        { "parallax_shadow", { "* lit / PI", "/ PI" }, kDarker },
         { "parallax_steep", { "parallaxSteep(getUV0(), normalize(view), 0.08, 24).xy", "getUV0()" } },
         { "parameter_types", { "three=0.9,0.2,0.6", "three=0,0,0" }, kBrighter },
         { "post_lighting", { "material.postLightingColor = ", "vec4 ignored = " }, kBrighter },
