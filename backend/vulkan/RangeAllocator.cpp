@@ -89,6 +89,7 @@ uint32_t RangeAllocator::makeNode(uint64_t offset, uint64_t size) {
     uint32_t node = static_cast<uint32_t>(mNodes.size());
     if (mUnusedNodes.empty()) {
         mNodes.emplace_back();
+        mUnusedNodes.reserve(mNodes.capacity()); // ranges are freed in destructors: recycle() must not allocate
     } else {
         node = mUnusedNodes.back();
         mUnusedNodes.pop_back();
