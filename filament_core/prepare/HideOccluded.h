@@ -5,7 +5,7 @@
 ///   Out     a packet with fewer opaque draws; transparent draws stay, and so does what other steps of the frame found.
 ///   Chosen  the occluders that look largest, at most kMostOccluders; without one of kSmallestPixels nothing is done.
 ///   Thread  jobs over ranges; the bits are the same for any number of workers.   Memory: the arena.
-///   Fails   std::bad_alloc.   Cost: bench/filament_core/prepare, hideOccluded.
+///   Fails   std::bad_alloc.   Cost: occlusion_bench.
 #pragma once
 
 #include "base/Arena.h"

@@ -158,6 +158,8 @@ void drawRow(ScreenTriangle const& triangle, int32_t y, uint32_t width, float* r
         if (dy < 0) left = std::max(left, rest / dy);
         if (dy == 0 && rest < 0) return;
     }
+    // Before they become integers: beside an edge that is nearly level, `left` may be larger than any.
+    if (!(left <= right)) return;
     const auto first = static_cast<int32_t>(std::ceil(left - 0.5)),
                last = static_cast<int32_t>(std::floor(right - 0.5));
     if (first > last) return;
@@ -197,7 +199,6 @@ OcclusionBuffer::OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size
                                 .write(clip.subspan(firstCorners[i]), drawn.subspan(firstTriangles[i]),
                                        &screen[2 * size_t{ firstTriangles[i] }]);
     });
-    for (const uint32_t count : counts) mTriangles += count;
 
     jobs::parallelFor<"occlusion">(jobs, mTileCount.y, kTileRowsOfJob, [&](size_t begin, size_t end) {
         const auto top = static_cast<int32_t>(begin * kTile), bottom = static_cast<int32_t>(end * kTile);

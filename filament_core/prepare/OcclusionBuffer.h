@@ -44,7 +44,6 @@ public:
     bool hides(float4x4 const& clipFromWorld, float3 center, float3 halfExtent) const;
     /// How near what covers a pixel is: at least this, in reversed depth; 0: nothing covers it. For tests.
     float depthAt(uint2 pixel) const { return mDepths[size_t{ pixel.y } * mRow + pixel.x]; }
-    uint32_t triangleCount() const { return mTriangles; }
 
 private:
     uint2 mSize;
@@ -52,7 +51,6 @@ private:
     uint2 mTileCount;
     std::span<float> mDepths; ///< reversed: 0 is infinitely far
     std::span<float> mTiles;  ///< the farthest of each tile
-    uint32_t mTriangles = 0;
 };
 
 } // namespace filament_core::prepare

@@ -175,6 +175,19 @@ TEST_F(OcclusionBufferTest, InnerEdgesHaveNoHoles) {
         for (uint32_t x = 0; x < kOcclusionSize.x; ++x) ASSERT_GT(buffer.depthAt({ x, y }), 0) << x << ' ' << y;
 }
 
+/// A level edge that is open loses a margin, and the quotient of what is left and the tilt is larger than any integer.
+TEST_F(OcclusionBufferTest, NearlyLevelEdgesStayInTheirRows) {
+    const Occluder square = makeOccluder(kSquare, kSquareIndices);
+    for (const double tilt : { 1e-7, 1e-10, 1e-13, -1e-7, -1e-10, -1e-13 }) {
+        for (int i = 0; i < 400; ++i) {
+            const double4x4 world = placedAt({ 0, 0.002 * i, -10 }, double3(2));
+            const OcclusionBuffer wall =
+                    draw({ { square, glm::rotate(world, tilt, double3(0, 0, 1)) } }, DrawnFaces::All);
+            for (uint32_t y = 0; y < kOcclusionSize.y; ++y) ASSERT_EQ(wall.depthAt({ 0, y }), 0) << tilt << ' ' << i;
+        }
+    }
+}
+
 TEST_F(OcclusionBufferTest, WorkersDoNotChangeABit) {
     const Occluder box = makeOccluder(boxPositions(), kBoxIndices);
     Random random(3);
