@@ -139,8 +139,9 @@ TEST(Options, ErrorsNameTheNearestOptionAndTheRange) {
 }
 
 TEST(Options, OfAViewAreThoseOfItsMembers) {
-    EXPECT_EQ(optionsOf<View>().size(),
-              optionsOf<Quality>().size() + optionsOf<Effects>().size() + optionsOf<DisplayTransform>().size() + 2);
+    constexpr size_t ownOptions = 3; // samples, occlusionCulling and debugView
+    EXPECT_EQ(optionsOf<View>().size(), optionsOf<Quality>().size() + optionsOf<Effects>().size() +
+                                                optionsOf<DisplayTransform>().size() + ownOptions);
     View view;
     ASSERT_TRUE(setOption(view, "toneCurve.contrast", "2"));
     EXPECT_EQ(view.display.toneCurve.contrast, 2);
