@@ -187,7 +187,7 @@ bool castsThroughDither(MaterialDefinition const& definition) {
 
 /// Whether the author's code decides where a variant of depth alone leaves it.
 bool shapesDepth(MaterialDefinition const& definition, MaterialNeeds const& needs) {
-    return cutsHoles(definition, needs) || transmitsLight(definition.package);
+    return fragmentsDecideDepth(definition, needs) || transmitsLight(definition.package);
 }
 
 Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
@@ -348,7 +348,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     beginStage(out, "in");
     defineSurface(out, definition, needs);
     defineFragment(out, definition, variantKey);
-    if ((variantKey & kVariantDepth) != 0) out.define("CUTS_HOLES");
+    if ((variantKey & kVariantDepth) != 0) out.define("DEPTH_RUNS_MATERIAL");
     Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl",
                                           "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
     if (!done) return done;
@@ -369,6 +369,13 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     return done;
 }
 
+/// The author's code of a surface, and where its points are.
+Result<void> surfaceBlock(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    Result<void> done = authorsBlock(out, definition, needs, true);
+    const bool movesDepth = needs.has("HAS_PIXEL_DEPTH_OFFSET");
+    return done && movesDepth ? out.include("shaders/material/surface/depth_offset.glsl") : done;
+}
+
 Result<void> includeTransmission(StageText& out) {
     declareQuality(out);
     out.define("TRANSMITS_DEPTH");
@@ -384,7 +391,7 @@ Result<std::string> depthFragment(MaterialDefinition const& definition, Material
         done = beginSurfaceFragment(out, definition, needs, variantKey);
         defineIf(out, castsThroughDither(definition), "DITHERS_DEPTH");
         if (done) done = out.include("shaders/lib/noise.glsl");
-        if (done) done = authorsBlock(out, definition, needs, true);
+        if (done) done = surfaceBlock(out, definition, needs);
         if (done && transmitsLight(definition.package)) done = includeTransmission(out);
     } else {
         beginStage(out, "in");
@@ -408,7 +415,7 @@ Result<std::string> debugFragment(MaterialDefinition const& definition, Material
                                   IncludeResolver const& includes) {
     StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
-    if (done) done = authorsBlock(out, definition, needs, true);
+    if (done) done = surfaceBlock(out, definition, needs);
     if (done)
         done = includeAll(out, { "shaders/lib/color.glsl", "shaders/lib/brdf.glsl", "shaders/lib/plausible.glsl",
                                  "shaders/material/debug_views.glsl", "shaders/material/surface/debug_main.glsl" });
@@ -424,7 +431,7 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
     StageText out = newStageText(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
-    if (done) done = authorsBlock(out, definition, needs, true);
+    if (done) done = surfaceBlock(out, definition, needs);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
     const bool isShadowed = mayHave(definition, kVariantShadowReceiver) && !isLit;
     if (isShadowed) {
@@ -471,9 +478,9 @@ Result<std::string> postFragment(MaterialDefinition const& definition, MaterialN
 
 } // namespace
 
-bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs) {
+bool fragmentsDecideDepth(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     return definition.package.blending == Blending::Masked || needs.words.contains("discard") ||
-           castsThroughDither(definition);
+           castsThroughDither(definition) || needs.has("HAS_PIXEL_DEPTH_OFFSET");
 }
 
 uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage) {

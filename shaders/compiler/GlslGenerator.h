@@ -35,8 +35,8 @@ struct MaterialNeeds {
 ///   Fails   also for functions with other parameters than the engine passes, and for names that are taken.
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
-/// What the material draws is not all of the mesh: it is masked, or the author's code discards fragments.
-bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs);
+/// Depth is not the mesh's: the material is masked, or the author's code discards or moves fragments.
+bool fragmentsDecideDepth(MaterialDefinition const& definition, MaterialNeeds const& needs);
 
 /// The bits of a variant that change the text of a stage.
 uint16_t variantBits(MaterialDefinition const& definition, MaterialNeeds const& needs, backend::ShaderStage stage);

@@ -185,6 +185,7 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
         needs.terms |= termBit(probed[i]);
         needs.tangent |= member.isTangential;
     }
+    needs.worldPosition |= needs.has("HAS_PIXEL_DEPTH_OFFSET");
     return {};
 }
 

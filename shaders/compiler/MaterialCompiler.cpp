@@ -67,7 +67,7 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
 void describeInputs(Prepared& prepared) {
     MaterialPackage& package = prepared.definition.package;
     const bool placesDepth = prepared.definition.vertex && !prepared.definition.useDefaultDepthVariant;
-    package.depthReadsParameters = placesDepth || cutsHoles(prepared.definition, prepared.needs);
+    package.depthReadsParameters = placesDepth || fragmentsDecideDepth(prepared.definition, prepared.needs);
     static constexpr std::string_view kOfFrame[] = { "getTime",
                                                      "getUserTime",
                                                      "getUserTimeMod",

@@ -45,6 +45,10 @@ constexpr MaterialMember kMembers[] = {
     { "postLightingMixFactor",
       "how much of what `postLightingBlending` makes of the lit colour replaces it, [0, 1]",
       1, kOne, always, kNeutral, "HAS_POST_LIGHTING_MIX", kOne },
+    { "pixelDepthOffset",
+      "metres, at least 0, by which the visible point lies behind the surface along the view ray: depth, shadows and "
+      "light are those of that point. In shadow maps the rays are those of the light",
+      1, kZero, always, kNeutral, "HAS_PIXEL_DEPTH_OFFSET", kZero },
     { "roughness", "perceptual, [0, 1]: its square is the alpha of GGX", 1, kOne, isShaded },
     { "metallic", "0 of dielectrics, 1 of metals", 1, kZero, isMetallic },
     { "reflectance",

@@ -64,6 +64,14 @@ vec3 parallaxOcclusion(vec2 uv, vec3 viewTangent, float scale, int layers) {
     return vec3(at.x, at.y, after.z - layerDepth * (1.0f - fraction));
 }
 
+// Metres from the surface to a depth of the field along the view ray, for MaterialInputs::pixelDepthOffset.
+//   depth   [0, 1], of parallaxSteep() or parallaxOcclusion().
+//   meters  from the highest to the lowest point of the field.
+// fp32 only.
+float parallaxOffset(float depth, vec3 viewTangent, float meters) {
+    return depth * meters / max(viewTangent.z, kMinParallaxCosine);
+}
+
 // How much of a light reaches a point of the field past the relief between them. Tatarchuk 2006, as above, takes the
 // highest blocker; here a blocker counts by the slope between it and the ray, so a penumbra widens with the distance. One
 // fetch a layer.

@@ -150,7 +150,7 @@ struct MaterialPackage {
     bool instanced = false;
     bool vertexDomainDeviceJittered = false;
     bool shadowMultiplier = false, transparentShadow = false;
-    bool depthReadsParameters = false; ///< a vertex block, a mask or a discard: depth is not that of the mesh alone
+    bool depthReadsParameters = false; ///< depth is not that of the mesh alone: vertex block, mask, discard, offset
     bool readsFrame = false;           ///< its code reads the time or globals of the view
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without

@@ -108,6 +108,9 @@ void main() {
     computeShadingGeometry();
     float level = debugMipLevel(); // before a discard
     material(inputs);
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(inputs.pixelDepthOffset);
+#endif
 #if defined(PREPARE_AFTER_MATERIAL)
     prepareMaterial(inputs);
 #endif

@@ -51,7 +51,7 @@ highp float sharePassed(MaterialInputs inputs) {
 #endif
 
 void main() {
-#if defined(CUTS_HOLES)
+#if defined(DEPTH_RUNS_MATERIAL)
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
@@ -59,6 +59,9 @@ void main() {
     shading_view = towardsLight();
 #endif
     material(inputs);
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(inputs.pixelDepthOffset);
+#endif
 #if defined(BLEND_MODE_MASKED)
     if (inputs.baseColor.a < getMaskThreshold()) discard;
 #endif

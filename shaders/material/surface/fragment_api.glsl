@@ -2,7 +2,7 @@
 // Fragment stage of surface materials, before the material's own code: prepareMaterial() and the functions of the
 // guide, 4.5.7. MaterialInputs and initMaterial() come from the compiler (MaterialMembers.cpp).
 
-#if !defined(CUTS_HOLES) // only in depth variants
+#if !defined(DEPTH_RUNS_MATERIAL) // only in depth variants
 layout(location = 0) out vec4 fragment_color;
 #endif
 

@@ -15,8 +15,14 @@ void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(0.0); // derivatives are the mesh's: those of relief differ at every step
+#endif
     takeDerivatives();
     material(inputs);
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(inputs.pixelDepthOffset);
+#endif
 #if defined(PREPARE_AFTER_MATERIAL)
     prepareMaterial(inputs); // the author did not
 #endif

@@ -5,10 +5,16 @@ void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
     computeShadingGeometry();
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(0.0); // as in lit materials
+#endif
 #if defined(SHADOW_MULTIPLIER) && defined(RECEIVES_SHADOWS)
     if (variant_shadows != 0) computeFacet(); // before a discard: takeDerivatives() of lit materials
 #endif
     material(inputs);
+#if defined(HAS_PIXEL_DEPTH_OFFSET)
+    moveSurface(inputs.pixelDepthOffset);
+#endif
     applyMask(inputs.baseColor);
 #if defined(BLENDS_IN_ANY_ORDER)
     keepLayer(inputs.baseColor.a);

@@ -170,6 +170,24 @@ TEST(LaterLanguage, ShapesWithBumpsWithoutANormalMap) {
     EXPECT_EQ(std::ranges::count(package->terms, "normal"), 0) << "a function of the author's is not the engine's";
 }
 
+TEST(LaterLanguage, MovesDepthOnlyOfMaterialsThatSetAnOffset) {
+    for (const std::string model : { "lit", "unlit" }) {
+        const std::string head = "shadingModel : " + model;
+        const auto package = [&](std::string const& code) {
+            return compileMaterial(surfaceOfLater(head, code), "a.mat");
+        };
+        const auto with = package("material.pixelDepthOffset = 0.5;"), none = package(""),
+                   neutral = package("material.pixelDepthOffset = 0.0;");
+        ASSERT_TRUE(with && none && neutral) << with.error().message;
+        EXPECT_TRUE(with->depthReadsParameters);
+        EXPECT_EQ(neutral->variants, none->variants);
+        for (Variant const& variant : with->variants)
+            EXPECT_NE(variant.fragment->essl.find("gl_FragDepth"), std::string::npos) << model << ' ' << variant.key;
+        for (Variant const& variant : none->variants)
+            EXPECT_EQ(variant.fragment->essl.find("gl_FragDepth"), std::string::npos) << model << ' ' << variant.key;
+    }
+}
+
 TEST(LaterLanguage, HasPlacesInClipSpaceInEveryVariant) {
     const std::string vertex = "vertex { void materialVertex(inout MaterialVertexInputs material) {\n"
                                "material.clipSpacePosition.x += material.clipSpacePosition.w; } }\n";

@@ -50,6 +50,14 @@ TEST(Parallax, TheSteepSearchIsAtMostOneLayerBelowIt) {
     }
 }
 
+TEST(Parallax, AnOffsetIsTheWayAlongTheRay) {
+    const vec3 view = glm::normalize(vec3(0.5f, 0.3f, 1));
+    const vec3 sunk = view * relief::parallaxOffset(0.25f, view, 2);
+    EXPECT_NEAR(sunk.z, 0.5f, 1e-6f) << "below the surface";
+    EXPECT_EQ(relief::parallaxOffset(0, view, 2), 0);
+    EXPECT_EQ(relief::parallaxOffset(1, vec3(1, 0, 0), 2), 32) << "along the surface";
+}
+
 TEST(Parallax, OneFetchMovesByTheDepthBelowTheEntry) {
     const vec3 view = glm::normalize(vec3(0.5f, -0.3f, 1));
     const vec2 moved = relief::parallaxPlain(vec2(0.4f, 0.5f), view, kScale);
