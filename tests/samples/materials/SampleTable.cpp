@@ -60,6 +60,7 @@ std::vector<Sample> samples() {
         { "parallax_shadow", { "* lit / PI", "/ PI" }, kDarker },
         { "parallax_steep", { "parallaxSteep(getUV0(), normalize(view), 0.08, 24).xy", "getUV0()" } },
         { "parameter_types", { "three=0.9,0.2,0.6", "three=0,0,0" }, kBrighter },
+        { "pixel_depth_offset", { "material.pixelDepthOffset = ", "float ignored = " } },
         { "post_lighting", { "material.postLightingColor = ", "vec4 ignored = " }, kBrighter },
         { "post_lighting_mix", { "getNdotV() * getNdotV()", "1.0" } },
         { "reflectance", { "material.reflectance = 1.0", "material.reflectance = 0.5" }, kBrighter },
