@@ -122,7 +122,7 @@ void hideOccluded(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const&
                   ViewInput const& view, ViewPacket& packet) {
     const std::span<const SortItem> all = packet.objects.order;
     const std::span<const SortItem> early = itemsBefore(all, kLateKey);
-    if (early.size() < kObjectsWorthHiding) return;
+    if (early.size() < kObjectsWorthHiding || !renderables.drawables.hasOccluders()) return;
     const std::span<const SortItem> kept = OcclusionCulling(jobs, arena, renderables, space, view.size).visible(early);
     const size_t hidden = early.size() - kept.size();
     if (hidden == 0) return;

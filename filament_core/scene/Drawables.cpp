@@ -87,7 +87,7 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
     const uint32_t number = known->second;
     if (isNew) {
         mDrawables[number] = drawable;
-        mUses[number] = useOf(drawable, 0);
+        setUse(number, useOf(drawable, 0));
         if (drawable.geometry.occluder) mOccluders[number] = drawable.geometry.occluder->shared_from_this();
     }
     ++mUses[number].users;
@@ -98,12 +98,18 @@ void Drawables::release(uint32_t number) {
     FILAMENT_ASSERT(number < limit() && mUses[number].users > 0, "a drawable is released once a use");
     if (--mUses[number].users > 0) return;
     mNumbers.erase(mDrawables[number]);
+    setUse(number, {});
     mOccluders[number].reset();
     mFree.push_back(number);
 }
 
 void Drawables::updateUses() {
-    for (auto const& [drawable, number] : mNumbers) mUses[number] = useOf(drawable, mUses[number].users);
+    for (auto const& [drawable, number] : mNumbers) setUse(number, useOf(drawable, mUses[number].users));
+}
+
+void Drawables::setUse(uint32_t number, Use use) {
+    mOccluding += static_cast<uint32_t>(use.occludes) - static_cast<uint32_t>(mUses[number].occludes);
+    mUses[number] = use;
 }
 
 } // namespace filament_core::scene

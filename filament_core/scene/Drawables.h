@@ -107,6 +107,7 @@ public:
         bool occludes = false; ///< its triangles hide what is behind them
     };
     Use use(uint32_t number) const { return mUses[number]; }
+    bool hasOccluders() const { return mOccluding > 0; } ///< some pair with users occludes
     /// All numbers are below this, including those of pairs without users.
     uint32_t limit() const { return static_cast<uint32_t>(mDrawables.size()); }
     uint32_t count() const { return static_cast<uint32_t>(mNumbers.size()); }
@@ -115,9 +116,12 @@ private:
     struct Hash {
         size_t operator()(Drawable const& drawable) const noexcept;
     };
+    void setUse(uint32_t number, Use use);
+
     std::vector<Drawable> mDrawables;
     std::vector<Use> mUses;           // parallel to mDrawables
     std::vector<Occluder> mOccluders; // of these that have users
+    uint32_t mOccluding = 0;          // how many of mUses occlude
     std::vector<uint32_t> mFree;
     std::unordered_map<Drawable, uint32_t, Hash> mNumbers;
 };

@@ -55,6 +55,30 @@ TEST_F(DrawablesTest, OrdersByMaterialThenInstanceAndMarksWhatBlends) {
     EXPECT_EQ(order(&c), Drawables::kBlendedOrder | 6u << Drawables::kInstanceBits | 3);
 }
 
+TEST_F(DrawablesTest, KnowsWhetherAnythingOccludes) {
+    const float3 corners[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+    const uint32_t indices[] = { 0, 1, 2 };
+    const Occluder occluder = makeOccluder(corners, indices);
+    Geometry wall = mesh(1);
+    wall.occluder = occluder.get();
+    drawables.acquire({ mesh(2), &a });
+    drawables.acquire({ wall, &c }); // transparent
+    EXPECT_FALSE(drawables.hasOccluders());
+    const uint32_t first = drawables.acquire({ wall, &a }), second = drawables.acquire({ wall, &b });
+    drawables.acquire({ wall, &a });
+    drawables.release(first);
+    drawables.release(second);
+    EXPECT_TRUE(drawables.hasOccluders());
+    a.raster.depthWrite = false;
+    drawables.updateUses();
+    EXPECT_FALSE(drawables.hasOccluders());
+    a.raster.depthWrite = true;
+    drawables.updateUses();
+    EXPECT_TRUE(drawables.hasOccluders());
+    drawables.release(first);
+    EXPECT_FALSE(drawables.hasOccluders());
+}
+
 TEST_F(DrawablesTest, CountsUsersRightThroughRandomUse) {
     std::map<uint32_t, uint32_t> users;              // by mesh
     std::vector<std::pair<uint32_t, uint32_t>> live; // mesh, number
