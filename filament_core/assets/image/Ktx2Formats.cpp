@@ -104,6 +104,7 @@ float floatOf(Ktx2Numbers numbers, uint64_t value, uint32_t bits) {
     if (numbers == Ktx2Numbers::Signed) return signedShare(value, bits);
     const float number = bits == 16 ? floatFromHalf(static_cast<uint16_t>(value))
                                     : std::bit_cast<float>(static_cast<uint32_t>(value));
+    if (std::isinf(number)) return std::copysign(kMaxHalf, number);
     return std::isnan(number) ? 0.0f : number;
 }
 

@@ -10,6 +10,7 @@
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/Ktx2Decoder.h"
 
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -74,6 +75,24 @@ Result<Image> decodeFloats(std::span<const std::byte> bytes, std::string_view na
     return pixels.take();
 }
 
+template <class T>
+void raiseToZero(std::span<std::byte> data, auto&& isNegative) {
+    for (size_t at = 0; at + sizeof(T) <= data.size(); at += sizeof(T)) {
+        T value;
+        std::memcpy(&value, &data[at], sizeof(value));
+        if (isNegative(value)) std::memset(&data[at], 0, sizeof(value));
+    }
+}
+
+/// No light is negative; directions and other data may be.
+Image withoutNegativeLight(Image image, PictureOptions const& options) {
+    if (options.isColor && image.format == backend::Format::RGBA16F)
+        raiseToZero<uint16_t>(image.data, [](uint16_t half) { return (half & 0x8000) != 0; });
+    if (options.isColor && image.format == backend::Format::RGBA32F)
+        raiseToZero<float>(image.data, [](float value) { return std::signbit(value); });
+    return image;
+}
+
 Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view name, PictureOptions const& options) {
     const Result<Ktx2File> file = readKtx2(bytes, name);
     if (!file) return file.error();
@@ -82,7 +101,7 @@ Result<Image> decodeLevel(std::span<const std::byte> bytes, std::string_view nam
                     file->isCube ? "a cube" : "an array");
     Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .isFull = options.isFull, .isOneLevel = true });
     if (!texture) return texture.error();
-    return std::move(texture->image);
+    return withoutNegativeLight(std::move(texture->image), options);
 }
 
 /// A DDS says only of some formats that their codes are sRGB: of others, the caller knows.
@@ -91,7 +110,7 @@ Result<Image> decodeSurface(std::span<const std::byte> bytes, std::string_view n
     if (!texture) return texture.error();
     if (texture->image.format == backend::Format::RGBA8 && options.isColor)
         texture->image.format = backend::Format::RGBA8Srgb;
-    return std::move(texture->image);
+    return withoutNegativeLight(std::move(texture->image), options);
 }
 
 } // namespace
