@@ -17,6 +17,7 @@
 #include "filament_core/passes/SplatPass.h"
 #include "filament_core/prepare/GuardBand.h"
 #include "filament_core/prepare/PrepareFrame.h"
+#include "filament_core/prepare/PrepareSplats.h"
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
@@ -111,9 +112,10 @@ bool joinsLastImage(View const& view) { return view.viewport && view.viewport->c
 struct Renderer::Impl final : engine::Dependent {
     Impl(Engine& ofEngine, RendererOptions const& rendererOptions)
             : engine(ofEngine.impl()), link(ofEngine), options(rendererOptions), resources(engine),
-              data(*engine.stream), blocks(*engine.stream), debugBuffers(*engine.stream), splatBuffers(*engine.stream),
-              shadows(engine), graph(arena), transients(*engine.stream), ranges(engine.jobs), timings(engine),
-              pixels(engine), imageTarget(engine) {
+              data(*engine.stream), blocks(*engine.stream),
+              debugBuffers(*engine.stream, sizeof(prepare::DebugVertex), "debug draw"),
+              splatBuffers(*engine.stream, sizeof(prepare::SplatVertex), "splats"), shadows(engine), graph(arena),
+              transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine), imageTarget(engine) {
         engine.dependents.push_back(this);
     }
 
@@ -229,8 +231,8 @@ struct Renderer::Impl final : engine::Dependent {
         engine.recordCompilations(*commands);
         data.upload(engine.jobs, *commands, context.packet);
         blocks.upload(*commands);
-        context.debugDraw.buffers = debugBuffers.upload(*commands, arena, context.debugDraw.quads);
-        context.splats = splatBuffers.upload(engine.jobs, *commands, arena, context.packet.splats);
+        context.debugDraw.buffers = passes::uploadDebugQuads(debugBuffers, *commands, arena, context.debugDraw.quads);
+        context.splats = passes::uploadSplats(splatBuffers, engine.jobs, *commands, arena, context.packet.splats);
         context.views = data.views();
         context.deformations = data.deformations();
         context.lastDeformations = data.lastDeformations();
@@ -377,8 +379,7 @@ struct Renderer::Impl final : engine::Dependent {
     Arena arena;
     passes::FrameData data;
     passes::PassBlocks blocks;
-    passes::DebugBuffers debugBuffers;
-    passes::SplatBuffers splatBuffers;
+    passes::QuadBuffers debugBuffers, splatBuffers;
     engine::ShadowTexture shadows;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;

@@ -28,19 +28,15 @@ inline framegraph::TextureId createLike(framegraph::FrameGraph& graph, framegrap
             { .width = size.x, .height = size.y, .format = format, .samples = samples, .name = name });
 }
 
-struct DebugDrawBuffers {
+/// Where quads are on the device (QuadBuffers.h); empty without any.
+struct FrameQuads {
     backend::BufferHandle vertices, indices;
 };
 
 /// View::debugDraw.
 struct FrameDebugDraw {
     prepare::DebugQuads quads;
-    DebugDrawBuffers buffers{}; ///< where they are on the device
-};
-
-/// Where FramePacket::splats are on the device.
-struct FrameSplats {
-    backend::BufferHandle vertices, indices;
+    FrameQuads buffers{};
 };
 
 struct FrameContext {
@@ -53,7 +49,7 @@ struct FrameContext {
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
     FrameDebugDraw debugDraw{};
-    FrameSplats splats{};
+    FrameQuads splats{}; ///< of FramePacket::splats
 
     // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views;                        ///< by view of the packet

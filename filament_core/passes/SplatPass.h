@@ -4,40 +4,17 @@
 /// Space". ColorPass calls this between opaque and transparent objects.
 ///   In      FramePacket::splats: nothing runs for an encoding without any.
 ///   Bits    quads are computed by the CPU; the device interpolates and blends.
-///   Memory  SplatBuffers: three pairs of buffers, used in turn; they grow to the most splats of a frame and stay.
-///   Thread  the app thread, and the workers for vertices.   Fails: std::bad_alloc; what is recorded then fits what is
-///           remembered.
+///   Memory  that of QuadBuffers.   Thread: the app thread, and the workers for vertices.   Fails: std::bad_alloc.
 #pragma once
 
-#include "backend/stream/CommandStream.h"
-#include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/QuadBuffers.h"
 #include "jobsystem/JobSystem.h"
-
-#include <array>
 
 namespace filament_core::passes {
 
-class SplatBuffers {
-public:
-    explicit SplatBuffers(backend::CommandStream& stream) : mStream(stream) {}
-
-    /// Nothing for a frame without splats.
-    FrameSplats upload(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Arena& arena,
-                       prepare::SplatPacket const& splats);
-    void destroy(backend::CommandBuffer& commands);
-
-private:
-    struct Set {
-        backend::BufferHandle vertices, indices;
-        uint32_t splats = 0;
-    };
-    void reserve(backend::CommandBuffer& commands, Arena& arena, Set& set, uint32_t splats);
-    void destroy(backend::CommandBuffer& commands, Set& set);
-
-    backend::CommandStream& mStream;
-    std::array<Set, 3> mSets{};
-    uint32_t mCurrent = 0;
-};
+/// Writes the vertices of a frame's splats to the device; `buffers` are made for SplatVertex. Nothing without splats.
+FrameQuads uploadSplats(QuadBuffers& buffers, jobs::JobSystem& jobs, backend::CommandBuffer& commands, Arena& arena,
+                        prepare::SplatPacket const& splats);
 
 /// As the pipelines of splats see them.
 scene::GeometryLayout splatLayout();
