@@ -454,9 +454,9 @@ TEST(InstanceIndex, NumbersTheInstancesOfOneRenderable) {
         EXPECT_EQ(stage.scene.renderableCount(), 4);
     });
     const Image single = row(false, [&](MaterialStage& stage, RenderableDesc desc) {
-        const double4x4 row = desc.worldFromObject;
+        const double4x4 first = desc.worldFromObject;
         for (const double4x4& place : places) {
-            desc.worldFromObject = row * place;
+            desc.worldFromObject = first * place;
             stage.scene.add(desc);
             ++desc.instanceIndex;
         }
