@@ -3,8 +3,8 @@
 /// box is left out only if every pixel that it could cover shows something nearer (OcclusionBuffer.h).
 ///   In      the finished packet of a view of a camera with one sample a pixel.
 ///   Out     a packet with fewer opaque draws; transparent draws stay, and so does what other steps of the frame found.
-///   Chosen  the occluders that look largest, at most kMostOccluders; without one of kSmallestPixels nothing is done, and
-///           in scenes without any the objects are not even visited.
+///   Chosen  the occluders that look largest, at most kMostOccluders; without one of kSmallestPixels nothing is done,
+///           and in scenes without any the objects are not even visited.
 ///   Thread  jobs over ranges; the bits are the same for any number of workers.   Memory: the arena.
 ///   Fails   std::bad_alloc.   Cost: occlusion_bench.
 #pragma once
