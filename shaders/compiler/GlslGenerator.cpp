@@ -288,12 +288,15 @@ Result<void> includeTransparency(StageText& out, MaterialPackage const& package)
                              "shaders/material/surface/transparency.glsl" });
 }
 
+bool isStandard(MaterialDefinition const& definition) {
+    const ShadingModel shading = definition.package.shading;
+    return shading == ShadingModel::Lit || shading == ShadingModel::SpecularGlossiness;
+}
+
 /// Authors' models, cloth and subsurface have no transformed lobe.
 Result<void> areaLights(StageText& out, MaterialDefinition const& definition) {
-    const ShadingModel shading = definition.package.shading;
-    const bool isStandard = shading == ShadingModel::Lit || shading == ShadingModel::SpecularGlossiness;
     Result<void> done = out.include("shaders/material/surface/area_lights.glsl");
-    if (!done || !isStandard || definition.customSurfaceShading) return done;
+    if (!done || !isStandard(definition) || definition.customSurfaceShading) return done;
     out.define("AREA_LIGHTS_BY_LTC");
     return out.include("shaders/material/surface/lit_area.glsl");
 }
@@ -307,6 +310,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     const bool hasLightList = mayHave(definition, kVariantPunctual);
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
+    if (done && isStandard(definition)) done = out.include("shaders/lib/look_ups.glsl");
     if (done && hasLightList) done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done)

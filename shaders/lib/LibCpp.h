@@ -44,6 +44,7 @@ namespace {
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/iridescence.glsl"
 #include "shaders/lib/light.glsl"
+#include "shaders/lib/look_ups.glsl"
 #include "shaders/lib/ltc.glsl"
 #include "shaders/lib/moments.glsl"
 #include "shaders/lib/noise.glsl"

@@ -62,12 +62,15 @@ struct EnumNames<SplitSum> {
 enum class SpecularLookUps : uint8_t {
     Dominant,  ///< once, in the direction of Lagarde and de Rousiers 2014
     Quadratic, ///< once, in a direction without a root: further off at middle roughness
+    Two,       ///< twice, in directions and of roughnesses that are fitted to the lobe (docs/quality.md)
+    Three,     ///< three times, as fitted
     Eight,     ///< at eight visible half vectors (Heitz 2018), each as wide as its share of the lobe
     ThirtyTwo, ///< with 32: a reference
 };
 template <>
 struct EnumNames<SpecularLookUps> {
-    static constexpr std::array<std::string_view, 4> values{ "dominant", "quadratic", "eight", "thirtyTwo" };
+    static constexpr std::array<std::string_view, 6> values{ "dominant", "quadratic", "two",
+                                                             "three",    "eight",     "thirtyTwo" };
 };
 
 /// How often an anisotropic lobe looks up the environment, along the grain.

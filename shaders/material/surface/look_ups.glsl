@@ -5,8 +5,11 @@
 
 const float kGoldenCosine = -0.7373688780783197, kGoldenSine = 0.6754902942615238; // of 2.39996 radians
 
-// Points of a sunflower (Vogel 1979, "A Better Way to Construct the Sunflower Head") on the disc of visible normals.
-highp vec3 radianceOfVisible(highp float alpha, int count) {
+// Either fitted to the lobe (shaders/lib/look_ups.glsl), or at points of a sunflower (Vogel 1979, "A Better Way to Construct
+// the Sunflower Head") on the disc of visible normals. In one loop, because the look-up itself is most of the code.
+highp vec3 radianceOfSeveral(Surface surface, highp vec3 reflected, int count) {
+    bool isFitted = quality_specularLookUps < kLookUpsEight;
+    highp float alpha = surface.alpha;
     highp vec3 across = cross(shading_normal, shading_view);
     highp float sine2 = dot(across, across);
     highp vec3 any = shading_normal.y * shading_normal.y < 0.5 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
@@ -18,14 +21,23 @@ highp vec3 radianceOfVisible(highp float alpha, int count) {
     highp vec3 sum = vec3(0.0);
     highp float weights = 1e-6;
     for (int i = 0; i < count; ++i) {
-        highp vec2 disc = turn * sqrt((float(i) + 0.5) * inverse);
-        turn = vec2(turn.x * kGoldenCosine - turn.y * kGoldenSine, turn.x * kGoldenSine + turn.y * kGoldenCosine);
-        highp vec3 h = visibleHalfVector(nov, alpha, disc);
-        highp vec3 light = h * (2.0 * dot(view, h)) - view;
-        if (light.z <= 0.0) continue; // below the surface
-        highp float weight = visibleLookUpWeight(nov, min(light.z, 1.0), alpha);
-        highp float roughness = visibleLookUpRoughness(nov, min(h.z, 1.0), alpha, float(count));
-        sum += environmentRadiance(x * light.x + y * light.y + shading_normal * light.z, roughness) * weight;
+        highp vec3 direction;
+        highp float roughness, weight = 1.0;
+        if (isFitted) {
+            highp vec2 lookUp = lookUpOf(count, i, surface.perceptualRoughness, nov);
+            direction = mix(shading_normal, reflected, lookUp.x);
+            roughness = lookUp.y;
+        } else {
+            highp vec2 disc = turn * sqrt((float(i) + 0.5) * inverse);
+            turn = vec2(turn.x * kGoldenCosine - turn.y * kGoldenSine, turn.x * kGoldenSine + turn.y * kGoldenCosine);
+            highp vec3 h = visibleHalfVector(nov, alpha, disc);
+            highp vec3 light = h * (2.0 * dot(view, h)) - view;
+            if (light.z <= 0.0) continue; // below the surface
+            direction = x * light.x + y * light.y + shading_normal * light.z;
+            weight = visibleLookUpWeight(nov, min(light.z, 1.0), alpha);
+            roughness = visibleLookUpRoughness(nov, min(h.z, 1.0), alpha, float(count));
+        }
+        sum += environmentRadiance(direction, roughness) * weight;
         weights += weight;
     }
     return sum / weights;
@@ -58,8 +70,12 @@ highp vec3 radianceAlongGrain(Grooves grooves, int count) {
 // reflected: the mirrored view, as bent by grooves.
 vec3 radianceOfRound(Surface surface, highp vec3 reflected) {
     vec3 radiance;
-    if (quality_specularLookUps >= kLookUpsEight) {
-        radiance = radianceOfVisible(surface.alpha, quality_specularLookUps == kLookUpsThirtyTwo ? 32 : 8);
+    if (quality_specularLookUps >= kLookUpsTwo) {
+        int count = 2;
+        if (quality_specularLookUps == kLookUpsThree) count = 3;
+        if (quality_specularLookUps == kLookUpsEight) count = 8;
+        if (quality_specularLookUps == kLookUpsThirtyTwo) count = 32;
+        radiance = radianceOfSeveral(surface, reflected, count);
     } else {
         highp vec3 direction = lobeDirectionTerm(surface.normal, reflected, surface.alpha);
         radiance = environmentRadiance(direction, surface.perceptualRoughness);

@@ -59,6 +59,24 @@ std::vector<Row> antiAliasingRows() {
     };
 }
 
+/// The fit of shaders/lib/look_ups.glsl.
+std::vector<Row> fittedLookUpRows() {
+    const auto row = [](std::string_view function, Call call, Interval range) {
+        return Row{ .file = "look_ups",
+                    .function = function,
+                    .call = call,
+                    .s = { unit("r"), unit("c") },
+                    .range = range,
+                    .limits = absolute(1e-5, 0, "sums of ten terms of up to 20, which cancel"),
+                    .fp32Only = "terms cancel" };
+    };
+    return { row("lookUpCubic(float, float, vec4, vec3, vec3)",
+                 NUMERICS_CALL(lookUpCubic(s.x, s.y, vec4(8.0f, -7.0f, 6.0f, -5.0f), vec3(4.0f, -3.0f, 2.0f),
+                                           vec3(-1.0f, 1.0f, -2.0f))),
+                 { -12, 12 }),
+             row("lookUpOf(int, int, float, float)", NUMERICS_CALL(lookUpOf(3, 1, s.x, s.y)), { -2, 2 }) };
+}
+
 /// Where and how wide the specular lobe looks up the environment.
 std::vector<Row> lookUpRows() {
     return {
@@ -163,7 +181,8 @@ std::vector<Row> imageRows() {
         irradianceRow("3 bands", NUMERICS_CALL(irradianceShOf(s, u, 3))),
     };
     std::vector<Row> rows = antiAliasingRows();
-    for (std::vector<Row> const& more : { ibl, lookUpRows() }) rows.insert(rows.end(), more.begin(), more.end());
+    for (std::vector<Row> const& more : { ibl, lookUpRows(), fittedLookUpRows() })
+        rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 
