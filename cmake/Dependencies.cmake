@@ -14,6 +14,7 @@ find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
 find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
 find_package(nlohmann_json REQUIRED)
 find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
 pkg_check_modules(AVIF REQUIRED IMPORTED_TARGET libavif)
@@ -51,9 +52,15 @@ target_link_libraries(shader_tools INTERFACE
 add_library(spirv_validator INTERFACE)
 target_link_libraries(spirv_validator INTERFACE SPIRV-Tools-static)
 
+# Without the definition that its package adds to the compiler's commands of everything that links it.
+add_library(meshoptimizer INTERFACE)
+target_include_directories(meshoptimizer SYSTEM INTERFACE
+    $<TARGET_PROPERTY:meshoptimizer::meshoptimizer,INTERFACE_INCLUDE_DIRECTORIES>)
+target_link_libraries(meshoptimizer INTERFACE $<LINK_ONLY:meshoptimizer::meshoptimizer>)
+
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    nlohmann_json::nlohmann_json draco::draco PNG::PNG JPEG::JPEG ZLIB::ZLIB
+    nlohmann_json::nlohmann_json draco::draco meshoptimizer PNG::PNG JPEG::JPEG ZLIB::ZLIB
     PkgConfig::AVIF PkgConfig::WEBP PkgConfig::ZSTD)
 
 # The reference renderer's ray tracer, version 4 or 3. Its CMake package requires TBB's headers, which are not needed here.

@@ -63,7 +63,7 @@ function(filament_pkgconfig component name)
     install(FILES ${generated}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT ${component})
 endfunction()
 set(static_requires "glm filament_jobsystem draco libpng libjpeg libavif libwebp zlib libzstd SPIRV-Tools")
-set(static_libs "-lfilament_core_static -ldl")
+set(static_libs "-lfilament_core_static -lmeshoptimizer -ldl") # meshoptimizer has no file for pkg-config
 filament_pkgconfig(jobsystem filament_jobsystem DESCRIPTION "A work-stealing job system" REQUIRES "fmt hwloc"
     LIBS "-lfilament_jobsystem -pthread" CFLAGS "-I\${includedir}/filament_jobsystem")
 filament_pkgconfig(development filament_core_static DESCRIPTION "${PROJECT_DESCRIPTION} (static)"

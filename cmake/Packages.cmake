@@ -44,7 +44,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package/trigg
 filament_package(development libfilament-core-dev libdevel
     DEPENDS "libfilament-core${soname_version} ${same_version}" "libfilament-jobsystem-dev ${same_version}" libglm-dev
     RECOMMENDS "filament-core-tools ${same_version}"
-    SUGGESTS libfilament-core-doc libavif-dev libdraco-dev libjpeg62-turbo-dev libpng-dev
+    SUGGESTS libfilament-core-doc libavif-dev libdraco-dev libjpeg62-turbo-dev libmeshoptimizer-dev libpng-dev
         libwebp-dev libzstd-dev spirv-tools zlib1g-dev
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - development"
     TEXT "${about}

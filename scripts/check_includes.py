@@ -102,6 +102,7 @@ LIBRARIES = {
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
     r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "filament_core/engine", "tests"],
     r"draco/": ["filament_core/assets/gltf"],
+    r"meshoptimizer\.h": ["filament_core/assets/geometry"],
     r"stb_?image|stb/|png\.h|jpeglib\.h|webp/|avif/": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zlib\.h": ["shaders/package", "filament_core/assets/image", "filament_core/assets/gltf"],
     r"zstd\.h": ["filament_core/assets/image"],
