@@ -115,6 +115,7 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
     std::string text =
             fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", summary.statistics.frame,
                         counts.visible, counts.renderables, counts.triangles, summary.main.draws);
+    if (counts.trianglesSaved) text += fmt::format("  {} triangles saved by levels of detail\n", counts.trianglesSaved);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
     if (counts.tooSmall) text += fmt::format("  {} not drawn: they cover no centre of a pixel\n", counts.tooSmall);
     if (counts.occluded) text += fmt::format("  {} not drawn: they are behind others\n", counts.occluded);

@@ -79,11 +79,12 @@ Picker::Pending Picker::describe(scene::SceneData const& scene, View const& view
 }
 
 PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
-                       FrameResourceCache& resources, uint2 pixel, PickAim aim) {
+                       FrameResourceCache& resources, uint2 pixel, PickAim aim,
+                       std::span<const prepare::DrawnLevel> last) {
     const jobs::AdoptedThread seat(mEngine.jobs);
     mArena.reset();
     mGraph.reset();
-    const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel, aim);
+    const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel, aim, last);
     const Ticket ticket = mEngine.stream->nextTicket();
     mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
     if (pick.renderables.empty()) return { ticket.value }; // nothing to draw

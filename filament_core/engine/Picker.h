@@ -29,9 +29,9 @@ public:
     Picker(Picker const&) = delete;
     Picker& operator=(Picker const&) = delete;
 
-    /// `input`: of the view, without jitter.
+    /// `input`: of the view, without jitter. `last`: the levels of detail that the last frame drew.
     PickTicket ask(scene::SceneData const& scene, View const& view, prepare::ViewInput const& input,
-                   FrameResourceCache& resources, uint2 pixel, PickAim aim);
+                   FrameResourceCache& resources, uint2 pixel, PickAim aim, std::span<const prepare::DrawnLevel> last);
     std::optional<PickHit> take(PickTicket ticket);
     Result<PickHit> wait(PickTicket ticket);
 

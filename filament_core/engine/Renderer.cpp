@@ -366,7 +366,7 @@ struct Renderer::Impl final : engine::Dependent {
         return engine.orNone("picking", {}, [&] {
             return pickerOfRenderer().ask(scene.impl().upToDate(), view,
                                           wholeInputOf(view, clamped(view.effects), contentsOf(scene)), resources,
-                                          pixel, aim);
+                                          pixel, aim, last.levels());
         });
     }
 

@@ -72,7 +72,7 @@ Renderable Scene::add(RenderableDesc const& desc) {
         return splats;
     }
     const GeometryDesc shape{ desc.vertices,   desc.indices, desc.primitive, desc.firstIndex,
-                              desc.indexCount, desc.bounds,  desc.occluder };
+                              desc.indexCount, desc.bounds,  desc.occluder,  desc.levels };
     scene::MaterialInstance const& material = mImpl->engine.instances.get(desc.material);
     const scene::Geometry geometry = mImpl->geometryOf(shape, *material.material);
     const scene::MinMax bounds = mImpl->boundsOf(shape);
@@ -88,7 +88,8 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .properties = { .receivesShadows = desc.receivesShadows,
                                                         .lightChannels = desc.lightChannels },
                                         .layers = desc.layers,
-                                        .place = desc.drawOrder };
+                                        .place = desc.drawOrder,
+                                        .levels = desc.levels };
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;

@@ -5,6 +5,8 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/scene/SceneNodes.h"
 
+#include <cmath>
+
 namespace filament_core {
 
 using engine::PublicCall;
@@ -27,6 +29,20 @@ void checkDeformation(Engine::Impl const& engine, scene::Deformation const& defo
                     "the vertices of a renderable with a skin keep their sets of joints and weights");
 }
 
+void checkLevels(GeometryDesc const& desc, uint32_t indexCount) {
+    FILAMENT_ASSERT(desc.levels.empty() || desc.primitive == PrimitiveType::Triangles,
+                    "levels of detail are made of triangles");
+    float last = 0;
+    for (GeometryLevel const& level : desc.levels) {
+        FILAMENT_ASSERT(level.firstIndex <= indexCount && level.indexCount <= indexCount - level.firstIndex &&
+                                level.indexCount > 0,
+                        "the indices of a level of detail lie inside of its index buffer");
+        FILAMENT_ASSERT(level.errorMeters >= last && std::isfinite(level.errorMeters),
+                        "the errors of levels of detail are finite and do not decrease");
+        last = level.errorMeters;
+    }
+}
+
 } // namespace
 
 scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Material const& material) const {
@@ -34,6 +50,7 @@ scene::Geometry Scene::Impl::geometryOf(GeometryDesc const& desc, scene::Materia
     engine::IndexBufferState const& indices = engine.indexBuffers.get(desc.indices);
     FILAMENT_ASSERT(desc.firstIndex <= indices.indexCount && desc.indexCount <= indices.indexCount - desc.firstIndex,
                     "a renderable's indices lie inside of its index buffer");
+    checkLevels(desc, indices.indexCount);
     engine::requireAttributes(material, vertices.layout);
     return { vertices.handle,
              indices.handle,
@@ -80,7 +97,7 @@ void Scene::setGeometry(Renderable renderable, GeometryDesc const& desc) {
     scene::Drawable const& drawable = renderables.drawables[renderables.drawable[renderables.index.at(renderable)]];
     if (drawable.deformation != scene::kNotDeformed)
         checkDeformation(mImpl->engine, mImpl->data.deformations[drawable.deformation], desc.vertices);
-    scene::setGeometry(renderables, renderable, mImpl->geometryOf(desc, *drawable.material->material));
+    scene::setGeometry(renderables, renderable, mImpl->geometryOf(desc, *drawable.material->material), desc.levels);
     scene::setBounds(mImpl->data, renderable, mImpl->boundsOf(desc));
     mImpl->follow(renderable, desc);
 }

@@ -16,6 +16,7 @@ static_assert(kCullRange % kLanes == 0, "only the last range of a scene has boxe
 
 struct Tally {
     uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0, tooSmall = 0;
+    uint64_t trianglesSaved = 0;
 };
 
 /// Bit or lane i: renderable first + i.
@@ -41,8 +42,9 @@ void extend(uint16_t& shared, uint32_t step) {
 
 class RangeCuller {
 public:
-    RangeCuller(Renderables const& renderables, ViewSpace const& space, ViewKind kind, std::span<uint16_t> spans)
-            : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans),
+    RangeCuller(Renderables const& renderables, ViewSpace const& space, ViewKind kind, std::span<uint16_t> spans,
+                LevelChoice const& levels)
+            : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans), mLevels(levels),
               mIsShadow(kind == ViewKind::Shadow) {}
 
     /// Writes the visible renderables of [begin, end) to `slots`.
@@ -117,7 +119,8 @@ private:
             }
             const uint32_t depth = depthBits(seen.depth[lane]);
             const bool mirrored = mRenderables.flags[renderable] & scene::kMirrored;
-            const uint32_t draw = drawOf(mRenderables.drawable[renderable], mirrored);
+            const uint32_t finest = mRenderables.drawable[renderable];
+            const uint32_t draw = drawOf(mLevels.isOn() ? levelFor(renderable, finest, tally) : finest, mirrored);
             extend(mSpans[draw], coarseStep(depth));
             *next++ = { depth, renderable, draw };
         }
@@ -129,6 +132,14 @@ private:
         if (!mRenderables.drawables.use(mRenderables.drawable[renderable]).staysInBounds) return false;
         const float3 center(mRenderables.bounds.centerAt(renderable) - mSpace.cameraWorld);
         return mSpace.pixels.missesAll(center, mRenderables.bounds.halfExtentAt(renderable));
+    }
+
+    uint32_t levelFor(uint32_t renderable, uint32_t finest, Tally& tally) const {
+        scene::Drawables const& drawables = mRenderables.drawables;
+        const float3 center(mRenderables.bounds.centerAt(renderable) - mSpace.cameraWorld);
+        const uint32_t level = mLevels.choose(renderable, finest, center, mRenderables.bounds.halfExtentAt(renderable));
+        tally.trianglesSaved += drawables.level(finest).triangles - drawables.level(level).triangles;
+        return level;
     }
 
     static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
@@ -143,20 +154,21 @@ private:
     ViewSpace const& mSpace;
     Frustum8 mFrustum;
     std::span<uint16_t> mSpans;
+    LevelChoice const& mLevels;
     bool mIsShadow;
 };
 
 } // namespace
 
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables const& renderables,
-                             ViewSpace const& space, ViewKind kind, ViewCounts& counts) {
+                             ViewSpace const& space, ViewKind kind, ViewCounts& counts, LevelChoice const& levels) {
     const size_t ranges = (renderables.count() + kCullRange - 1) / kCullRange;
     const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
     const auto tallies = arena.arrayForOverwrite<Tally>(ranges);
     std::ranges::fill(spans, VisibleItems::kNoSpan);
     jobs::parallelFor<"cull">(jobs, renderables.count(), kCullRange, [&](size_t begin, size_t end) {
-        const RangeCuller culler(renderables, space, kind, spans);
+        const RangeCuller culler(renderables, space, kind, spans, levels);
         tallies[begin / kCullRange] = culler.cull(begin, end, &slots[begin]);
     });
 
@@ -169,6 +181,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
         all.nothingToDraw += tallies[range].nothingToDraw;
         all.inOtherLayers += tallies[range].inOtherLayers;
         all.tooSmall += tallies[range].tooSmall;
+        all.trianglesSaved += tallies[range].trianglesSaved;
     }
     firsts[ranges] = all.visible;
     counts.renderables = renderables.count();
@@ -177,6 +190,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     counts.nothingToDraw = all.nothingToDraw;
     counts.inOtherLayers = all.inOtherLayers;
     counts.tooSmall = all.tooSmall;
+    counts.trianglesSaved = all.trianglesSaved;
     return { slots, firsts, spans };
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "base/Arena.h"
+#include "filament_core/prepare/ChooseLevels.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/SortKey.h"
 #include "filament_core/prepare/ViewConstants.h"
@@ -35,7 +36,8 @@ struct VisibleItems {
     DepthSpan spanOf(uint32_t draw) const { return { spans[draw] & 0xFFu, 0xFFu - (spans[draw] >> 8) }; }
 };
 
+/// `levels`: which level of detail is visible of each.
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-                             ViewSpace const& space, ViewKind kind, ViewCounts& counts);
+                             ViewSpace const& space, ViewKind kind, ViewCounts& counts, LevelChoice const& levels = {});
 
 } // namespace filament_core::prepare

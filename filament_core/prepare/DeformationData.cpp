@@ -23,10 +23,14 @@ constexpr size_t kHeaderWords = offsetof(shader::DeformationUniforms, targets) /
 bool isVisible(scene::Renderables const& renderables, Deformation const& deformation,
                std::span<const VisibleItems> views) {
     if (!deformation.renderable) return false;
-    const uint32_t drawable = renderables.drawable[renderables.index.at(deformation.renderable)];
-    return std::ranges::any_of(views, [&](VisibleItems const& view) {
-        return view.isSeen(drawOf(drawable, false)) || view.isSeen(drawOf(drawable, true));
-    });
+    const auto isSeen = [&](uint32_t drawable) {
+        return std::ranges::any_of(views, [&](VisibleItems const& view) {
+            return view.isSeen(drawOf(drawable, false)) || view.isSeen(drawOf(drawable, true));
+        });
+    };
+    uint32_t level = renderables.drawable[renderables.index.at(deformation.renderable)];
+    while (level != scene::kNoLevel && !isSeen(level)) level = renderables.drawables.level(level).coarser;
+    return level != scene::kNoLevel;
 }
 
 /// The smallest magnitude of a weight that is kept, and how many of exactly this magnitude are.

@@ -85,6 +85,7 @@ ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents)
              .band = band,
              .samples = view.samples,
              .occlusionCulling = view.occlusionCulling,
+             .lodPixels = std::clamp(view.lod.pixels, 0.0f, LevelsOfDetail::kMostPixels),
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,

@@ -41,6 +41,11 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
     mIsExposed = packet.demand.needs(Effect::AutoExposure);
     mIsReflected = packet.demand.needs(Effect::Reflections);
     mAccumulated = accumulates ? 1 / packet.accumulation.weight : 0;
+    mLevels.clear();
+    if (view.lodPixels > 0) {
+        mLevels.resize(scene.renderables.count());
+        writeDrawnLevels(scene, packet.mainView(), mLevels);
+    }
     mScene = 0; // until all places are kept
     if (packet.settings.readsMotion(packet.mainView().counts)) keepPlaces(scene);
 }
@@ -72,7 +77,8 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
     lastEffects.resolution = settings.effects.resolution; // how many samples there are does not change what they show
     const bool isSame = last.contents == view.contents && last.camera.position() == view.camera.position() &&
                         last.camera.exposure == view.camera.exposure && mSeen->settings.quality == settings.quality &&
-                        lastEffects == settings.effects && last.visibleLayers == view.visibleLayers;
+                        lastEffects == settings.effects && last.visibleLayers == view.visibleLayers &&
+                        last.lodPixels == view.lodPixels;
     if (!isSame || packet.motionView != kNowhere) return false;
     if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
     const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };

@@ -5,11 +5,13 @@
 ///   Limits  of one scene and one view, by the size of what it shows: beside others, frames know none before them
 ///           (isFollowedBy(), which prepareFrame() asks first).
 ///           Parameters of materials are not remembered: a vertex block that the app moves by one shows no motion.
-///   Memory  places only if asked for: 72 B a renderable, 48 B a bone, 4 B a morph target; kept and reused.
+///   Memory  places only if asked for: 72 B a renderable, 48 B a bone, 4 B a morph target; levels of detail likewise,
+///           12 B a renderable; kept and reused.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
 ///   Fails   std::bad_alloc; there was no last frame then.
 #pragma once
 
+#include "filament_core/prepare/ChooseLevels.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/ViewConstants.h"
 #include "filament_core/scene/SceneData.h"
@@ -36,6 +38,8 @@ public:
     /// The mean of all frames since something changed.
     Accumulation accumulation(scene::SceneData const& scene, ViewInput const& view, FramePacket const& packet) const;
 
+    /// The levels of detail that it drew; none if they were not asked for.
+    std::span<const DrawnLevel> levels() const { return mLevels; }
     /// Whether the renderable at position `at` was in the last frame's scene, and its place there.
     scene::Placement const* placement(scene::SceneData const& scene, uint32_t at) const;
     /// Of a slot of Deformations; none: it was not there, or had another skin.
@@ -66,6 +70,7 @@ private:
     float mAccumulated = 0;               ///< accumulated frames
     bool mIsExposed = false;              ///< by AutoExposure
     bool mIsReflected = false;            ///< its picture was kept for reflections
+    std::vector<DrawnLevel> mLevels;      // by position
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
     std::vector<Renderable> mRenderables; // parallel to mPlacements
     std::vector<scene::Placement> mPlacements;

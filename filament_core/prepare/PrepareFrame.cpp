@@ -156,7 +156,10 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     LastFrame const& last = kept.isFollowedBy(scene, settings) ? kept : kNone;
     const std::span<const ViewInput> drawn = jittered(arena, scene, views, settings, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
-    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, drawn[i], settings);
+    for (size_t i = 0; i < views.size(); ++i) {
+        const LevelChoice levels(scene, drawn[i], i == 0 ? last.levels() : std::span<const DrawnLevel>{});
+        asked[i] = prepareView(jobs, arena, scene, drawn[i], settings, levels);
+    }
     // Shadows need the receivers of the main view, and give its lights their maps; lists by channel copy these lights.
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 

@@ -96,11 +96,12 @@ std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, s
 } // namespace
 
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         uint2 pixel, PickAim aim) {
+                         uint2 pixel, PickAim aim, std::span<const DrawnLevel> last) {
     ViewInput reversed = view;
     reversed.quality.depthRange = DepthRange::Reversed;
     const FrameSettings settings = resolve(reversed);
-    PreparedView prepared = prepareView(jobs, arena, scene, aroundPixel(reversed, pixel), settings);
+    PreparedView prepared =
+            prepareView(jobs, arena, scene, aroundPixel(reversed, pixel), settings, LevelChoice(scene, reversed, last));
     const ViewSpace space = makeViewSpace(reversed);
     const std::span<const PickCandidate> candidates =
             nearestOf(arena, candidatesOf(arena, scene, prepared.packet, aim), scene.renderables, space);

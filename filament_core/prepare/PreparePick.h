@@ -21,8 +21,9 @@ struct PreparedPick {
     std::span<const uint32_t> renderables; ///< of each draw: its position in the scene
 };
 
+/// `last`: the levels of detail that the last frame drew.
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         uint2 pixel, PickAim aim = PickAim::Anything);
+                         uint2 pixel, PickAim aim = PickAim::Anything, std::span<const DrawnLevel> last = {});
 
 /// Of a depth that is reversed, the pixel's distance along the view, and the place there.
 struct PickedPoint {

@@ -78,6 +78,10 @@ public:
         mCounts.isColorOn = mSettings.quality.coloredShadows;
         mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mSettings.quality.shadows);
         mCounts.receivers = mReceivers.count;
+        if (mView.lodPixels > 0) {
+            mLevels = mArena.array<DrawnLevel>(mScene.renderables.count());
+            writeDrawnLevels(mScene, mMain.packet, mLevels);
+        }
         const std::span<const Caster> casters = findCasters();
         mCounts.lights = static_cast<uint32_t>(casters.size());
         if (mReceivers.count > 0) {
@@ -111,16 +115,16 @@ private:
     void addMaps(Caster const& caster, uint32_t index) {
         LightRecord const& light = mScene.lights.records[caster.record];
         if (light.type == LightRecord::Type::Sun) {
-            addCascades(light, index);
+            addCascades(caster, light, index);
             return;
         }
         const uint32_t faces = takesCube(light) ? kCubeFaces : 1;
         for (uint32_t face = 0; face < faces; ++face) {
-            if (faces == 1 || shinesThrough(light, face)) add(fitPunctual(light, face), index, face);
+            if (faces == 1 || shinesThrough(light, face)) add(fitPunctual(light, face), caster, index, face);
         }
     }
 
-    void addCascades(LightRecord const& light, uint32_t index) {
+    void addCascades(Caster const& caster, LightRecord const& light, uint32_t index) {
         const double3x3 axes = worldFromLight(double3(light.directionWorld));
         const LightSpaceBox extent = sceneInLightSpace(mJobs, mArena, mScene.renderables, axes, mView.visibleLayers);
         if (extent.isEmpty()) return;
@@ -128,10 +132,10 @@ private:
         const auto slices = splitDepth({ mReceivers.nearest, mReceivers.farthest }, cascades);
         bool coversScene = false;
         for (uint32_t i = 0; i < cascades && !coversScene; ++i)
-            add(fitCascade(mSpace, slices[i], axes, extent, coversScene), index, i);
+            add(fitCascade(mSpace, slices[i], axes, extent, coversScene), caster, index, i);
     }
 
-    void add(FittedShadow const& fitted, uint32_t caster, uint32_t part) {
+    void add(FittedShadow const& fitted, Caster const& caster, uint32_t index, uint32_t part) {
         if (mCount == kMaxShadowMaps) {
             ++mCounts.mapsOverBudget;
             return;
@@ -144,12 +148,15 @@ private:
                          .quality = mView.quality,
                          .visibleLayers = mView.visibleLayers };
         input.quality.depthRange = DepthRange::Reversed;
-        PreparedView prepared = prepareView(mJobs, mArena, mScene, input, mSettings);
+        // At most a texel, which the offsets of receivers cover; of an image of one pixel, as the view has.
+        input.lodPixels = std::min(mView.lodPixels, 1.0f) / static_cast<float>(sizeOf(caster));
+        PreparedView prepared =
+                prepareView(mJobs, mArena, mScene, input, mSettings, LevelChoice::ofShadowMap(mScene, input, mLevels));
         if (prepared.packet.opaque.empty()) {
             ++mCounts.mapsWithoutCasters;
             return;
         }
-        mCandidates[mCount++] = { fitted, prepared, caster, part, channelsOf(prepared.packet) };
+        mCandidates[mCount++] = { fitted, prepared, index, part, channelsOf(prepared.packet) };
     }
 
     /// Three if something in a map transmits light.
@@ -286,7 +293,8 @@ private:
     ShadowAtlas const& mHeld;
     const ViewSpace mSpace;
     ShadowReceivers mReceivers;
-    LightSpaceBox mWorld; ///< everything, in the world; for moments of points and spots only
+    LightSpaceBox mWorld;          ///< everything, in the world; for moments of points and spots only
+    std::span<DrawnLevel> mLevels; ///< of the main view; none: the finest are drawn
     std::span<Candidate> mCandidates;
     uint32_t mCount = 0;
     std::span<shader::PunctualLight> mLights;

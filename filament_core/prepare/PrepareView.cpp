@@ -92,7 +92,7 @@ AnyOrderDraws anyOrderDraws(std::span<const SortItem> order, std::span<const Dra
 } // namespace
 
 PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         FrameSettings const& settings) {
+                         FrameSettings const& settings, LevelChoice const& levels) {
     PreparedView prepared;
     ViewPacket& packet = prepared.packet;
     packet.kind = view.kind;
@@ -116,7 +116,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
         besideCulling.run<"lights">(selectLights);
 
     scene::Renderables const& renderables = scene.renderables;
-    prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
+    prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts, levels);
     const RefractionOrder refraction = refractionOrder(view.kind, settings.quality);
     const AnyOrderExtent any = anyOrderIn(jobs, arena, renderables.drawables,
                                           isShaded(view.kind) && settings.composesAnyOrder, prepared.visible);

@@ -28,6 +28,6 @@ struct PreparedView {
 };
 
 PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
-                         FrameSettings const& settings);
+                         FrameSettings const& settings, LevelChoice const& levels = {});
 
 } // namespace filament_core::prepare

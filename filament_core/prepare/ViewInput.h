@@ -48,6 +48,7 @@ struct ViewInput {
     float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
     uint8_t samples = 1;      ///< a pixel
     bool occlusionCulling = true;
+    float lodPixels = 0; ///< View::lod, of the picture that is made; [0, 64]
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};

@@ -48,6 +48,11 @@ Drawables::Use useOf(Drawable const& drawable, uint32_t users) {
              occludes(drawable) };
 }
 
+Drawables::Level levelOf(Drawable const& drawable) {
+    const bool isInObjectSpace = drawable.material->material->package.vertexDomain == shader::VertexDomain::Object;
+    return { isInObjectSpace ? drawable.coarser : kNoLevel, drawable.errorMeters, drawable.geometry.indexCount / 3 };
+}
+
 } // namespace
 
 bool blendsInAnyOrder(MaterialInstance const& instance) {
@@ -70,10 +75,48 @@ size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
     const uint64_t range = static_cast<uint64_t>(geometry.firstIndex) << 32 | geometry.indexCount;
     const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material), drawable.properties.bits());
     const uint64_t order = uint64_t{ drawable.deformation } << 32 | placeOrder(drawable.place);
-    return hashCombine(hashCombine(buffers, range), hashCombine(own, order));
+    const uint64_t rest = hashCombine(own, hashCombine(order, drawable.coarser));
+    return hashCombine(hashCombine(buffers, range), rest);
+}
+
+/// Without memory for it, the coarser levels lose the user that they got.
+template <class Acquire>
+uint32_t Drawables::acquireAfter(uint32_t coarser, Acquire const& acquire) {
+    try {
+        return acquire();
+    } catch (...) {
+        if (coarser != kNoLevel) release(coarser);
+        throw;
+    }
 }
 
 uint32_t Drawables::acquire(Drawable const& drawable) {
+    if (drawable.coarser == kNoLevel) return acquireOne(drawable);
+    Drawable next = drawable, changed = drawable;
+    Drawable const& known = mDrawables[drawable.coarser];
+    next.geometry = known.geometry;
+    next.errorMeters = known.errorMeters;
+    next.coarser = known.coarser;
+    changed.coarser = acquire(next);
+    return acquireAfter(changed.coarser, [&] { return acquireOne(changed); });
+}
+
+uint32_t Drawables::acquire(Drawable const& drawable, std::span<const GeometryLevel> levels) {
+    Drawable finest = drawable;
+    finest.coarser = kNoLevel;
+    for (; !levels.empty(); levels = levels.first(levels.size() - 1)) {
+        GeometryLevel const& coarsest = levels.back();
+        Drawable level = finest;
+        level.geometry.firstIndex = coarsest.firstIndex;
+        level.geometry.indexCount = coarsest.indexCount;
+        level.geometry.occluder = coarsest.occluder.get();
+        level.errorMeters = coarsest.errorMeters;
+        finest.coarser = acquireAfter(finest.coarser, [&] { return acquireOne(level); });
+    }
+    return acquireAfter(finest.coarser, [&] { return acquireOne(finest); });
+}
+
+uint32_t Drawables::acquireOne(Drawable const& drawable) {
     FILAMENT_ASSERT(drawable.material && drawable.material->material, "a renderable needs a material instance");
     const auto [known, isNew] = mNumbers.try_emplace(drawable, limit());
     if (isNew && !mFree.empty()) {
@@ -82,12 +125,14 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
     } else if (isNew) {
         mDrawables.emplace_back();
         mUses.emplace_back();
+        mLevels.emplace_back();
         mOccluders.emplace_back();
     }
     const uint32_t number = known->second;
     if (isNew) {
         mDrawables[number] = drawable;
         setUse(number, useOf(drawable, 0));
+        mLevels[number] = levelOf(drawable);
         if (drawable.geometry.occluder) mOccluders[number] = drawable.geometry.occluder->shared_from_this();
     }
     ++mUses[number].users;
@@ -96,11 +141,14 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
 
 void Drawables::release(uint32_t number) {
     FILAMENT_ASSERT(number < limit() && mUses[number].users > 0, "a drawable is released once a use");
-    if (--mUses[number].users > 0) return;
-    mNumbers.erase(mDrawables[number]);
-    setUse(number, {});
-    mOccluders[number].reset();
-    mFree.push_back(number);
+    const uint32_t coarser = mDrawables[number].coarser;
+    if (--mUses[number].users == 0) {
+        mNumbers.erase(mDrawables[number]);
+        setUse(number, {});
+        mOccluders[number].reset();
+        mFree.push_back(number);
+    }
+    if (coarser != kNoLevel) release(coarser);
 }
 
 void Drawables::updateUses() {

@@ -3,16 +3,19 @@
 /// can share an instanced draw, so a frame only compares and sorts numbers.
 ///   In      the geometry and material of renderables.   Out: small dense numbers, reused when no renderable has them.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
+///   Levels  of detail are pairs of their own, each of which names the next coarser one.
 ///   Memory  about 100 bytes per pair. Adding a known pair allocates nothing.
 #pragma once
 
 #include "backend/api/Descriptions.h"
 #include "filament_core/scene/Materials.h"
 
+#include <filament_core/GeometryLevel.h>
 #include <filament_core/Objects.h>
 #include <filament_core/Occluder.h>
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -58,6 +61,9 @@ struct DrawProperties {
     uint64_t bits() const { return uint64_t{ lightChannels } << 1 | receivesShadows; }
 };
 
+/// For Drawable::coarser.
+inline constexpr uint32_t kNoLevel = ~0u;
+
 /// Deformed objects are drawn alone: no two renderables share a deformation.
 struct Drawable {
     Geometry geometry{};
@@ -65,6 +71,8 @@ struct Drawable {
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
     DrawProperties properties{};
     DrawOrder place{};
+    uint32_t coarser = kNoLevel; ///< the number of the next level of detail, which differs in its triangles
+    float errorMeters = 0;       ///< of this level, in object space
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };
 
@@ -90,8 +98,11 @@ public:
     static constexpr uint32_t kAnyOrder = 1u << 26; ///< blended, but may be composed in any order (blendsInAnyOrder())
     static constexpr uint32_t kStencilWriteOrder = 1u << 25; ///< opaque, and writes stencil values: drawn first
 
-    /// The number of this pair; adds a user.
+    /// The number of this pair; adds a user to it and to its coarser levels: those that `drawable` names, with the rest
+    /// as in `drawable`.
     uint32_t acquire(Drawable const& drawable);
+    /// The same for a drawable without levels that gets these.
+    uint32_t acquire(Drawable const& drawable, std::span<const GeometryLevel> levels);
     void release(uint32_t number);
     /// After the raster state of a material instance changed.
     void updateUses();
@@ -108,6 +119,13 @@ public:
     };
     Use use(uint32_t number) const { return mUses[number]; }
     bool hasOccluders() const { return mOccluding > 0; } ///< some pair with users occludes
+    /// The part of a pair that the choice of levels reads.
+    struct Level {
+        uint32_t coarser = kNoLevel; ///< none, too, where vertices are not placed in object space
+        float errorMeters = 0;
+        uint32_t triangles = 0;
+    };
+    Level level(uint32_t number) const { return mLevels[number]; }
     /// All numbers are below this, including those of pairs without users.
     uint32_t limit() const { return static_cast<uint32_t>(mDrawables.size()); }
     uint32_t count() const { return static_cast<uint32_t>(mNumbers.size()); }
@@ -117,9 +135,13 @@ private:
         size_t operator()(Drawable const& drawable) const noexcept;
     };
     void setUse(uint32_t number, Use use);
+    uint32_t acquireOne(Drawable const& drawable);
+    template <class Acquire>
+    uint32_t acquireAfter(uint32_t coarser, Acquire const& acquire);
 
     std::vector<Drawable> mDrawables;
     std::vector<Use> mUses;           // parallel to mDrawables
+    std::vector<Level> mLevels;       // the same
     std::vector<Occluder> mOccluders; // of these that have users
     uint32_t mOccluding = 0;          // how many of mUses occlude
     std::vector<uint32_t> mFree;

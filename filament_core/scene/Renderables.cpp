@@ -67,7 +67,8 @@ void BoundsColumns::remove(uint32_t gap) {
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
     const uint32_t drawable = renderables.drawables.acquire(
-            { input.geometry, input.material, input.deformation, input.properties, checked(input.place) });
+            { input.geometry, input.material, input.deformation, input.properties, checked(input.place) },
+            input.levels);
     const Renderable handle = renderables.index.add();
     const int flags =
             (input.culled ? kCulled : 0) | (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
@@ -118,9 +119,14 @@ void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstan
     flags = static_cast<uint8_t>((flags & ~kCannotCast) | castingFlag(material));
 }
 
-void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry) {
+void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry,
+                 std::span<const GeometryLevel> levels) {
     const uint32_t at = renderables.index.at(renderable);
-    changeDrawable(renderables, at, [&](Drawable& changed) { changed.geometry = geometry; });
+    uint32_t& drawable = renderables.drawable[at];
+    Drawable changed = renderables.drawables[drawable];
+    changed.geometry = geometry;
+    const uint32_t before = std::exchange(drawable, renderables.drawables.acquire(changed, levels));
+    renderables.drawables.release(before);
     updateNeverDrawn(renderables, at);
 }
 

@@ -17,6 +17,7 @@
 #include <filament_core/Objects.h>
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,13 +88,15 @@ struct RenderableInput {
     DrawProperties properties{};
     uint8_t layers = kDefaultLayers;
     DrawOrder place{};
+    std::span<const GeometryLevel> levels{}; ///< coarser than `geometry`
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
 /// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
-void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry);
+void setGeometry(Renderables& renderables, Renderable renderable, Geometry const& geometry,
+                 std::span<const GeometryLevel> levels = {});
 void setVisible(Renderables& renderables, Renderable renderable, bool isVisible);
 void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
 void setDrawOrder(Renderables& renderables, Renderable renderable, DrawOrder place);

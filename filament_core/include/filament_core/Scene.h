@@ -10,6 +10,7 @@
 
 #include <filament_core/Box.h>
 #include <filament_core/Engine.h>
+#include <filament_core/GeometryLevel.h>
 #include <filament_core/Light.h>
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Node.h>
@@ -47,9 +48,10 @@ struct GeometryDesc {
     IndexBuffer indices{};
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;     ///< 0: all
-    std::optional<Box> bounds{}; ///< as of RenderableDesc
-    Occluder occluder{};         ///< as of RenderableDesc
+    uint32_t indexCount = 0;                 ///< 0: all
+    std::optional<Box> bounds{};             ///< as of RenderableDesc
+    Occluder occluder{};                     ///< as of RenderableDesc
+    std::span<const GeometryLevel> levels{}; ///< as of RenderableDesc
 };
 
 struct RenderableDesc {
@@ -65,6 +67,8 @@ struct RenderableDesc {
     /// Hides what is behind the renderable, if its material is opaque and leaves depth and position alone. None: it
     /// hides nothing from being drawn.
     Occluder occluder{};
+    /// Coarser levels of detail, the finest first; of triangles, for renderables that may be culled.
+    std::vector<GeometryLevel> levels{};
     double4x4 worldFromObject{ 1.0 }; ///< affine; must stay the identity if there is a node
     Node node{};                      ///< gives the renderable its transform; none: worldFromObject
     uint32_t instanceIndex = 0;       ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`

@@ -113,6 +113,14 @@ struct Viewport {
     float4 clearColor{ 0, 0, 0, 1 }; ///< as the target stores it; multiplied by its alpha
 };
 
+/// Choice among the levels of detail of geometry (RenderableDesc::levels), for each view and each shadow map by itself.
+struct LevelsOfDetail {
+    static constexpr float kMostPixels = 64;
+    /// How far a level may be from the finest one in the image, in pixels: [0, 64]. In shadow maps as many texels, at
+    /// most one. 0: the finest is drawn.
+    float pixels = 0;
+};
+
 struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
@@ -124,6 +132,7 @@ struct View {
     /// Opaque objects behind RenderableDesc::occluder of others are not drawn, with the same bits; with one sample a
     /// pixel.
     bool occlusionCulling = true;
+    LevelsOfDetail lod{};
     DebugView debugView = DebugView::None;
     double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.

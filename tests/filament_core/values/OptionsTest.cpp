@@ -139,7 +139,7 @@ TEST(Options, ErrorsNameTheNearestOptionAndTheRange) {
 }
 
 TEST(Options, OfAViewAreThoseOfItsMembers) {
-    constexpr size_t ownOptions = 3; // samples, occlusionCulling and debugView
+    constexpr size_t ownOptions = 4; // samples, occlusionCulling, lod.pixels and debugView
     EXPECT_EQ(optionsOf<View>().size(), optionsOf<Quality>().size() + optionsOf<Effects>().size() +
                                                 optionsOf<DisplayTransform>().size() + ownOptions);
     View view;

@@ -98,6 +98,10 @@ template <> struct Fields<Camera> {
                                              field("lens", &Camera::lens), field("exposure", &Camera::exposure) };
     static constexpr size_t others = 0;
 };
+template <> struct Fields<LevelsOfDetail> {
+    static constexpr auto list = std::tuple{ field("pixels", &LevelsOfDetail::pixels, 0, LevelsOfDetail::kMostPixels) };
+    static constexpr size_t others = 0;
+};
 template <> struct Fields<View> {
     static constexpr auto list = std::tuple{ field("camera", &View::camera), field("size", &View::size, 1, 16384),
                                              field("display", &View::display),
@@ -106,7 +110,7 @@ template <> struct Fields<View> {
                                              field("clearColor", &View::clearColor, -kFinite, kFinite),
                                              field("samples", &View::samples, 1, 4),
                                              field("occlusionCulling", &View::occlusionCulling),
-        field("debugView", &View::debugView),
+        field("lod", &View::lod), field("debugView", &View::debugView),
                                              field("timeSeconds", &View::timeSeconds),
                                              field("materialGlobals", &View::materialGlobals, -kFinite, kFinite),
                                              field("visibleLayers", &View::visibleLayers) };
@@ -286,8 +290,8 @@ template <class... T>
 constexpr bool areComplete() {
     return (isComplete<T>() && ...);
 }
-static_assert(
-        areComplete<Exposure, Lens, Camera, View, GltfLoadOptions, EnvironmentLoadOptions, EnvironmentSettings>());
+static_assert(areComplete<Exposure, Lens, Camera, LevelsOfDetail, View, GltfLoadOptions, EnvironmentLoadOptions,
+                          EnvironmentSettings>());
 static_assert(areComplete<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>());
 static_assert(areComplete<DocumentModel, DocumentEnvironment, NodeEdit, MaterialEdit, TextureEdit, DocumentLight,
                           ModelLightEdit>());
