@@ -73,8 +73,10 @@ void setKeyword(T& options, std::string_view option, const char* keyword, std::s
 
 std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem::path const& path,
                                        std::string const& positions, std::string const& tangents, bool deformable,
-                                       bool filesFromAnywhere) {
-    GltfLoadOptions options{ .deformable = deformable, .filesFromAnywhere = filesFromAnywhere };
+                                       bool simplified, bool filesFromAnywhere) {
+    GltfLoadOptions options{ .deformable = deformable,
+                             .simplified = simplified,
+                             .filesFromAnywhere = filesFromAnywhere };
     setKeyword(options, "positions", "positions", positions);
     setKeyword(options, "tangents", "tangents", tangents);
     const Owner::Call call(*self.owner);
@@ -159,9 +161,10 @@ void bindLoaded(py::module_& module) {
 
 void bindLoading(EngineClass& engine) {
     engine.def("load_model", &loadModel, py::arg("path"), py::kw_only(), py::arg("positions") = "asAuthored",
-               py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("files_from_anywhere") = false,
-               "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents and "
-               "model.filesFromAnywhere.")
+               py::arg("tangents") = "snorm16", py::arg("deformable") = true, py::arg("simplified") = false,
+               py::arg("files_from_anywhere") = false,
+               "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents, "
+               "model.simplified and model.filesFromAnywhere.")
             .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
                  "Loads an equirectangular .hdr or .exr, a cube map in a .ktx2, or a package of cmgen, as light and "

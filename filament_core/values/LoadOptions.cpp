@@ -16,6 +16,8 @@ std::span<const Option> optionsOf<GltfLoadOptions>() {
         option("tangents", &O::tangents, "Storage of tangent frames."),
         option("deformable", &O::deformable, "Loads skins, morph targets and animations."),
         option("allLevels", &O::allLevels, "Loads all levels of detail, and not only the finest."),
+        option("simplified", &O::simplified,
+               "Makes [levels of detail](levels-of-detail.md) of meshes; programs do where `lod.pixels` is not 0."),
         option("normalMapRoughness", &O::normalMapRoughness,
                "Mip levels of normal maps raise the roughness by what they average away."),
         option("filesFromAnywhere", &O::filesFromAnywhere,

@@ -139,6 +139,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
     view.samples = static_cast<uint8_t>(samples);
     reader.read("occlusionCulling", view.occlusionCulling);
+    reader.read("lod.pixels", view.lod.pixels, 0, LevelsOfDetail::kMostPixels);
     readOptions(reader, view.display);
     readLook(reader, spec);
     reader.choice("debugView", view.debugView, listed(enumNames<DebugView>()).c_str(), enumFromName<DebugView>);

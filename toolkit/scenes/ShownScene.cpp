@@ -64,7 +64,9 @@ Result<void> SceneLoader::loadModel(ShownScene& shown, SceneSpec const& spec, Gl
     }
     const Result<std::filesystem::path> path = modelFile(spec, mFolders);
     if (!path) return path.error();
-    Result<std::shared_ptr<Model>> model = load(mModels, *path, options, [](auto&... a) { return loadGltf(a...); });
+    GltfLoadOptions used = options;
+    used.simplified |= spec.view.lod.pixels > 0;
+    Result<std::shared_ptr<Model>> model = load(mModels, *path, used, [](auto&... a) { return loadGltf(a...); });
     if (!model) return model.error();
     shown.model = std::move(*model);
     return {};

@@ -93,7 +93,9 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     const Result<Equipment*> used = equipment(settings);
     if (!used) return used.error();
     Engine& engine = (*used)->engine;
-    Result<ShownScene> shown = (*used)->loader.show(spec, settings.model, settings.environment);
+    GltfLoadOptions model = settings.model;
+    model.simplified |= settings.view.lod.pixels > 0;
+    Result<ShownScene> shown = (*used)->loader.show(spec, model, settings.environment);
     if (!shown) return shown.error();
     TakeParts parts{ .shown = std::move(*shown), .view = spec.view };
     View& view = parts.view;
@@ -101,6 +103,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     view.quality = settings.view.quality;
     view.effects = settings.view.effects;
     view.samples = settings.view.samples;
+    view.lod = settings.view.lod;
     view.display = settings.view.display;
     view.camera = cameraOf(spec, parts.shown.scene.bounds());
     parts.frames = spec.frames;

@@ -2,6 +2,7 @@
 #include <filament_core/Gltf.h>
 
 #include "base/OutOfMemory.h"
+#include "filament_core/assets/gltf/DetailLevels.h"
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
@@ -19,6 +20,7 @@ assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
         .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
         .levels = options.allLevels ? assets::GltfLevels::All : assets::GltfLevels::Finest,
         .normals = options.normalMapRoughness ? assets::GltfNormals::WithVariance : assets::GltfNormals::Plain,
+        .simplifies = options.simplified,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
     if (options.progress) {
@@ -45,24 +47,39 @@ assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& 
 namespace {
 
 /// Deformed geometry moves away from its triangles.
-Occluder occluderOf(assets::PrimitiveData const& primitive) {
+Occluder occluderOf(assets::PrimitiveData const& primitive, uint32_t firstIndex, uint32_t indexCount) {
     const bool isRigid = !primitive.isSkinned && primitive.morphTargets.empty();
     if (!isRigid || primitive.topology != backend::PrimitiveType::Triangles) return {};
-    return scene::occluderOf(primitive.layout, primitive.vertices, primitive.indexFormat, primitive.indices);
+    const size_t bytes = primitive.indexFormat == backend::IndexFormat::UInt16 ? 2 : 4;
+    const std::span<const std::byte> indices = primitive.indices;
+    return scene::occluderOf(primitive.layout, primitive.vertices, primitive.indexFormat,
+                             indices.subspan(firstIndex * bytes, indexCount * bytes));
+}
+
+ReadModel::Shape shapeOf(assets::PrimitiveData& primitive, bool simplifies) {
+    ReadModel::Shape shape{ .bounds = scene::boundsOf(primitive.layout, primitive.vertices),
+                            .occluder = occluderOf(primitive, 0, primitive.indexCount) };
+    if (!simplifies) return shape;
+    for (assets::DetailLevel const& level : assets::addDetailLevels(primitive))
+        shape.levels.push_back({ level.firstIndex, level.indexCount, level.error,
+                                 occluderOf(primitive, level.firstIndex, level.indexCount) });
+    return shape;
 }
 
 /// What an upload would otherwise compute between frames.
-void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, GltfMaterialChoice const& choice) {
+void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, assets::GltfOptions const& options,
+                   GltfMaterialChoice const& choice) {
     if (model.data.imageBasedLight) model.light = assets::environmentFromCube(model.data.imageBasedLight->light, jobs);
     model.materials = readMaterials(model.data, choice, jobs);
     model.bounds = assets::boundsOf(model.data);
-    std::vector<assets::MeshData> const& meshes = model.data.meshes;
+    std::vector<assets::MeshData>& meshes = model.data.meshes;
     model.shapes.resize(meshes.size());
-    jobs::parallelFor<"shapes">(jobs, meshes.size(), 8, [&](size_t begin, size_t end) {
+    const auto isCancelled = [&] { return options.cancellation && options.cancellation->isRequested(); };
+    const size_t meshesOfJob = options.simplifies ? 1 : 8;
+    jobs::parallelFor<"shapes">(jobs, meshes.size(), meshesOfJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
-            for (assets::PrimitiveData const& primitive : meshes[i].primitives)
-                model.shapes[i].push_back(
-                        { scene::boundsOf(primitive.layout, primitive.vertices), occluderOf(primitive) });
+            for (assets::PrimitiveData& primitive : meshes[i].primitives)
+                model.shapes[i].push_back(shapeOf(primitive, options.simplifies && !isCancelled()));
     });
 }
 
@@ -72,7 +89,7 @@ Result<ReadModel> prepared(Result<assets::ModelData> data, jobs::JobSystem& jobs
     ReadModel model;
     model.data = std::move(*data);
     if (options.cancellation && options.cancellation->isRequested()) return model; // it is discarded
-    prepareUpload(model, jobs, choice);
+    prepareUpload(model, jobs, options, choice);
     return model;
 }
 

@@ -116,7 +116,9 @@ private:
         mModel->vertexBuffers.push_back({});
         mModel->indexBuffers.push_back({});
         mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices, ofVertices, shape.bounds);
-        mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
+        const uint32_t levels =
+                shape.levels.empty() ? 0 : shape.levels.back().firstIndex + shape.levels.back().indexCount;
+        mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = std::max(primitive.indexCount, levels),
                                                                   .format = primitive.indexFormat,
                                                                   .data = *ofIndices,
                                                                   .name = name },
@@ -124,8 +126,10 @@ private:
         return { .vertices = mModel->vertexBuffers.back(),
                  .indices = mModel->indexBuffers.back(),
                  .primitive = primitive.topology,
+                 .indexCount = primitive.indexCount,
                  .bounds = Box{ double3(primitive.boundsMin), double3(primitive.boundsMax) },
                  .occluder = shape.occluder,
+                 .levels = shape.levels,
                  .boneBounds = boneBounds(primitive),
                  .morphTargets = uploadTargets(primitive, name),
                  .name = name };

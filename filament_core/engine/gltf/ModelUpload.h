@@ -26,8 +26,9 @@ struct ReadModel {
     Box bounds; ///< assets::boundsOf(data)
     /// What follows from the vertices of a primitive.
     struct Shape {
-        scene::MinMax bounds; ///< scene::boundsOf()
-        Occluder occluder;    ///< scene::occluderOf()
+        scene::MinMax bounds;                ///< scene::boundsOf()
+        Occluder occluder;                   ///< scene::occluderOf()
+        std::vector<GeometryLevel> levels{}; ///< assets::addDetailLevels()
     };
     std::vector<std::vector<Shape>> shapes; ///< by mesh and primitive
 };

@@ -28,6 +28,9 @@ struct GltfLoadOptions {
     /// Of things with levels of detail (MSFT_lod): true loads all of them, for ModelCopy::chooseLevels(). False: the
     /// finest alone, which takes less time and memory.
     bool allLevels = false;
+    /// True: meshes get coarser levels of detail, which views draw where these differ by few pixels (View::lod). Takes
+    /// time to load, and at most as much memory for indices again.
+    bool simplified = false;
     /// True: mip levels of normal maps raise the roughness by the variation of normals that they average away, so that
     /// highlights keep their width at a distance. Takes time to load, and no memory.
     bool normalMapRoughness = false;

@@ -121,6 +121,7 @@ template <> struct Fields<GltfLoadOptions> {
                                              field("tangents", &GltfLoadOptions::tangents),
                                              field("deformable", &GltfLoadOptions::deformable),
                                              field("allLevels", &GltfLoadOptions::allLevels),
+                                             field("simplified", &GltfLoadOptions::simplified),
                                              field("normalMapRoughness", &GltfLoadOptions::normalMapRoughness),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress

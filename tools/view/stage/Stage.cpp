@@ -20,7 +20,8 @@ constexpr auto kWatchInterval = std::chrono::milliseconds(250);
 
 /// What decides which file is loaded, and how. Not `fit` and `variant`, which need no other load.
 struct ModelKey : DocumentModel {
-    explicit ModelKey(DocumentModel const& model) : DocumentModel(model) {
+    explicit ModelKey(Document const& document) : DocumentModel(document.model) {
+        options.simplified |= document.view.lod.pixels > 0;
         fit = true;
         variant.clear();
     }
@@ -121,8 +122,7 @@ struct Stage::Impl {
 // ---- files
 
 void Stage::Impl::startLoads(bool again) {
-    const auto endedModel =
-            model.want(engine, ModelKey(document.model), !document.model.file.empty(), again, abandoned);
+    const auto endedModel = model.want(engine, ModelKey(document), !document.model.file.empty(), again, abandoned);
     const auto endedSky = environment.want(engine, EnvironmentKey(document.environment),
                                            !document.environment.file.empty(), again, abandoned);
     (void)lookFile.want(engine, document.look, !document.look.empty(), again, abandoned);
@@ -237,7 +237,7 @@ void Stage::Impl::lookAtFiles() {
     const std::vector<std::filesystem::path> changed = watch.changed();
     for (std::filesystem::path const& file : changed) {
         if (std::ranges::find(modelFiles, file) != modelFiles.end()) {
-            (void)model.want(engine, ModelKey(document.model), true, true, abandoned);
+            (void)model.want(engine, ModelKey(document), true, true, abandoned);
         } else if (file == document.environment.file) {
             (void)environment.want(engine, EnvironmentKey(document.environment), true, true, abandoned);
         } else if (file == document.look) {
