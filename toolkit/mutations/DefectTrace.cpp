@@ -142,9 +142,9 @@ void DefectTrace::edit(CmdSetViewport& command) {
 }
 
 void DefectTrace::edit(CmdDrawIndexed& command) {
-    const uint32_t before = command.instanceCount;
+    const uint32_t instances = command.instanceCount, indices = command.indexCount;
     mDefect->edit(command);
-    if (command.instanceCount != before) changeDrawn(kDraws);
+    if (command.instanceCount != instances || command.indexCount != indices) changeDrawn(kDraws);
 }
 
 void DefectTrace::changeDrawn(Object object) {

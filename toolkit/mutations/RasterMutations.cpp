@@ -119,11 +119,22 @@ public:
     }
 };
 
+/// Of meshes of files, coarser levels of detail alone do not begin with the first index.
+class LevelTrianglesEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdDrawIndexed& command) override {
+        if (command.firstIndex > 0) command.indexCount -= (command.indexCount / 3 + 15) / 16 * 3;
+    }
+};
+
 constexpr Mutation kRasterMutations[] = {
     { "depthCompare", "depth test always passes", make<DepthCompareEdit> },
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
     { "blendOff", "blending off", make<BlendOffEdit> },
     { "firstInstance", "one object of every instanced draw is missing", make<FirstInstanceEdit> },
+    { "levelTriangles", "a sixteenth of the triangles of coarser levels of detail is missing",
+      make<LevelTrianglesEdit> },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "oneWeight", "transparent objects in any order weigh the same at any distance", make<OneWeightEdit> },
     { "layerAgain", "every peeled layer is the nearest one", make<LayerAgainEdit> },
