@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levels of detail that the loader makes: the same bits on both APIs, at rest and in motion; without a limit the image
-// of the model as it is.
+// of the model as it is. Levels that programs give.
 #include "tests/filament_core/engine/RenderFixture.h"
 
+#include <filament_core/BuiltInMaterials.h>
+#include <filament_core/Primitives.h>
+
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 namespace filament_core {
 namespace {
@@ -87,6 +92,25 @@ INSTANTIATE_TEST_SUITE_P(Models, SimplifiedModel,
                              const std::string file = test.param.file;
                              return file.substr(0, file.find('/'));
                          });
+
+TEST(LevelsOfRenderablesDeathTest, LieInTheirIndexBufferAndGrowCoarser) {
+    auto engine = test::makeEngine(Backend::Vulkan);
+    ASSERT_TRUE(engine);
+    const Owned<Material> material = engine->own(*createBuiltInMaterial(*engine, "lit"));
+    const Owned<MaterialInstance> instance = engine->own(engine->createInstance(material));
+    const Mesh mesh = *makeBox(); // 36 indices
+    const Owned<VertexBuffer> vertices = engine->own(engine->create(mesh.vertexBuffer()));
+    const Owned<IndexBuffer> indices = engine->own(engine->create(mesh.indexBuffer()));
+    Scene scene(*engine);
+    const auto add = [&](std::vector<GeometryLevel> const& levels) {
+        return scene.add({ .vertices = vertices, .indices = indices, .material = instance, .levels = levels });
+    };
+    EXPECT_DEATH(add({ { 0, 18, 0.1f }, { 18, 21, 0.2f } }), "indices of a level of detail lie inside");
+    EXPECT_DEATH(add({ { 0, 0, 0.1f } }), "indices of a level of detail lie inside");
+    EXPECT_DEATH(add({ { 0, 18, 0.2f }, { 18, 9, 0.1f } }), "errors of levels of detail are finite");
+    EXPECT_DEATH(add({ { 0, 18, std::nanf("") } }), "errors of levels of detail are finite");
+    EXPECT_TRUE(add({ { 0, 18, 0.1f }, { 18, 9, 0.1f } }));
+}
 
 } // namespace
 } // namespace filament_core
