@@ -225,7 +225,8 @@ TEST(Occluder, IsMadeOfTheLargestTriangles) {
     broken[3].x = NAN;
     EXPECT_EQ(makeOccluder(broken, kSquareIndices)->triangles.size(), 1);
     const std::vector<uint32_t> thrice{ 0, 1, 2, 0, 2, 3, 0, 2, 1 };
-    for (OccluderMesh::Triangle const& triangle : makeOccluder(kSquare, thrice)->triangles)
+    const Occluder shared = makeOccluder(kSquare, thrice);
+    for (OccluderMesh::Triangle const& triangle : shared->triangles)
         for (const uint16_t neighbor : triangle.neighbors) EXPECT_TRUE(neighbor == OccluderMesh::kNone || neighbor < 3);
 }
 
