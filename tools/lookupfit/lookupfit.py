@@ -10,7 +10,8 @@ along the normal. A look-up lies in the plane of view and normal, at mix(normal,
 count alike. Turn and roughness are cubic polynomials of perceptual roughness and n.v, such that rougher and smoother lobes of one shape have
 one solution as they narrow: turn = 1 + roughness^2 P, roughness' = roughness Q.
 
-Their numbers are multiples of 1/256, which packages store in fewer bytes. The polynomials minimise the squared relative difference of radiance over random lamps in a dim sky (Levenberg 1944 and Marquardt 1963).
+Their numbers are multiples of 1/16, which packages store in fewer bytes: the errors grow by a hundredth of themselves. They minimise the
+squared relative difference of radiance over random lamps in a dim sky (Levenberg 1944 and Marquardt 1963).
 Takes two minutes. Needs numpy (Debian: python3-numpy).
 """
 import sys
@@ -180,7 +181,7 @@ def fit(skies, count, steps=60):
 
 
 def written(values):
-    return ", ".join(f"{round(value * 256) / 256}f" for value in values)
+    return ", ".join(f"{round(value * 16) / 16}f" for value in values)
 
 
 def main():
