@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 
 namespace filament_core {
@@ -82,17 +81,6 @@ void connect(std::vector<OccluderMesh::Triangle>& triangles) {
     }
 }
 
-template <class Index>
-std::vector<uint32_t> indicesFrom(std::span<const std::byte> bytes) {
-    std::vector<uint32_t> indices(bytes.size() / sizeof(Index));
-    for (size_t i = 0; i < indices.size(); ++i) {
-        Index index;
-        std::memcpy(&index, &bytes[i * sizeof index], sizeof index);
-        indices[i] = index;
-    }
-    return indices;
-}
-
 } // namespace
 
 Occluder scene::occluderOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices,
@@ -102,7 +90,7 @@ Occluder scene::occluderOf(backend::VertexLayout const& layout, std::span<const 
     if (indices.size() / (isSmall ? 2 : 4) > kMostIndices) return {};
     const std::vector<float3> positions = positionsOf(layout, vertices);
     if (positions.empty()) return {};
-    return makeOccluder(positions, isSmall ? indicesFrom<uint16_t>(indices) : indicesFrom<uint32_t>(indices));
+    return makeOccluder(positions, indicesOf(format, indices));
 }
 
 Occluder makeOccluder(std::span<const float3> positions, std::span<const uint32_t> indices, uint32_t maxTriangles) {

@@ -103,4 +103,16 @@ MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> 
     return bounds;
 }
 
+std::vector<uint32_t> indicesOf(backend::IndexFormat format, std::span<const std::byte> indices) {
+    const auto read = [&]<class Index>(Index index) {
+        std::vector<uint32_t> all(indices.size() / sizeof index);
+        for (size_t i = 0; i < all.size(); ++i) {
+            std::memcpy(&index, &indices[i * sizeof index], sizeof index);
+            all[i] = index;
+        }
+        return all;
+    };
+    return format == backend::IndexFormat::UInt16 ? read(uint16_t{}) : read(uint32_t{});
+}
+
 } // namespace filament_core::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// VertexPositions: positions of vertices as stored, and the box around them.
+/// VertexPositions: positions of vertices as stored, the box around them, and the indices of their triangles.
 ///   Thread  any; pure.
 ///   Cost    3 ns a vertex.
 #pragma once
@@ -19,6 +19,9 @@ std::optional<double3> positionAt(const std::byte* source, backend::VertexFormat
 
 /// As stored, those that are not finite as well; none if the layout has none.
 std::vector<float3> positionsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);
+
+/// As stored; of a last one that is cut off nothing.
+std::vector<uint32_t> indicesOf(backend::IndexFormat format, std::span<const std::byte> indices);
 
 /// Around the finite positions of an interleaved stream; empty if there are none, or the layout has none.
 MinMax boundsOf(backend::VertexLayout const& layout, std::span<const std::byte> vertices);

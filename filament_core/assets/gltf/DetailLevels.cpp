@@ -15,17 +15,6 @@ namespace {
 using backend::VertexFormat;
 
 template <class Integer>
-std::vector<uint32_t> widened(std::span<const std::byte> bytes) {
-    std::vector<uint32_t> indices(bytes.size() / sizeof(Integer));
-    for (size_t i = 0; i < indices.size(); ++i) {
-        Integer index;
-        std::memcpy(&index, &bytes[i * sizeof index], sizeof index);
-        indices[i] = index;
-    }
-    return indices;
-}
-
-template <class Integer>
 void append(std::vector<std::byte>& bytes, std::vector<uint32_t> const& indices) {
     for (const uint32_t index : indices) {
         const auto narrow = static_cast<Integer>(index);
@@ -96,8 +85,7 @@ std::vector<DetailLevel> addDetailLevels(PrimitiveData& primitive) {
     std::vector<DetailLevel> levels;
     if (primitive.topology != backend::PrimitiveType::Triangles || primitive.splats) return levels;
     const bool isSmall = primitive.indexFormat == backend::IndexFormat::UInt16;
-    std::vector<uint32_t> indices =
-            isSmall ? widened<uint16_t>(primitive.indices) : widened<uint32_t>(primitive.indices);
+    std::vector<uint32_t> indices = scene::indicesOf(primitive.indexFormat, primitive.indices);
     indices.resize(indices.size() / 3 * 3);
     const std::vector<float3> positions = scene::positionsOf(primitive.layout, primitive.vertices);
     if (positions.size() != primitive.vertexCount) return levels;
