@@ -13,6 +13,7 @@ bool isLit(highp vec3 visibility) {
 #if defined(HAS_LIGHT_LIST)
 
 #include "shaders/material/surface/light_list.glsl"
+#include "shaders/material/surface/listed_light.glsl"
 
 highp vec3 areaLight(Surface surface, AreaLight area) {
     highp vec3 reflected;
@@ -30,30 +31,11 @@ highp vec3 areaLight(Surface surface, AreaLight area) {
 
 highp vec3 punctualLight(Surface surface, ListedLight listed) {
     int index = listed.index;
-    highp vec4 positionRange = listed.positionRange;
-    highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
-    bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
-    bool isAnArea = quality_areaLights != 0 && isArea(colorIntensity.w);
-    highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
-    highp vec3 direction = isSun ? toLight : normalizeOrZero(toLight);
-    highp float attenuation = 1.0;
-    if (isAnArea) {
-        attenuation = rangeWindow(toLight, positionRange.w);
-    } else if (!isSun) {
-        attenuation = distanceAttenuation(toLight, positionRange.w);
-    }
-    if (colorIntensity.w > 0.0 && !isAnArea) {
-        highp vec4 directionScale = lightBuffer.lights[index].directionScale;
-        highp float offset = lightBuffer.lights[index].offset.x;
-        attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
-    }
-    if (quality_lightProfiles != 0 && !isAnArea) {
-        highp float profiled = lightBuffer.lights[index].offset.w;
-        if (profiled > 0.0) {
-            highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
-            attenuation *= profileShare(int(profiled) - 1, forward, -direction);
-        }
-    }
+    ListedRay ray = rayOfListed(listed, vertex_worldPosition);
+    highp vec4 colorIntensity = ray.colorIntensity;
+    highp vec3 toLight = ray.toLight, direction = ray.direction;
+    highp float attenuation = ray.attenuation;
+    bool isSun = ray.isSun, isAnArea = ray.isAnArea;
     highp vec3 light = vec3(0.0);
     if (attenuation > 0.0) { // in range, within the cone, and the profile is not dark in this direction
         highp vec3 visibility = vec3(1.0);
@@ -78,7 +60,7 @@ highp vec3 punctualLight(Surface surface, ListedLight listed) {
             arriving.color = tintedByShadow(colorIntensity.rgb, visibility);
             arriving.attenuation = attenuation;
             arriving.visibility = max3(visibility);
-            arriving.position = isSun ? vertex_worldPosition + toLight : positionRange.xyz;
+            arriving.position = isSun ? vertex_worldPosition + toLight : listed.positionRange.xyz;
 #endif
             light = shadeLight(surface, arriving);
         }
