@@ -82,6 +82,20 @@ void addFogPairs(std::vector<Pair>& all, const char* file) {
     all.push_back({ "fog without density", file, withFog({}), withFog(fog), true });
 }
 
+/// The sun shines through fog and casts shadows into it; without them, volumetric fog needs no cells.
+void addVolumetricFogPairs(std::vector<Pair>& all, const char* file) {
+    const auto lit = [](bool isVolumetric, ShadowFilter filter) {
+        return [isVolumetric, filter](Scene& scene, View& view) {
+            scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+            view.quality.shadows = filter;
+            view.effects.fog = { .enabled = true, .density = 0.4f, .volumetric = isVolumetric, .volumetricMeters = 8 };
+        };
+    };
+    all.push_back({ "volumetric fog", file, lit(false, ShadowFilter::Pcf3), lit(true, ShadowFilter::Pcf3) });
+    all.push_back(
+            { "volumetric fog without shadows", file, lit(false, ShadowFilter::Off), lit(true, ShadowFilter::Off) });
+}
+
 std::function<void(Scene&, View&)> withContactSun(bool isAsked, ShadowFilter filter) {
     return [isAsked, filter](Scene& scene, View& view) {
         scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 }, .contactShadows = isAsked });
@@ -366,6 +380,7 @@ std::vector<Pair> pairs() {
     };
     all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
     addFogPairs(all, kHelmet);
+    addVolumetricFogPairs(all, kHelmet);
     addContactPairs(all, kHelmet);
     addOcclusion(all);
     addReflections(all, kHelmet);

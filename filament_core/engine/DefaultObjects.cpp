@@ -30,6 +30,12 @@ BufferHandle createInstanceIds(Engine::Impl& engine) {
     return handle.keep();
 }
 
+BufferHandle createNoFogCells(Engine::Impl& engine) {
+    NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
+    engine.pending.record(CmdCreateBuffer{ handle, { sizeof(float4), BufferUsage::Storage, "no fog cells" } });
+    return handle.keep();
+}
+
 // Shared by all engines of the process.
 assets::Image const& bakedDfg(Engine::Impl& engine, uint32_t size) {
     static std::mutex mutex; // engines may live on several threads
@@ -120,6 +126,7 @@ void createDefaultObjects(Engine::Impl& engine) {
                                                        .name = "black cube" });
     engine.dfgTable(Quality{}.dfgTableSize);
     engine.defaults.instanceIds = createInstanceIds(engine);
+    engine.defaults.noFogCells = createNoFogCells(engine);
 }
 
 void destroyDefaultObjects(Engine::Impl& engine) {
@@ -132,6 +139,8 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     }
     for (engine::ToneTable const& table : engine.defaults.toneTables) engine.destroy(table.texture);
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
+    engine.stream->destroy(engine.pending, engine.defaults.noFogCells);
+    engine.dispatches.destroy(engine.pending);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     if (engine.drawingSplats) engine.destroy(std::exchange(engine.drawingSplats, {}));
     for (MaterialInstance& instance : engine.drawingDebug)

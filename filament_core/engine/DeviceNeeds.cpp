@@ -5,11 +5,11 @@ namespace filament_core::engine {
 
 Result<void> checkDevice(backend::DeviceInfo const& device) {
     if (device.limits.maxFragmentStorageBuffers >= kFragmentStorageBuffers) return {};
-    return fail(
-            ErrorCode::Unsupported,
-            "{} device '{}' reads {} storage buffers in fragment shaders, lights need {}; choose another device or API",
-            backend::apiName(device.backend), device.deviceName, device.limits.maxFragmentStorageBuffers,
-            kFragmentStorageBuffers);
+    return fail(ErrorCode::Unsupported,
+                "{} device '{}' reads {} storage buffers in fragment shaders, lights and fog need {}; choose another "
+                "device or API",
+                backend::apiName(device.backend), device.deviceName, device.limits.maxFragmentStorageBuffers,
+                kFragmentStorageBuffers);
 }
 
 } // namespace filament_core::engine

@@ -8,8 +8,8 @@
 
 namespace filament_core::engine {
 
-/// Storage buffers of the View group: lights and froxels.
-inline constexpr uint32_t kFragmentStorageBuffers = 2;
+/// Storage buffers of lights, froxels and cells of volumetric fog.
+inline constexpr uint32_t kFragmentStorageBuffers = 3;
 
 Result<void> checkDevice(backend::DeviceInfo const& device);
 

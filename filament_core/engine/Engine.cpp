@@ -14,6 +14,7 @@
 #include "filament_core/engine/DeviceNeeds.h"
 #include "filament_core/engine/EngineImpl.h"
 #include "jobsystem/JobTrace.h"
+#include "shaders/package/EngineMaterials.h"
 
 namespace filament_core {
 namespace {
@@ -117,8 +118,8 @@ std::vector<DeviceDescription> listDevices() {
 Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> commandStream)
         : options(std::move(engineOptions)), stream(std::move(commandStream)),
           driverPin(jobs::CoreRegistry::ofProcess().reserve(options.driverCore)), jobs(jobOptions(options)),
-          device(descriptionOf(stream->info())), pipelines(*stream, layouts), compilations(pipelines),
-          samplers(*stream) {
+          device(descriptionOf(stream->info())), pipelines(*stream, layouts),
+          dispatches(*stream, shader::engineDispatch), compilations(pipelines), samplers(*stream) {
     createDefaultObjects(*this);
 }
 

@@ -14,6 +14,7 @@
 #include "filament_core/engine/Uses.h"
 #include "filament_core/engine/materials/CompileQueue.h"
 #include "filament_core/engine/materials/MaterialNumbers.h"
+#include "filament_core/passes/DispatchCache.h"
 #include "filament_core/passes/PipelineCache.h"
 #include "filament_core/scene/SceneData.h"
 #include "jobsystem/Affinity.h"
@@ -140,6 +141,7 @@ struct Defaults {
     std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
     std::vector<ToneTable> toneTables;
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
+    backend::BufferHandle noFogCells;  ///< FrameResources::noFogCells
 };
 
 } // namespace engine
@@ -271,6 +273,7 @@ struct Engine::Impl {
     scene::ContentVersions contentVersions;
     uint64_t boundsChanges = 0; ///< of vertex buffers
     passes::PipelineCache pipelines;
+    passes::DispatchCache dispatches;
     engine::CompileQueue compilations;
     engine::SamplerCache samplers;
 

@@ -43,6 +43,8 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     resources.lighting = lighting(view, environment);
     resources.samplers = samplers();
     resources.effects = &mEffects;
+    resources.dispatches = &mEngine.dispatches;
+    resources.noFogCells = mEngine.defaults.noFogCells;
     resources.white = mEngine.textureHandle(mEngine.unsetTexture({ .type = ParameterType::Sampler2D }));
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();

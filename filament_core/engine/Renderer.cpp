@@ -234,6 +234,7 @@ struct Renderer::Impl final : engine::Dependent {
         context.debugDraw.buffers = passes::uploadDebugQuads(debugBuffers, *commands, arena, context.debugDraw.quads);
         context.splats = passes::uploadSplats(splatBuffers, engine.jobs, *commands, arena, context.packet.splats);
         context.views = data.views();
+        context.viewBuffers = data.viewBuffers();
         context.deformations = data.deformations();
         context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
@@ -331,6 +332,7 @@ struct Renderer::Impl final : engine::Dependent {
             const jobs::AdoptedThread seat(engine.jobs);
             std::vector<passes::FullScreenRequest> requests;
             rehearse(scene, view, target, requests);
+            engine.dispatches.makeExpected(engine.pending);
             if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
             for (passes::FullScreenRequest const& request : requests) {
                 engine.compilations.add({ .material = request.material,

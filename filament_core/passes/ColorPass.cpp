@@ -190,7 +190,8 @@ void addPart(FrameGraph& graph, FrameContext const& context, ColorAttachments co
 PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets) {
     PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
                            .occlusion = targets.ambientOcclusion,
-                           .linearDepth = targets.linearDepth };
+                           .linearDepth = targets.linearDepth,
+                           .fogCells = targets.fogCells };
     textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
     return textures;
 }

@@ -12,6 +12,7 @@
 #include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ExposurePass.h"
 #include "filament_core/passes/FlarePass.h"
+#include "filament_core/passes/FogLightPass.h"
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PostProcessPass.h"
@@ -44,7 +45,10 @@ uint8_t fogTermsOf(prepare::FramePacket const& packet) {
         terms |= shader::kFogFromEnvironment;
         if (packet.environment.storage.isRgbm) terms |= shader::kFogFromRgbm;
     }
-    if (fog.inScatteringSize > 0 && packet.mainView().counts.suns > 0) terms |= shader::kFogSun;
+    const bool hasSun = packet.mainView().counts.suns > 0;
+    if (fog.inScatteringSize > 0 && hasSun && !fog.volumetric) terms |= shader::kFogSun;
+    if (packet.demand.needs(prepare::Effect::VolumetricFog)) terms |= shader::kFogScattering | shader::kFogCells;
+    if (fog.volumetric && hasSun) terms |= shader::kFogScattering;
     return static_cast<uint8_t>(terms);
 }
 
@@ -86,6 +90,7 @@ void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTarge
     addDepthPass(graph, context, targets);
     if (prepare::showsMaterials(shown)) return addDebugSurfacePass(graph, context, targets);
     if (prepare::showsLight(shown)) {
+        addFogLightPass(graph, context, targets);
         addMotionPass(graph, context, targets);
         addAmbientOcclusionPass(graph, context, targets);
         addReflectedSceneColor(graph, context, targets);

@@ -93,19 +93,25 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
 }
 
 void FrameData::bindViews(CommandBuffer& commands, Set& set) {
-    const std::array<BindGroupEntry, 4> entries{ {
-            { .binding = shader::kBindingFrame, .buffer = set.uniforms.buffer, .size = sizeof(FrameUniforms) },
-            { .binding = shader::kBindingObjects, .buffer = set.objects.buffer, .size = kWindowBytes },
-            { .binding = shader::kBindingLights,
-              .buffer = set.lights.buffer,
-              .size = set.lights.capacity * kLightBytes },
-            { .binding = shader::kBindingFroxels,
-              .buffer = set.froxels.buffer,
-              .size = set.froxels.capacity * kWordBytes },
-    } };
+    const auto [frame, lights, froxels] = viewBuffers();
+    const BindGroupEntry objects{ .binding = shader::kBindingObjects,
+                                  .buffer = set.objects.buffer,
+                                  .size = kWindowBytes };
+    const std::array entries{ frame, objects, lights, froxels };
     NewHandle view(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{ view, { shader::viewGroupLayout(), entries, "view" } });
     set.view = view.keep();
+}
+
+std::array<BindGroupEntry, 3> FrameData::viewBuffers() const {
+    Set const& set = mSets[mCurrent];
+    return {
+        { { .binding = shader::kBindingFrame, .buffer = set.uniforms.buffer, .size = sizeof(FrameUniforms) },
+          { .binding = shader::kBindingLights, .buffer = set.lights.buffer, .size = set.lights.capacity * kLightBytes },
+          { .binding = shader::kBindingFroxels,
+            .buffer = set.froxels.buffer,
+            .size = set.froxels.capacity * kWordBytes } }
+    };
 }
 
 // Always allocates for a whole set, whatever the number of objects, so that the command buffer can reuse the block of

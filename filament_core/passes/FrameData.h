@@ -44,6 +44,8 @@ public:
 
     /// By view of the packet.
     std::span<const ViewGroup> views() const { return mViews; }
+    /// Of all views, for dispatches: frame (with the offset of a view), lights and froxels.
+    std::array<backend::BindGroupEntry, 3> viewBuffers() const;
     /// By slot of scene::Deformations; those that are not visible are not set.
     std::span<const backend::CmdBindGroup> deformations() const { return mSets[mCurrent].deformation.groups(); }
     std::span<const backend::CmdBindGroup> lastDeformations() const { return mSets[mCurrent].deformation.lastGroups(); }

@@ -5,6 +5,7 @@
 ///   Thread  a plain value, read-only once filled.
 #pragma once
 
+#include "filament_core/passes/DispatchCache.h"
 #include "filament_core/passes/EffectMaterials.h"
 #include "filament_core/passes/FrameData.h"
 #include "filament_core/passes/PipelineSource.h"
@@ -34,7 +35,9 @@ struct FrameResources {
     LightingTextures lighting{};
     FrameSamplers samplers{};
     EffectMaterials* effects = nullptr;
+    DispatchCache* dispatches = nullptr;
     backend::TextureHandle white{};                  ///< 2D, of one opaque white texel
+    backend::BufferHandle noFogCells;                ///< storage, of one float4: where no fog is lit
     backend::BufferHandle instanceIds;               ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::MaterialInstance const* motion = nullptr; ///< draws motion; null: none is asked for
     scene::Material const* skybox = nullptr;         ///< full-screen material; null: the scene has no sky

@@ -28,6 +28,7 @@ struct FrameTargets {
     framegraph::TextureId histogram;        ///< of luminance (histogram.mat); null if unused
     framegraph::TextureId exposure;         ///< one texel: stops by which the image becomes brighter; null if unused
     framegraph::TextureId triangles;        ///< numbers of visible triangles (debug_edges.mat), for their debug view
+    framegraph::BufferId fogCells;          ///< FogCells of ShaderInterface.h; null if unused
     framegraph::TextureId sceneColor;       ///< as kBindingPicture says; null if unused
 };
 

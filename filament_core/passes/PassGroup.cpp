@@ -2,6 +2,7 @@
 #include "filament_core/passes/PassGroup.h"
 
 #include "filament_core/passes/DepthPass.h"
+#include "filament_core/passes/FogLightPass.h"
 #include "framegraph/FrameGraph.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -77,12 +78,13 @@ void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
     for (const framegraph::TextureId read : { textures.shadows.maps, textures.occlusion, textures.linearDepth })
         if (read) pass.readSampled(read);
     if (textures.sceneColor) pass.readSampled(textures.sceneColor, { .levelCount = textures.sceneColorLevels });
+    if (textures.fogCells) pass.readBuffer(textures.fogCells, framegraph::BufferUse::Storage);
 }
 
 namespace {
 
 /// All that any kind of material reads, in the order of the layouts.
-std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameContext const& context, PassBlock target,
+std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameContext const& context, PassBlock target,
                                           PassTextures const& textures) {
     LightingTextures const& light = context.resources.lighting;
     FrameSamplers const& samplers = context.resources.samplers;
@@ -111,6 +113,9 @@ std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameCo
               .texture = orWhite(textures.sceneColor),
               .sampler = samplers.trilinear,
               .range = { .levelCount = textures.sceneColorLevels } },
+            { .binding = shader::kBindingFogCells,
+              .buffer = textures.fogCells ? pass.buffer(textures.fogCells) : context.resources.noFogCells,
+              .size = textures.fogCells ? fogCellBytes(context) : sizeof(float4) },
     } };
 }
 

@@ -44,6 +44,7 @@ struct PassTextures {
     framegraph::TextureId linearDepth{}; ///< FrameTargets::linearDepth
     framegraph::TextureId sceneColor{};  ///< FrameTargets::sceneColor
     uint8_t sceneColorLevels = 0;        ///< of `sceneColor`: those that are drawn
+    framegraph::BufferId fogCells{};     ///< FrameTargets::fogCells
 };
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures);
 

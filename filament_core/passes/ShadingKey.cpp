@@ -10,7 +10,7 @@ namespace {
 
 // In the order of shader::kQualityConstants.
 constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 3, 2,
-                                                                        2, 2, 2, 1, 4, 2, 1, 1, 4, 3, 1 };
+                                                                        2, 2, 2, 1, 6, 2, 1, 1, 4, 3, 1 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {

@@ -27,6 +27,7 @@ enum class DemandReason : uint8_t {
     OccludesIndirect,    ///< light on `count` lit draws
     SamplesSceneColor,   ///< `count` draws do; `others` pixels of it are copied
     RequestedByLights,   ///< by `count` of them
+    FogLights,           ///< fog is lit by `count` lights of the list, and shadows of `others` cascades lie in it
     CameraInFog,         ///< fog lies between the camera and what is visible
     ObjectsMove,         ///< `count` opaque objects in view do
     CameraMoves,         ///< and nothing else
@@ -68,6 +69,7 @@ enum class DemandReason : uint8_t {
     DepthUnread,       ///< no effect needs it
     NoIndirectLight,   ///< none is seen
     NoOpaqueSurface,   ///< in view
+    FogUnshadowed,     ///< no lamp reaches into the view and nothing shadows the sun
     Unrequested,       ///< nothing in view requests it: EffectRow::unrequested
     HiddenByDebugView, ///< a debug view is shown instead of the image
     UnlitDebugView,    ///< a debug view lights nothing

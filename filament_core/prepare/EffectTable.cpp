@@ -125,6 +125,14 @@ EffectDemand demandOfFog(DemandInput const& input) {
     return { true, R::CameraInFog };
 }
 
+EffectDemand demandOfVolumetricFog(DemandInput const& input) {
+    const EffectDemand fog = demandOfFog(input);
+    if (!fog.isNeeded) return fog;
+    if (!input.settings.effects.fog.volumetric) return { .reason = R::SwitchedOff };
+    if (input.counts.lights == 0 && input.cascades == 0) return { .reason = R::FogUnshadowed };
+    return { true, R::FogLights, input.counts.lights, input.cascades };
+}
+
 // ------------------------------------------------------------------------------------------------ geometry
 
 EffectDemand demandOfDraws(uint32_t draws, EffectDemand const& none) {
@@ -358,6 +366,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::ContactShadows, "contact shadows", Stage::Lighting, demandOfContactShadows, "", kReadsDepth,
           "no light in view asks for them" },
         { Effect::Fog, "fog", Stage::Lighting, demandOfFog, "fog=off" },
+        { Effect::VolumetricFog, "volumetric fog", Stage::Lighting, demandOfVolumetricFog, "fog.volumetric=off" },
         { Effect::Taa, "taa", Stage::PostProcess, demandOfTaa, "antiAliasing", kChangesColor },
         { Effect::DepthOfField, "depth of field", Stage::PostProcess, demandOfDepthOfField, "depthOfField=off",
           kReadsDepth | kChangesColor },

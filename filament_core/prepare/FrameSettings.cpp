@@ -74,6 +74,8 @@ float mipBias(ViewInput const& view, bool accumulates) {
     return std::min(0.5f * elementary::log2(scale.x * scale.y), 0.0f) - sharper;
 }
 
+bool lightsFog(Fog const& fog) { return fog.enabled && fog.volumetric && fog.density > 0 && fog.maximumOpacity > 0; }
+
 } // namespace
 
 ViewInput viewInput(View const& view, Effects const& effects, uint64_t contents) {
@@ -118,6 +120,7 @@ FrameSettings resolve(ViewInput const& main) {
                             .tracksMotion = accumulates || main.debugView == DebugView::Motion ||
                                             (main.effects.motionBlur.enabled && isImage),
                             .mipBias = mipBias(main, accumulates) };
+    settings.lightsFog = lightsFog(settings.effects.fog) && showsLight(main.debugView);
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
     // Positions that are not relative to the camera are rounded by more than the margin of occluders.
     const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;

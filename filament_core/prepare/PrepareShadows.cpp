@@ -77,6 +77,7 @@ public:
         mCounts.isOn = true;
         mCounts.isColorOn = mSettings.quality.coloredShadows;
         mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mSettings.quality.shadows);
+        if (mSettings.lightsFog) addFog(mReceivers, mSpace, mSettings.effects.fog.volumetricMeters);
         mCounts.receivers = mReceivers.count;
         if (mView.lodPixels > 0) {
             mLevels = mArena.array<DrawnLevel>(mScene.renderables.count());

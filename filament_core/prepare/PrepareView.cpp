@@ -140,9 +140,10 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // Lights are dropped before the variant, profiles and froxels follow from those that are left.
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
-    if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);
+    const bool lightsFog = isShaded(view.kind) && settings.lightsFog; // which lights of all channels do
+    if (prepared.hasChannels && !lightsFog) dropUnseenLights(arena, lights, drawn.any, prepared);
     packet.variant = variantFor(packet.counts);
-    if ((packet.variant & shader::kVariantPunctual) == 0) {
+    if ((packet.variant & shader::kVariantPunctual) == 0 && !lightsFog) {
         packet.lights = {};
         prepared.lightRecords = {};
     }

@@ -41,7 +41,8 @@ enum class Effect : uint8_t {
     Motion,      ///< motion vectors of dynamic objects, for temporal effects
     ContactShadows,
     Fog,
-    Taa, ///< temporal anti-aliasing
+    VolumetricFog, ///< light of lamps and of the shadowed sun in it
+    Taa,           ///< temporal anti-aliasing
     DepthOfField,
     MotionBlur,
     AutoExposure,

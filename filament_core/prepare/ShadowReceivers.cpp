@@ -54,6 +54,30 @@ ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
             });
 }
 
+void addFog(ShadowReceivers& receivers, ViewSpace const& space, float meters) {
+    const double4x4 worldFromClip = glm::inverse(double4x4(space.clipFromWorld));
+    const double nearMeters = nearPlane(space), farMeters = std::max(static_cast<double>(meters), nearMeters);
+    const double3 forward(space.forward);
+    ++receivers.count;
+    receivers.nearest = std::min(receivers.nearest, nearMeters);
+    receivers.farthest = std::max(receivers.farthest, farMeters);
+    for (int corner = 0; corner < 4; ++corner) {
+        const double2 place((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1);
+        // Two points of the frustum's edge; the edge is a line, so that the others follow from them.
+        const auto pointAt = [&](double depth) {
+            const double4 point = worldFromClip * double4(place, depth, 1);
+            return double3(point) / point.w;
+        };
+        const double3 a = pointAt(0.25), b = pointAt(0.75);
+        const double depthOfA = glm::dot(a, forward), depthOfB = glm::dot(b, forward);
+        for (const double depth : { nearMeters, farMeters }) {
+            const double3 point = space.cameraWorld + a + (b - a) * ((depth - depthOfA) / (depthOfB - depthOfA));
+            receivers.min = glm::min(receivers.min, point);
+            receivers.max = glm::max(receivers.max, point);
+        }
+    }
+}
+
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                                 double3x3 const& worldFromLight, Layers visibleLayers) {
     constexpr int kNothing = scene::kNeverDrawn | scene::kCollapsed;

@@ -24,6 +24,9 @@ struct ShadowReceivers {
 ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                               ViewPacket const& view, ViewSpace const& space, ShadowFilter filter);
 
+/// What volumetric fog shows of shadows: the part of the view that is nearer than so many metres.
+void addFog(ShadowReceivers& receivers, ViewSpace const& space, float meters);
+
 /// Of all renderables in these layers that can be drawn.
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                                 double3x3 const& worldFromLight, Layers visibleLayers);

@@ -57,10 +57,21 @@ float logDensityAt(double height, Fog const& fog) {
     return static_cast<float>(std::clamp(logDensity, -1e20, 1e20)); // without density: minus infinity
 }
 
+/// Columns become wider until all cells fit.
+float4 fogGrid(Fog const& fog, uint2 size) {
+    constexpr uint64_t kMostBytes = uint64_t{ 1 } << 27; // of a storage buffer, on every device
+    uint32_t pixels = fog.volumetricPixels;
+    const auto columns = [&] { return (size + pixels - 1u) / pixels; };
+    while (uint64_t{ columns().x } * columns().y * (fog.volumetricSlices + 1u) * shader::kFogCellBytes > kMostBytes)
+        pixels *= 2;
+    return float4(float2(columns()), fog.volumetricSlices, fog.volumetricMeters);
+}
+
 /// `hasLight`: of an environment, which the colour is relative to.
-void writeFog(shader::FrameUniforms& frame, Fog const& fog, double cameraHeight, bool hasLight) {
+void writeFog(shader::FrameUniforms& frame, Fog const& fog, double cameraHeight, bool hasLight, uint2 size) {
     constexpr float kTwoPi = 6.28318531f, kNever = 1e30f;
     frame.fogMedium = frame.fogLight = frame.fogSun = frame.fogSunDirection = float4(0);
+    frame.fogGrid = frame.fogScattering = float4(0);
     if (!fog.enabled) return;
     frame.fogMedium = float4(logDensityAt(cameraHeight, fog), fog.heightFalloff, fog.startMeters,
                              fog.cutOffMeters > 0 ? fog.cutOffMeters : kNever);
@@ -68,6 +79,10 @@ void writeFog(shader::FrameUniforms& frame, Fog const& fog, double cameraHeight,
     const float glow = fog.inScatteringSize > 0 ? (fog.inScatteringSize + 1) / kTwoPi : 0.0f;
     frame.fogSun = float4(float3(glow), fog.inScatteringSize); // times the sun: SelectLights.cpp
     frame.fogSunDirection = float4(0, 1, 0, std::max(fog.startMeters, fog.inScatteringStartMeters));
+    if (!fog.volumetric) return;
+    frame.fogGrid = fogGrid(fog, size);
+    frame.fogScattering = float4(fog.albedo / (2 * kTwoPi), fog.anisotropy);
+    frame.fogSun = frame.fogScattering;
 }
 
 } // namespace
@@ -119,7 +134,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
     ContactShadows const& contact = view.effects.contactShadows;
     frame.contactShadows = float4(contact.distanceMeters, contact.thicknessMeters, contact.steps, 0);
-    writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular));
+    writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular), view.size);
 }
 
 } // namespace filament_core::prepare

@@ -59,6 +59,14 @@ Rows fogRows() {
                     "Multiplies the colour by the blurred environment."),
              option("fog.inScatteringStartMeters", &E::inScatteringStartMeters, { 0, 1e6, kMeters },
                     "Distance at which fog begins to scatter the sun's light."),
+             option("fog.volumetric", &E::volumetric, "Lamps and the shadowed sun light the fog."),
+             option("fog.albedo", &E::albedo, { 0, 1, kColor }, "Share of the light that fog scatters."),
+             option("fog.anisotropy", &E::anisotropy, { -0.95, 0.95 },
+                    "Mean cosine of scattering; 0: alike in all directions."),
+             option("fog.volumetricMeters", &E::volumetricMeters, { 0.1, 1e5, kMeters },
+                    "Distance at which the cells of volumetric fog end."),
+             option("fog.volumetricPixels", &E::volumetricPixels, { 8, 64, "pixels" }, "Width of a column of cells."),
+             option("fog.volumetricSlices", &E::volumetricSlices, { 8, 128 }, "Cells of a column."),
              option("fog.inScatteringSize", &E::inScatteringSize, { 0, 1e3 },
                     "Exponent of the cosine of the sun's glow; 0: none.") };
 }

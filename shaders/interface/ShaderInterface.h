@@ -59,7 +59,16 @@ enum PassBinding : uint8_t {
     kBindingSceneDepth = 7,  ///< sampler2D: linear depth of opaque surfaces, in metres
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: scene colour of opaque surfaces, pre-exposed, with blurred levels
+    kBindingFogCells = 10,   ///< FogCells, storage: of materials with fog; see FrameUniforms::fogGrid
 };
+
+/// Of kGroupMaterial, for the dispatch that writes FogCells (shaders/compute/fog_light.comp).
+inline constexpr uint8_t kBindingWrittenFogCells = 0;
+
+/// FogCells: the columns of the grid row by row; of each, slices + 1 borders, the nearest first: four half floats,
+/// rgb: pre-exposed light that fog scatters towards the camera before it, w: its opacity up to there.
+inline constexpr uint32_t kFogCellBytes = 8;
+
 
 // ---- FrameUniforms
 struct FrameUniforms {
@@ -88,8 +97,12 @@ struct FrameUniforms {
     float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is
                                  ///< fog
     float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed,
-                                 ///< towards the sun; w: exponent of the cosine
+                                 ///< towards the sun; w: exponent of the cosine. Of volumetric fog: times fogScattering
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
+    float4 fogGrid;              ///< of volumetric fog; xy: columns and rows over the image, z: slices, w: metres in
+                                 ///< front of the camera where the last one ends; slice i begins at (i / slices)^2 of
+                                 ///< these
+    float4 fogScattering;        ///< rgb: albedo / (4 pi), w: asymmetry of henyeyGreenstein()
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
                                  ///< them
     float4 jitter;               ///< xy: by which clipFromWorld moves the image, times w of clip coordinates; z:
@@ -254,7 +267,9 @@ enum FogTerms : uint8_t {
     kFogOn = 1,
     kFogFromEnvironment = 2, ///< its colour is that of the environment behind
     kFogFromRgbm = 4,        ///< which is encoded
-    kFogSun = 8,             ///< scatters the light of the sun
+    kFogSun = 8,             ///< scatters the light of the sun: in a lobe, FrameUniforms::fogSun.w, or
+    kFogScattering = 16,     ///< by its phase function: FrameUniforms::fogScattering
+    kFogCells = 32,          ///< light of lamps and of the shadowed sun is in FogCells
 };
 
 /// What materials that blend in any order write (shaders/material/surface/transparency.glsl).

@@ -41,6 +41,8 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 fogLight;
     vec4 fogSun;
     vec4 fogSunDirection;
+    vec4 fogGrid;
+    vec4 fogScattering;
     vec4 contactShadows;
     vec4 jitter;
 } frameUniforms;
@@ -101,3 +103,7 @@ layout(set = 1, binding = 6) uniform sampler2D passOcclusion;
 layout(set = 1, binding = 7) uniform sampler2D passSceneDepth;
 layout(set = 1, binding = 8) uniform samplerCube passFog;
 layout(set = 1, binding = 9) uniform sampler2D passPicture;
+
+layout(set = 1, binding = 10, std430) readonly buffer FogCells {
+    uvec2 borders[];
+} fogCells;

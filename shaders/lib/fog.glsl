@@ -30,3 +30,18 @@ float fogOpacity(float opticalDepth, float largest) { return min(oneMinusExp(opt
 // "Making Shaders More Physically Plausible", section 4, for the lobe of Phong). cosine: [-1, 1]; exponent: [0, 1e3].
 // fp32 only.
 float fogGlow(float cosine, float exponent) { return cosine > 0.0f ? pow(min(cosine, 1.0f), exponent) : 0.0f; }
+
+// The phase function of Henyey and Greenstein 1941, "Diffuse radiation in the Galaxy", times 4 pi: its mean over the
+// sphere is 1. cosine: between the direction in which the camera looks and that towards the light, [-1, 1]; asymmetry:
+// the mean cosine of scattering, [-0.95, 0.95]; 0: alike in all directions. Returns (0, 780]. fp32 only.
+float henyeyGreenstein(float cosine, float asymmetry) {
+    float square = max(1.0f + asymmetry * asymmetry - 2.0f * asymmetry * cosine, 1e-4f);
+    return (1.0f - asymmetry * asymmetry) / (square * sqrt(square));
+}
+
+// Volumetric fog is cut into slices whose thickness grows with the distance: slice i begins at the depth
+// (i / slices)^2 meters. depth: metres in front of the camera, >= 0. Returns [0, slices]. fp32 only.
+float fogSliceAt(float depth, float slices, float meters) { return sqrt(saturate(depth / meters)) * slices; }
+
+// The inverse: the depth in metres of a place between slices.
+float fogDepthOf(float slice, float slices, float meters) { return sq(slice / slices) * meters; }

@@ -19,6 +19,9 @@ namespace filament_core::shader {
 /// The bytes of a package, for readPackage().
 std::span<const std::byte> engineMaterial(std::string_view name);
 
+/// A file of a compute stage of shaders/compute: "fog_light.spv" (SPIR-V) or "fog_light.essl".
+std::span<const std::byte> engineDispatch(std::string_view file);
+
 /// Keeps a package of an engine material that this program compiled itself until the program ends.
 std::span<const std::byte> keepEnginePackage(std::vector<std::byte> package);
 

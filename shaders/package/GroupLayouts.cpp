@@ -61,6 +61,23 @@ backend::BindGroupLayout passGroupLayout(PassKind kind) {
         if (texture.binding == kBindingShadowMaps)
             add(kBindingShadows, BindingType::UniformBuffer, ShaderStage::Fragment);
     }
+    if (kind != PassKind::Picture) add(kBindingFogCells, BindingType::StorageBuffer, ShaderStage::Fragment);
+    return layout;
+}
+
+backend::ProgramLayout fogLightLayout() {
+    using backend::BindingType;
+    backend::ProgramLayout layout;
+    const auto add = [&](uint32_t group, uint8_t binding, BindingType type) {
+        backend::BindGroupLayout& of = layout[group];
+        of.bindings[of.count++] = { .binding = binding, .type = type, .stages = backend::ShaderStage::Compute };
+    };
+    add(kGroupView, kBindingFrame, BindingType::DynamicUniformBuffer);
+    add(kGroupView, kBindingLights, BindingType::StorageBuffer);
+    add(kGroupView, kBindingFroxels, BindingType::StorageBuffer);
+    add(kGroupPass, kBindingShadowMaps, BindingType::SampledTexture);
+    add(kGroupPass, kBindingShadows, BindingType::UniformBuffer);
+    add(kGroupMaterial, kBindingWrittenFogCells, BindingType::StorageBuffer);
     return layout;
 }
 

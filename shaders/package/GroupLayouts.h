@@ -19,6 +19,9 @@ backend::BindGroupLayout viewGroupLayout();
 /// PassUniforms, and those of kEngineTextures that such materials read.
 backend::BindGroupLayout passGroupLayout(PassKind kind);
 
+/// Of the dispatch shaders/compute/fog_light.comp.
+backend::ProgramLayout fogLightLayout();
+
 /// Samplers that a group takes in the fragment stage.
 uint32_t samplerCount(backend::BindGroupLayout const& group);
 

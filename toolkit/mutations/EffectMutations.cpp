@@ -26,6 +26,14 @@ class FogGlowEdit final : public FrameEdit {
     }
 };
 
+class FogPhaseEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, fogScattering) + 3 * sizeof(float);
+        writeFloat(bytes, at, readFloat(bytes, at) + 0.02f);
+    }
+};
+
 /// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.
 bool isBeforePicture(Bytes const& bytes, size_t at) {
     const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
@@ -172,6 +180,7 @@ constexpr Mutation kEffectMutations[] = {
     { "gatheredWeight", "frames count half as much in the accumulated image", make<AccumulationWeightEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
+    { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
 };
 
 } // namespace

@@ -137,7 +137,8 @@ std::string contradiction(Options const& options, std::vector<std::string> const
 /// The options of one material among all.
 Options ofMaterial(Options options, std::string const& input, bool writesDependencies) {
     options.input = input;
-    if (namesFolder(options.output)) options.output += std::filesystem::path(input).stem().string() + ".fmat";
+    const char* const extension = options.isDispatch() ? "" : ".fmat";
+    if (namesFolder(options.output)) options.output += std::filesystem::path(input).stem().string() + extension;
     if (writesDependencies && options.dependencyFile.empty()) options.dependencyFile = options.output + ".d";
     return options;
 }

@@ -35,6 +35,7 @@ struct Options {
     assets::FilesFrom includes = assets::FilesFrom::Folder;
 
     bool readsStandardInput() const { return input == "-"; }
+    bool isDispatch() const { return input.ends_with(".comp"); }
 };
 
 /// The options of each material, at least one, or the status with which to end.

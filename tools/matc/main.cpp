@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// matc: compiles material definitions (.mat) into packages (.fmat). Options.h has the command line.
+/// matc: compiles material definitions (.mat) into packages (.fmat). Options.h has the command line. While the engine
+/// is built, also its compute stages (.comp), into a file for each language.
 ///   Out     the same bytes for any number of threads and of materials. Of a material with an error, also a full disk,
 ///           nothing is written: an old package stays as it was.
 ///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together. A material of
@@ -10,6 +11,7 @@
 #include "filament_core/assets/files/PathInside.h"
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/Cost.h"
+#include "shaders/compiler/DispatchCompiler.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/compiler/Templates.h"
@@ -145,9 +147,21 @@ Result<void> compile(Options const& options, Files& files, std::string const& te
     return writeRule(options, files);
 }
 
+/// A compute stage of the engine's own: OUTPUT.spv and OUTPUT.essl.
+Result<void> compileDispatch(Options const& options, Files const& files, std::string const& text) {
+    const Result<shader::StageCode> code = shader::compileDispatch(text, files.name());
+    if (!code) return code.error();
+    const auto writeBytes = [&](const char* extension, std::span<const std::byte> bytes) {
+        return write(options.output + extension, { bytes.begin(), bytes.end() });
+    };
+    Result<void> written = writeBytes(".spv", std::as_bytes(std::span(code->spirv)));
+    return written ? writeBytes(".essl", std::as_bytes(std::span(code->essl))) : written;
+}
+
 Result<void> run(Options const& options, Files& files, jobs::JobSystem* jobs) {
     const Result<std::string> text = files.material();
     if (!text) return text.error();
+    if (options.isDispatch()) return compileDispatch(options, files, *text);
     Result<shader::CompileOptions> how = compileOptions(options, files, jobs);
     if (!how) return how.error();
     if (options.preprocess) return print(shader::preprocessMaterial(*text, files.name(), *how));

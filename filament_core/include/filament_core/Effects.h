@@ -78,6 +78,14 @@ struct Fog {
     bool colorFromEnvironment = false;     ///< times the blurred environment in the direction of the view
     float inScatteringStartMeters = 0;     ///< of the sun's light, [0, 1e6]
     float inScatteringSize = 0; ///< how narrow the sun's glow in the fog is: exponent of the cosine, [0, 1e3]; 0: none
+    /// Fog scatters the light of lamps and of the brightest sun by its phase function, and shadow maps cut it into
+    /// shafts; replaces the glow above. Summed up in cells: columns over the image, cut into slices.
+    bool volumetric = false;
+    LinearColor albedo{ 1, 1, 1 }; ///< share of the light that fog scatters; the rest is absorbed; [0, 1]
+    float anisotropy = 0.2f;       ///< mean cosine of scattering: > 0 forwards, 0 in all directions; [-0.95, 0.95]
+    float volumetricMeters = 64; ///< where the cells end; beyond, the sun has no shadows and lamps no light; [0.1, 1e5]
+    uint8_t volumetricPixels = 16; ///< width of a column, [8, 64]; wider ones where cells would take over 128 MiB
+    uint8_t volumetricSlices = 32; ///< the nearest are the thinnest, [8, 128]
     friend bool operator==(Fog const&, Fog const&) = default;
 };
 

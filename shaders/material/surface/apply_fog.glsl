@@ -4,6 +4,8 @@
 const int kFogFromEnvironment = 2;
 const int kFogFromRgbm = 4;
 const int kFogSun = 8;
+const int kFogScattering = 16;
+const int kFogCells = 32;
 
 // Lit materials have their position. Others need it only here, and derive it from the depth, or from its
 // inverse as it was before the projection, which is as exact with any depth range.
@@ -34,16 +36,59 @@ highp vec3 fogRadiance(highp vec3 direction) {
     return light;
 }
 
+highp vec4 fogBorder(int border) {
+    uvec2 halves = fogCells.borders[border];
+    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
+}
+
+// The light in the fog before the fragment that lamps and the sun send, as the dispatch has summed it up to the borders
+// of slices; w: the opacity up to where it was. Within a slice light grows with opacity, so it is exact where nothing but
+// the fog changes.
+highp vec4 lightOfFogCells(FogRay ray, highp float opacity) {
+    highp vec4 grid = frameUniforms.fogGrid;
+    highp float slice = fogSliceAt(ray.meters * dot(ray.direction, fogForward()), grid.z, grid.w);
+    highp float nearest = min(floor(slice), grid.z - 1.0);
+    highp vec2 at = clamp(gl_FragCoord.xy * passUniforms.target.zw * grid.xy - 0.5, vec2(0.0), grid.xy - 1.0);
+    highp vec2 corner = floor(at);
+    highp vec2 part = at - corner;
+    highp vec4 before = vec4(0.0), behind = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        highp vec2 step = vec2(float(i & 1), float(i >> 1));
+        highp vec2 cell = min(corner + step, grid.xy - 1.0);
+        highp vec2 shares = vec2(1.0) - abs(part - step);
+        int border = int((cell.y * grid.x + cell.x) * (grid.z + 1.0) + nearest);
+        before += fogBorder(border) * (shares.x * shares.y);
+        behind += fogBorder(border + 1) * (shares.x * shares.y);
+    }
+    highp float inside = clamp((opacity - before.w) / max(behind.w - before.w, 1e-6), 0.0, 1.0);
+    return vec4(mix(before.rgb, behind.rgb, inside), min(behind.w, opacity));
+}
+
+// The light of lamps and of the sun in the fog before the fragment.
+highp vec3 scatteredLight(FogRay ray, highp float opacity) {
+    highp vec4 light = vec4(0.0);
+    if ((quality_fog & kFogCells) != 0) light = lightOfFogCells(ray, opacity);
+    highp float phase = henyeyGreenstein(dot(ray.direction, frameUniforms.fogSunDirection.xyz), frameUniforms.fogScattering.w);
+    light.rgb += frameUniforms.fogSun.rgb * (phase * (opacity - light.w)); // beyond the grid the sun has no shadows
+    return ray.meters > frameUniforms.fogMedium.w ? vec3(0.0) : light.rgb;
+}
+
 // The light of the fog between camera and fragment; w: its opacity.
 highp vec4 fogOfFragment() {
     FogRay ray = fogRayOfFragment();
-    highp float opacity = fogAlong(ray, frameUniforms.fogMedium.z);
+    highp vec4 sun = frameUniforms.fogSunDirection;
+    highp float opacity = 0.0, glowing = 0.0, from = sun.w; // a loop, because the code of the integral is long
+    for (int i = (quality_fog & kFogSun) != 0 ? 0 : 1; i < 2; ++i) {
+        glowing = opacity;
+        if (i == 1) from = frameUniforms.fogMedium.z;
+        opacity = fogAlong(ray, from);
+    }
     highp vec3 light = fogRadiance(ray.direction) * opacity;
     if ((quality_fog & kFogSun) != 0) {
-        highp vec4 sun = frameUniforms.fogSunDirection;
         highp float glow = fogGlow(dot(ray.direction, sun.xyz), frameUniforms.fogSun.w);
-        light += frameUniforms.fogSun.rgb * (glow * fogAlong(ray, sun.w));
+        light += frameUniforms.fogSun.rgb * (glow * glowing);
     }
+    if ((quality_fog & kFogScattering) != 0) light += scatteredLight(ray, opacity);
     return vec4(light, opacity);
 }
 

@@ -9,11 +9,16 @@ struct FogRay {
     highp float height;   // where it begins, above the camera
 };
 
+// In which direction depth grows, unit.
+highp vec3 fogForward() {
+    highp mat4 view = frameUniforms.viewFromWorld;
+    return -vec3(view[0].z, view[1].z, view[2].z);
+}
+
 // Parallel to the others, from the plane of the camera. point: w = 0: background.
 FogRay parallelFogRay(highp vec4 point) {
-    highp mat4 view = frameUniforms.viewFromWorld;
     FogRay ray;
-    ray.direction = -vec3(view[0].z, view[1].z, view[2].z);
+    ray.direction = fogForward();
     highp float along = dot(point.xyz, ray.direction);
     ray.meters = point.w > 0.0 ? max(along, 0.0) : kFogInfinity;
     ray.height = point.y - ray.direction.y * along;
@@ -33,17 +38,27 @@ FogRay fogRayTo(highp vec4 point) {
     return ray;
 }
 
-// The fraction of light that fog replaces between `from` and the end of the ray.
-highp float fogAlong(FogRay ray, highp float from) {
+// The fraction of light that fog replaces between `from` and `to` metres, wherever it ends.
+highp float fogBetween(FogRay ray, highp float from, highp float to) {
     highp vec4 medium = frameUniforms.fogMedium;
     highp float density = medium.x - medium.y * ray.height;
-    highp float depth = fogOpticalDepth(density, medium.y, ray.direction.y, from, ray.meters);
-    return ray.meters > medium.w ? 0.0 : fogOpacity(depth, frameUniforms.fogLight.w);
+    highp float depth = fogOpticalDepth(density, medium.y, ray.direction.y, from, to);
+    return fogOpacity(depth, frameUniforms.fogLight.w);
 }
 
-// The point of a pixel. depth: in the depth buffer. Background is at infinity.
-highp vec4 fogPointAt(highp vec2 pixel, highp float depth) {
-    highp vec4 point = frameUniforms.worldFromClip * vec4(pixel * passUniforms.target.zw * 2.0 - 1.0, depth, 1.0);
+// The fraction of light that fog replaces between `from` and the end of the ray.
+highp float fogAlong(FogRay ray, highp float from) {
+    return ray.meters > frameUniforms.fogMedium.w ? 0.0 : fogBetween(ray, from, ray.meters);
+}
+
+// A point at a place of the screen, [-1, 1]. depth: in the depth buffer. Background is at infinity.
+highp vec4 fogPointOnScreen(highp vec2 place, highp float depth) {
+    highp vec4 point = frameUniforms.worldFromClip * vec4(place, depth, 1.0);
     if (depth == frameUniforms.exposure.w) point.w = 0.0;
     return point;
+}
+
+// The point of a pixel.
+highp vec4 fogPointAt(highp vec2 pixel, highp float depth) {
+    return fogPointOnScreen(pixel * passUniforms.target.zw * 2.0 - 1.0, depth);
 }

@@ -8,7 +8,7 @@ namespace {
 
 TEST(DeviceNeeds, ADeviceWithoutStorageBuffersInFragmentShadersIsRefusedByName) {
     backend::DeviceInfo device{ .backend = Backend::Gles, .deviceName = "Small GPU" };
-    device.limits.maxFragmentStorageBuffers = 2;
+    device.limits.maxFragmentStorageBuffers = 3;
     EXPECT_TRUE(checkDevice(device).ok());
     device.limits.maxFragmentStorageBuffers = 0;
     const Result<void> refused = checkDevice(device);

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fog on both APIs: colours of surfaces and skies against the closed form, for every way of blending; and what stays as
 // it is without fog. Pictures are scene-linear half floats, so tolerances are those of their rounding.
-#include "tests/filament_core/engine/SkyStage.h"
-
-#include <glm/gtc/matrix_transform.hpp>
+#include "tests/filament_core/engine/FogStage.h"
 
 namespace filament_core {
 namespace {
 
-using test::MaterialStage;
-using test::onBothApis;
-
-constexpr float3 kPaintInFog{ 0.8f, 0.4f, 0.2f };
-constexpr uint32_t kFogSide = 8;
-
-std::string paintText(std::string_view properties, std::string_view color = "vec4(0.8, 0.4, 0.2, 1.0)") {
-    return test::text(fmt::format("shadingModel : unlit, doubleSided : true, {}", properties),
-                      fmt::format("material.baseColor = {};", color));
-}
+using namespace test;
 
 constexpr const char* kBlackLit = R"(material { name : black, shadingModel : lit, doubleSided : true }
 fragment { void material(inout MaterialInputs material) {
@@ -27,30 +16,6 @@ fragment { void material(inout MaterialInputs material) {
     material.emissive = vec4(0.8, 0.4, 0.2, 0.0);
 } })";
 
-Fog fogOf(float density) { return { .enabled = true, .density = density, .color = { 0.1f, 0.5f, 0.9f } }; }
-
-/// Straight through the formula of docs/fog.md, from the camera's height.
-double opacityAlong(Fog const& fog, double height, double rise, double from, double to) {
-    const double rate = static_cast<double>(fog.heightFalloff) * rise;
-    const double density =
-            fog.density * std::exp(-static_cast<double>(fog.heightFalloff) * (height - fog.heightMeters));
-    const double depth = std::abs(rate) > 1e-9
-                                 ? density * (std::exp(-rate * from) - std::exp(-rate * std::max(from, to))) / rate
-                                 : density * std::max(to - from, 0.0);
-    return std::min(1 - std::exp(-depth), static_cast<double>(fog.maximumOpacity));
-}
-
-float3 foggedPaint(float3 color, Fog const& fog, double opacity) {
-    return float3(glm::mix(double3(color), double3(fog.color), opacity));
-}
-
-void addPlane(MaterialStage& stage, MaterialInstance material, double distance) {
-    const double scale = std::max(1.0, distance / 15);
-    const double4x4 world = glm::translate(double4x4(1), stage.view.camera.position() - double3(0, 0, distance)) *
-                            glm::scale(double4x4(1), double3(scale));
-    stage.add(material, { {} }, world);
-}
-
 /// A plane of one material straight ahead.
 Image planeInFog(std::string const& material, Fog const& fog, double distance, double3 eye = { 0, 0, 4 }) {
     return onBothApis([&](MaterialStage& stage) {
@@ -58,21 +23,6 @@ Image planeInFog(std::string const& material, Fog const& fog, double distance, d
         stage.view.effects.fog = fog;
         addPlane(stage, stage.material(material, test::kNoLights), distance);
     });
-}
-
-/// Calls check(colour, direction of the view) for every pixel.
-template <class Check>
-void forFogPixels(Image const& image, Check const& check) {
-    ASSERT_EQ(image.width, kFogSide);
-    for (uint32_t y = 0; y < kFogSide; ++y)
-        for (uint32_t x = 0; x < kFogSide; ++x)
-            check(test::halfPixel(image, x, y), double3(test::directionThrough(x, y, kFogSide)));
-}
-
-/// Half floats are rounded down; `writes`: how often.
-void expectHalf(float4 seen, float3 expected, std::string const& what, float writes = 1) {
-    for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(seen[c], expected[c], writes * 1e-3f * expected[c] + 1e-5f) << what << ' ' << c;
 }
 
 void expectClosedForm(std::string const& material, Fog const& fog, double distance, double3 eye = { 0, 0, 4 }) {

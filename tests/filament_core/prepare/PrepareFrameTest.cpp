@@ -331,7 +331,7 @@ TEST_F(PrepareFrameTest, TheHashSeesEveryOptionOfEveryEffect) {
     const Effects all = view.effects;
     for (Option const& option : optionsOf<Effects>()) {
         const std::string value = *optionValue(all, option.name);
-        std::vector<std::string> others{ "0.02", "0.5", "0.75", "2", "0.5,0.25,0.75,2" };
+        std::vector<std::string> others{ "0.02", "0.5", "0.75", "2", "9", "0.5,0.25,0.75,2" };
         others.insert(others.begin(), option.values.begin(), option.values.end());
         for (std::string const& other : others) {
             if (other != value && setOption(view.effects, option.name, other)) break;

@@ -101,6 +101,8 @@ TEST_F(Interface, FrameUniformsAgree) {
                           MEMBER(FrameUniforms, fogLight),
                           MEMBER(FrameUniforms, fogSun),
                           MEMBER(FrameUniforms, fogSunDirection),
+                          MEMBER(FrameUniforms, fogGrid),
+                          MEMBER(FrameUniforms, fogScattering),
                           MEMBER(FrameUniforms, contactShadows),
                           MEMBER(FrameUniforms, jitter) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));

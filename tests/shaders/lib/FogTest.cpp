@@ -109,5 +109,26 @@ TEST(Fog, TheGlowSumsUpToTheLightOfTheSun) {
     }
 }
 
+TEST(Fog, ThePhaseFunctionScattersAllLight) {
+    for (const double g : { -0.9, -0.3, 0.0, 0.2, 0.9 }) {
+        double sum = 0, mean = 0;
+        for (const double side : { 1.0, -1.0 }) {
+            const auto phase = [&](lib64::vec3 d) {
+                return lib64::henyeyGreenstein(side * d.z, g) / (4 * lib::kPiExact);
+            };
+            sum += lib64::integrateUpper(phase, { .polePower = 2 });
+            mean += lib64::integrateUpper([&](lib64::vec3 d) { return phase(d) * side * d.z; }, { .polePower = 2 });
+        }
+        EXPECT_NEAR(sum, 1, 2e-3) << g;
+        EXPECT_NEAR(mean, g, 2e-3) << "the mean cosine is the asymmetry";
+    }
+}
+
+TEST(Fog, DepthsAndSlicesAreInverses) {
+    for (const double slice : { 0.0, 0.5, 13.0, 64.0 })
+        EXPECT_NEAR(lib64::fogSliceAt(lib64::fogDepthOf(slice, 64.0, 30.0), 64.0, 30.0), slice, 1e-12);
+    EXPECT_EQ(lib64::fogSliceAt(1e15, 64.0, 30.0), 64) << "beyond the last one";
+}
+
 } // namespace
 } // namespace filament_core::shader

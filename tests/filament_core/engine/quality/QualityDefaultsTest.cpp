@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The defaults lie on the measured Pareto front: no other value of a choice has less error and costs no more. No
 // device.
+#include <filament_core/Options.h>
 #include <filament_core/Quality.h>
 #include <filament_core/QualityCosts.h>
 
