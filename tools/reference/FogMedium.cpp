@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/FogMedium.h"
 
+#include "shaders/lib/LibCppDouble.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace filament_core::reference {
+
+namespace lib = shader::lib64;
+
 namespace {
 
 constexpr double kFarthestFog = 1e15; // metres: what lies at infinity
@@ -24,7 +29,7 @@ FogMedium::FogMedium(Fog const& fog, double height, FogLight const& light)
         mEnvironment = light.environment;
         mColor = double3(fog.color) * light.exposure;
     }
-    if (!(fog.inScatteringSize > 0) || light.suns.empty()) return;
+    if (fog.volumetric || !(fog.inScatteringSize > 0) || light.suns.empty()) return;
     SunLight const& sun = *std::ranges::max_element(light.suns, {}, brightnessOf);
     mSun = double3(sun.color) * (double(sun.illuminance.value) * light.exposure * (double(fog.inScatteringSize) + 1) /
                                  (2 * std::numbers::pi));
@@ -46,6 +51,29 @@ double FogMedium::opticalDepth(double rise, double from, double to) const {
 double FogMedium::opacity(double3 direction, double from, double to) const {
     const double opaque = -std::expm1(-opticalDepth(direction.y, from, to));
     return std::min(opaque, double(mFog.maximumOpacity));
+}
+
+FogMedium::Event FogMedium::sample(double3 direction, double distance, double u) const {
+    const bool isCutOff = mFog.cutOffMeters > 0 && distance > double(mFog.cutOffMeters);
+    const double start = double(mFog.startMeters), end = std::min(distance, kFarthestFog);
+    const double logDensity = std::log(double(mFog.density)) - double(mFog.heightFalloff) * mHeight;
+    const auto opacityAt = [&](double to) {
+        const double depth = lib::fogOpticalDepth(logDensity, double(mFog.heightFalloff), direction.y, start, to);
+        return lib::fogOpacity(depth, double(mFog.maximumOpacity));
+    };
+    const double all = opacityAt(end);
+    if (isCutOff || !(all > 0)) return {};
+    double before = start, behind = end;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = before > 0 && behind > 4 * before ? std::sqrt(before * behind) : 0.5 * (before + behind);
+        (opacityAt(middle) < u * all ? before : behind) = middle;
+    }
+    return { behind, all };
+}
+
+double3 FogMedium::phase(double3 direction, double3 toLight) const {
+    const double scattered = lib::henyeyGreenstein(glm::dot(direction, toLight), double(mFog.anisotropy));
+    return double3(mFog.albedo) * (scattered / (4 * std::numbers::pi));
 }
 
 double3 FogMedium::colorTowards(double3 direction) const {

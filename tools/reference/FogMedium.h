@@ -35,6 +35,19 @@ public:
     /// covers this share of it, of which `color` is the light.
     double3 inFront(double3 color, double3 share, double3 direction, double distance) const;
 
+    /// Whether lamps and suns light it along the ray (Fog::volumetric): single scattering; like surfaces, it gets their
+    /// light unweakened.
+    bool isLit() const { return mFog.enabled && mFog.volumetric && mFog.density > 0; }
+    /// A point of the ray in the fog before `distance`, chosen in proportion to the share of light that it scatters to
+    /// the camera.
+    struct Event {
+        double distance = 0;
+        double opacity = 0; ///< of all fog before `distance`: the weight of the event; 0: none
+    };
+    Event sample(double3 direction, double distance, double u) const;
+    /// The share of a light from direction `toLight` that an event scatters to the camera, 1/sr.
+    double3 phase(double3 direction, double3 toLight) const;
+
 private:
     double3 colorTowards(double3 direction) const;
     double opticalDepth(double rise, double from, double to) const;

@@ -12,7 +12,7 @@
 ///           there, because it would have to be found through the surface; where the path leaves, it is.
 ///   Sides   the camera does not see single-sided materials from behind; all other rays hit both sides. Light cannot
 ///           pass through a triangle because of its shading normal. Emissive surfaces light others.
-///   Fog     between the camera and the first surface, or the sky, alone.
+///   Fog     between the camera and the first surface, or the sky, alone; lit by one event of single scattering.
 ///   Out     exposed, as in the engine's scene-linear target.
 ///   Thread  radiance(): any, all at once.
 #pragma once
@@ -37,6 +37,7 @@ private:
 
     double3 follow(Path& path, std::optional<SurfaceSample> surface) const;
 
+    double3 scatteredByFog(Path& path, Ray const& camera, double distance) const;
     std::optional<SurfaceSample> nextSurface(Path& path) const;
     bool crossMedium(Path& path, std::optional<SurfaceSample>& surface) const;
     void enterSurface(Path& path, SurfaceSample& surface) const;
