@@ -51,6 +51,8 @@ void writeDrawnLevels(scene::SceneData const& scene, ViewPacket const& view, std
 LevelChoice::LevelChoice(scene::SceneData const& scene, ViewInput const& view, std::span<const DrawnLevel> last)
         : mScene(&scene), mLast(last), mPixels(view.lodPixels) {
     if (!isOn()) return;
+    // Jitter would change the limit from frame to frame, and with it the levels near it. The size is that of the image
+    // as it is shown: a guard band and a reduced resolution change no level.
     ViewInput still = view;
     still.jitterPixels = float2(0);
     const ViewSpace space = makeViewSpace(still);
@@ -98,6 +100,7 @@ uint32_t LevelChoice::levelIn(std::span<const DrawnLevel> drawn, uint32_t at, ui
 uint32_t LevelChoice::choose(uint32_t at, uint32_t finest, float3 center, float3 halfExtent) const {
     scene::Renderables const& renderables = mScene->renderables;
     scene::Drawables::Level level = renderables.drawables.level(finest);
+    // Without bounds there is no distance by which an error could be judged.
     const bool hasBounds = (renderables.flags[at] & scene::kCulled) != 0;
     if (level.coarser == scene::kNoLevel || !hasBounds) return finest;
     const float perMeter = pixelsPerMeter(center, halfExtent) * scaleOf(at);
@@ -107,6 +110,8 @@ uint32_t LevelChoice::choose(uint32_t at, uint32_t finest, float3 center, float3
         const float limit = number > last ? mPixels * kSteady : mPixels;
         const uint32_t coarser = level.coarser;
         level = renderables.drawables.level(coarser);
+        // The negation also stops at a camera inside of the box, where an error of 0 times infinity is not a number.
+        // Errors grow from level to level, so that no coarser level can fit once one does not.
         if (number > least && !(level.errorMeters * perMeter <= limit)) break;
         chosen = coarser;
     }

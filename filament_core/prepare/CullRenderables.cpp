@@ -51,6 +51,8 @@ public:
     Tally cull(size_t begin, size_t end, SortItem* slots) const {
         Tally tally;
         SortItem* next = slots;
+        // Which renderables are tested one by one follows from the size of the scene alone, not from the number of
+        // workers: any difference of rounding between the two functions is the same in every run.
         size_t i = begin;
         for (; i + kLanes <= end; i += kLanes) next = keep(see8(i), i, next, tally);
         for (; i < end; ++i) next = keep(see1(i), i, next, tally);
@@ -78,6 +80,8 @@ private:
         if (mSpace.visibleLayers != kAllLayers) seen.inOtherLayers = hidden8(i) & ~seen.nothingToDraw;
         const uint32_t mayBeCulled = simd::bitOfEachByte(flags, kCulledBit);
         seen.visible = (mFrustum.intersects(boxes) | ~mayBeCulled) & ~seen.nothingToDraw & ~seen.inOtherLayers & 0xFFu;
+        // The exact test divides eight times for a box. It runs only for boxes that this one lets through, and that are
+        // seen.
         seen.mayBeTooSmall = mSpace.pixels.mayMiss8(boxes.center, boxes.halfExtent) & mayBeCulled;
         simd::store8(seen.depth, simd::dot(mSpace.forward, boxes.center));
         return seen;
@@ -87,6 +91,7 @@ private:
         constexpr uint64_t kOnes = 0x0101'0101'0101'0101, kLow7 = 0x7F7F'7F7F'7F7F'7F7F;
         uint64_t layers;
         std::memcpy(&layers, &mRenderables.layers[i], sizeof layers);
+        // Eight masks as the bytes of one word: vectors of bytes would be needed for this test alone.
         const uint64_t shared = layers & mSpace.visibleLayers * kOnes;
         const uint64_t isShared = ((shared & kLow7) + kLow7) | shared; // bit 7 of each byte that is not zero
         return ~simd::bitOfEachByte(isShared, 7) & 0xFFu;
@@ -121,6 +126,8 @@ private:
             const bool mirrored = mRenderables.flags[renderable] & scene::kMirrored;
             const uint32_t finest = mRenderables.drawable[renderable];
             const uint32_t draw = drawOf(mLevels.isOn() ? levelFor(renderable, finest, tally) : finest, mirrored);
+            // The span belongs to the level that is drawn: sort keys slice the members of a draw by depth, and each
+            // level is a draw.
             extend(mSpans[draw], coarseStep(depth));
             *next++ = { depth, renderable, draw };
         }
@@ -163,6 +170,8 @@ private:
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables const& renderables,
                              ViewSpace const& space, ViewKind kind, ViewCounts& counts, LevelChoice const& levels) {
     const size_t ranges = (renderables.count() + kCullRange - 1) / kCullRange;
+    // Each range writes to its own part of `slots`, and leaves a gap behind it. Sort keys close the gaps (writeKeys()),
+    // so nothing is copied here.
     const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
     const auto tallies = arena.arrayForOverwrite<Tally>(ranges);

@@ -10,6 +10,8 @@
 namespace filament_core::prepare {
 namespace {
 
+// A line along a surface has nearly the depth of that surface. Brought nearer by this part of its distance, it is not
+// hidden where the two are rounded differently.
 constexpr double kNearer = 1.0 / 2048;
 
 /// A point on screen: pixels, and its depth.
@@ -48,6 +50,7 @@ public:
             if (!isBeforeNear(clip)) return;
             at = screenOf(clip);
         }
+        // Strokes of a glyph are whole pixels wide: they are sharp only if glyphs begin at the border of a pixel.
         at.pixel = glm::floor(at.pixel + 0.5);
         const double most = 1e6; // pixels; beyond, nothing is on screen
         if (std::abs(at.pixel.x) > most || std::abs(at.pixel.y) > most) return;
@@ -85,6 +88,7 @@ private:
     }
 
     std::optional<std::pair<ScreenPoint, ScreenPoint>> inFront(double3 const& from, double3 const& to) const {
+        // The line ends at the near plane before it is divided by w: behind the camera the quotient has the wrong sign.
         double4 a = clipOf(from), b = clipOf(to);
         const double inA = beforeNear(a), inB = beforeNear(b);
         if (!(inA > 0) && !(inB > 0)) return std::nullopt;
@@ -184,6 +188,7 @@ DebugQuads debugQuads(Arena& arena, DebugDraw const& draw, ViewInput const& view
     const auto vertices = arena.arrayForOverwrite<DebugVertex>(4 * most);
     QuadWriter writer(view, vertices);
     DebugQuads quads;
+    // The tested quads come first, because the pass draws the others over them in a second draw call.
     for (const bool tested : { true, false }) {
         for (DebugLine const& line : draw.lines()) {
             if (isTested(line) == tested) writer.line(line);

@@ -28,6 +28,7 @@ bool isVisible(scene::Renderables const& renderables, Deformation const& deforma
             return view.isSeen(drawOf(drawable, false)) || view.isSeen(drawOf(drawable, true));
         });
     };
+    // Any level of detail may be the one that is drawn, and all of them have the same bones and weights.
     uint32_t level = renderables.drawable[renderables.index.at(deformation.renderable)];
     while (level != scene::kNoLevel && !isSeen(level)) level = renderables.drawables.level(level).coarser;
     return level != scene::kNoLevel;
@@ -71,6 +72,8 @@ uint32_t writeTargets(std::span<const float> weights, std::span<float4> targets)
     uint32_t next = 0;
     for (size_t target = 0; target < weights.size(); ++target) {
         const float magnitude = std::abs(weights[target]);
+        // Among weights of exactly the smallest magnitude the first ones stay, so that the choice needs no further
+        // order.
         const bool isTie = kept.ties > 0 && magnitude == kept.magnitude;
         if (!(magnitude > kept.magnitude) && !isTie) continue;
         kept.ties -= isTie;
@@ -82,6 +85,7 @@ uint32_t writeTargets(std::span<const float> weights, std::span<float4> targets)
 /// Fills `block`, which has the size that deformationBlock() says.
 void writeBlock(Shape const& shape, uint32_t boneRoom, std::span<std::byte> block) {
     const std::span words(reinterpret_cast<float4*>(block.data()), block.size() / sizeof(float4));
+    // The memory is that of an upload, with bytes of earlier frames. What is not written below is uploaded, too.
     std::memset(block.data(), 0, block.size());
     const uint32_t active = writeTargets(shape.weights, words.subspan(kHeaderWords));
     const bool hasRoom = shape.firstBone + shape.boneCount <= boneRoom;
@@ -124,6 +128,7 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
         places[i].bones = 0; // without a skin it is not read
         if (all[i].skin) {
             uint32_t& first = bones[all[i].skin.index()];
+            // Several meshes may have one skin: its bones are placed with the first of them.
             if (first == kNowhere) {
                 first = list.boneCount;
                 list.boneCount += static_cast<uint32_t>(skins[all[i].skin.index()].bones.size());

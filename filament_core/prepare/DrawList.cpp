@@ -24,6 +24,8 @@ uint32_t specialOrders(DrawOrder const& order) {
 Composed composedAs(scene::Drawables::Use use, uint32_t depth, uint32_t special, DrawOrder const& order) {
     if (!order.composes || use.place != kDefaultPlace) return Composed::Behind;
     if (special & scene::Drawables::kAnyOrder) return Composed::InAnyOrder;
+    // What keeps its order is drawn before the composed objects only if it lies behind all of them. If it lies among
+    // them, no place is right for all pixels, and it is drawn over them.
     return depth > order.farthest ? Composed::Behind : Composed::InOrder;
 }
 
@@ -31,6 +33,8 @@ uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, 
                DrawOrder const& order) {
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
+    // Several properties may apply to an object, and the first in this list decides. Transparent objects need all that
+    // is opaque below them, and what writes stencil values comes before what may test them.
     if (special & Drawables::kBlendedOrder) return blendedKey(depth, use.place, composedAs(use, depth, special, order));
     if (special & Drawables::kStencilWriteOrder) return opaqueKey(use.order, item.draw, kStencilSlice, depth);
     if (special & Drawables::kReadsSceneColorOrder)
@@ -97,6 +101,7 @@ AnyOrderExtent findAnyOrder(jobs::JobSystem& jobs, Arena& arena, scene::Drawable
                             VisibleItems const& visible) {
     const auto ranges = arena.array<AnyOrderExtent>(visible.firsts.size() - 1);
     jobs::parallelFor<"any order">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
+        // The ranges are those of culling: `firsts` has their borders.
         const size_t range = begin / kCullRange, count = visible.firsts[range + 1] - visible.firsts[range];
         for (SortItem const& item : visible.slots.subspan(begin, count)) {
             const scene::Drawables::Use use = drawables.use(drawableOf(item.draw));
@@ -116,9 +121,9 @@ AnyOrderExtent findAnyOrder(jobs::JobSystem& jobs, Arena& arena, scene::Drawable
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                               VisibleItems const& visible, DrawOrder const& order) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
+    const uint32_t specials = specialOrders(order);
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
-    const uint32_t specials = specialOrders(order);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -156,6 +161,7 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     const auto draws = arena.arrayForOverwrite<DrawCall>(count);
     jobs::parallelFor<"merge">(jobs, items.size(), kMergeRange, [&](size_t begin, size_t end) {
         RangeDraws& range = ranges[begin / kMergeRange];
+        // The counts of all earlier ranges are known: each job writes where its draws will stay.
         range.triangles = writeDraws(drawables, items, begin, end, draws.data() + range.first);
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;

@@ -25,6 +25,8 @@ double roundedUp(double value) {
 }
 
 // A quarter of an octave, to the outside.
+// The splits follow from these ends. If they moved with every small change of what is visible, all cascades would be
+// drawn again in each frame.
 DepthSlice roundedOut(DepthSlice range) {
     const auto step = [](double depth, double round(double)) {
         return elementary::exp2(round(4 * elementary::log2(depth)) / 4);
@@ -55,6 +57,8 @@ Sphere sphereAround(float4x4 const& clipFromView, DepthSlice const& slice) {
                   farCorner = cornerAt(clipFromView, slice.farthest);
     const double nearReach = glm::dot(nearCorner, nearCorner), farReach = glm::dot(farCorner, farCorner);
     const double length = slice.farthest - slice.nearest;
+    // As far from the far corner as from the near one: (far - depth)^2 + farReach = (depth - near)^2 + nearReach. A
+    // wide lens puts this point behind the far side, where the sphere around the far corners is the smallest.
     const double both = slice.farthest * slice.farthest - slice.nearest * slice.nearest + farReach - nearReach;
     const double depth = std::clamp(both / (2 * length), slice.nearest, slice.farthest);
     const double toFar = slice.farthest - depth, toNear = depth - slice.nearest;
@@ -134,6 +138,7 @@ std::array<DepthSlice, kMaxCascades> splitDepth(DepthSlice const& range, uint32_
 FittedShadow fitCascade(ViewSpace const& mainView, DepthSlice const& slice, double3x3 const& worldFromLight,
                         LightSpaceBox const& scene, bool& coversScene) {
     const Sphere sphere = sphereAround(mainView.clipFromView, slice);
+    // Rounding its place moves the map by up to half a step. It is wider by as much, so that it still holds the sphere.
     const double ofSlice = roundedUp(sphere.radius / (0.5 - 0.5 / kStepsOfMap) * (1 + kMarginOfMap));
     const double3 extent = scene.max - scene.min;
     const double ofScene = roundedUp(std::max({ extent.x, extent.y, 1e-6 }) * (1 + kMarginOfMap));
@@ -145,6 +150,8 @@ FittedShadow fitCascade(ViewSpace const& mainView, DepthSlice const& slice, doub
     double3 center = (scene.min + scene.max) * 0.5;
     center.z -= depth / 2;
     if (!coversScene) {
+        // The far side is that of the sphere, beyond which no point of the slice receives shadows, or that of the
+        // scene, whichever is nearer to the light.
         const double3 onAxis = mainView.cameraWorld + double3(mainView.forward) * sphere.depth;
         const double step = width / kStepsOfMap;
         const double3 steps = glm::round((onAxis * worldFromLight) / step);
@@ -196,6 +203,8 @@ float4x4 atlasFromWorld(FittedShadow const& fitted, double3 const& mainCamera, d
     atlasFromClip[0][0] = atlasFromClip[1][1] = size / 2;
     atlasFromClip[3][0] = x + size / 2;
     atlasFromClip[3][1] = y + size / 2;
+    // In double precision up to the product: both cameras may be far from the origin, and only their difference is
+    // small.
     const double3x3 viewFromWorld = glm::transpose(double3x3(fitted.camera.worldFromView));
     double4x4 viewFromMain(viewFromWorld);
     viewFromMain[3] = double4(viewFromWorld * (mainCamera - fitted.camera.position()), 1);

@@ -124,6 +124,7 @@ FrameSettings resolve(ViewInput const& main) {
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
     // Positions that are not relative to the camera are rounded by more than the margin of occluders.
     const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;
+    // Occluders are tested at the centres of pixels: with more samples a pixel they may leave some of them open.
     settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 && isPrecise;
     return settings;
 }

@@ -78,6 +78,7 @@ public:
               mEntries(arena.arrayForOverwrite<uint16_t>(input.grid.cells() * mRoom)) {}
 
     void fill(Arena& arena, std::span<const PunctualLight> lights) {
+        // In the order of the lights, in which the lists need no sorting: froxels are hardly ever full.
         forEachSlice([&](uint32_t slice) { assignSlice(mInput, slice, {}, sliceOf(slice)); });
         if (!isFull(mCounts)) return;
         // Again, with the brightest first: what finds no place is dimmer than all that has one.
@@ -93,6 +94,8 @@ public:
         const size_t cells = mCounts.size();
         const auto begins = arena.arrayForOverwrite<uint32_t>(cells);
         auto end = static_cast<uint32_t>(cells);
+        // The places of all lists are known before they are copied, so that the jobs below need no order among
+        // themselves.
         for (size_t i = 0; i < cells; ++i) {
             begins[i] = end;
             end += lengthOf(i);
@@ -151,6 +154,7 @@ FroxelLists assignLights(jobs::JobSystem& jobs, Arena& arena, ViewSpace const& s
     if (!axes) return {};
     const auto slices = arena.arrayForOverwrite<SliceRange>(lights.size());
     std::ranges::transform(bounds, slices.begin(), [&](LightBounds const& light) { return slicesOf(grid, light); });
+    // Each light knows its slices before the jobs begin: a job skips most lights by comparing two bytes.
     const SliceInput input{ grid, *axes, bounds, slices, depths.farthest, options.margins };
     Lists lists(jobs, arena, input);
     lists.fill(arena, lights);

@@ -41,6 +41,7 @@ uint64_t hashValues(uint64_t seed, Values const&... values) {
 }
 
 uint64_t hashEffects(Effects const& effects, uint64_t seed) {
+    // One option after the other, since the struct has padding; a texture is no option.
     for (Option const& option : optionsOf<Effects>()) seed = hashBytes(bytesOf(option, &effects), seed);
     return hashWords(seed, effects.bloom.dirt.number());
 }

@@ -45,6 +45,7 @@ uint64_t hashProfiles(ProfileLists const& profiles, uint64_t seed) {
 }
 
 uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {
+    // What shaders read, not the indices: adding a renderable that is out of view moves others, and changes no map.
     for (SortItem const& item : objects.order) {
         const shader::ObjectData object = objectData(objects.placements[item.renderable], objects.cameraWorld);
         seed = hashBytes(std::as_bytes(std::span(&object, 1)), seed);
@@ -83,6 +84,7 @@ uint64_t hashDepthInputs(scene::MaterialInstance const& instance, shader::FrameU
 }
 
 uint64_t hashProjection(shader::FrameUniforms const& frame, uint64_t seed) {
+    // The matrix takes positions relative to the camera, and alone would not say where the map is.
     seed = hashBytes(std::as_bytes(std::span(&frame.clipFromWorld, 1)), seed);
     return hashBytes(std::as_bytes(std::span(&frame.cameraPosition, 1)), seed);
 }

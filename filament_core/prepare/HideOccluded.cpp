@@ -71,6 +71,7 @@ private:
             if (sizes[i] >= kSmallestPixels) sized[count++] = { sizes[i], i };
         }
         const size_t chosen = std::min(count, kMostOccluders);
+        // Ties are broken by position: which occluders are chosen must not depend on the sorting of the C++ library.
         std::ranges::partial_sort(sized.first(count), sized.begin() + static_cast<ptrdiff_t>(chosen),
                                   [](SizedItem const& a, SizedItem const& b) {
                                       return a.pixels != b.pixels ? a.pixels > b.pixels : a.item < b.item;
@@ -98,6 +99,7 @@ private:
     bool isHidden(OcclusionBuffer const& buffer, SortItem const& item) const {
         const bool mayBeCulled = (mRenderables.flags[item.renderable] & scene::kCulled) != 0;
         const scene::Drawables::Use use = mRenderables.drawables.use(drawableOf(item.draw));
+        // What writes stencil values is drawn even where it is hidden: a failed depth test may change them as well.
         return mayBeCulled && use.staysInBounds && (use.order & scene::Drawables::kStencilWriteOrder) == 0 &&
                buffer.hides(mSpace.clipFromWorld, centerOf(item.renderable),
                             mRenderables.bounds.halfExtentAt(item.renderable));

@@ -46,7 +46,7 @@ void LastFrame::keep(scene::SceneData const& scene, ViewInput const& view, Frame
         mLevels.resize(scene.renderables.count());
         writeDrawnLevels(scene, packet.mainView(), mLevels);
     }
-    mScene = 0; // until all places are kept
+    mScene = 0; // until all places are kept: if memory runs out, none is known
     if (packet.settings.readsMotion(packet.mainView().counts)) keepPlaces(scene);
 }
 
@@ -123,6 +123,8 @@ LastView LastFrame::seenFrom(ViewSpace const& space, ViewInput const& view, floa
     const Seen last = mSeen.value_or(Seen{ view, {}, 0, space.clipFromWorld, space.cameraWorld, space.forward, time });
     const double3 moved = space.cameraWorld - last.cameraWorld;
     const double along = dot(double3(last.forward), moved);
+    // Shaders have positions relative to the camera of this frame: the matrix of the last one first moves them to its
+    // own. The difference of the places is taken in double precision, for worlds much larger than a step of a float.
     return { .clipFromWorld = float4x4(glm::translate(double4x4(last.clipFromWorld), moved)),
              .alongView = float4(last.forward, static_cast<float>(along)),
              .time = last.time,
@@ -133,6 +135,7 @@ LastView LastFrame::seenFrom(ViewSpace const& space, ViewInput const& view, floa
 }
 
 scene::Placement const* LastFrame::placement(scene::SceneData const& scene, uint32_t at) const {
+    // Removing a renderable may move another one to its position, so that only the handle says what was there.
     const bool isKnown = mScene == scene.serial && at < mRenderables.size() &&
                          mRenderables[at] == scene.renderables.index.handleAt(at);
     return isKnown ? &mPlacements[at] : nullptr;
@@ -145,6 +148,7 @@ std::optional<LastDeformation> LastFrame::deformation(scene::SceneData const& sc
     if (last.renderable != now.renderable || last.skin != now.skin) return std::nullopt;
     LastDeformation found{ .weights = last.weights };
     if (now.skin) found.bones = mBones[now.skin.index()];
+    // A skin of the same handle may have other bones by now.
     if (now.skin && found.bones.size() != scene.deformations.skin(now.skin).bones.size()) return std::nullopt;
     return found;
 }

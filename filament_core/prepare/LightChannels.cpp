@@ -47,6 +47,8 @@ public:
 
     void separate() {
         std::bitset<kMasks> lightMasks, drawMasks;
+        // Of 256 possible masks a scene has few. Lists are made for sets of lights, not for masks of draws, so that
+        // draws on different channels with the same lights have one list.
         for (const uint32_t record : mView.lightRecords) lightMasks.set(mLights.records[record].channels);
         if (mView.sunRecord) lightMasks.set(mLights.records[*mView.sunRecord].channels);
         forEachLit(mView.packet, [&](DrawCall const& draw) { drawMasks.set(draw.properties.lightChannels); });
@@ -81,6 +83,7 @@ private:
         }
         list.lights = lights.first(count);
         list.uniforms.ambient.w = static_cast<float>(count);
+        // The copied grid has the places of the view's lights, of which this list has only some.
         list.uniforms.froxelGrid = list.uniforms.froxelPlaces = float4(0);
         ViewCounts counts;
         list.froxels =

@@ -8,8 +8,8 @@ namespace filament_core::prepare {
 namespace {
 
 constexpr size_t kRange = 1024;
-constexpr size_t kAhead =
-        12; // placements lie in the order of the scene: fetch early what the order of drawing jumps to
+// Placements lie in the order of the scene: fetch early what the order of drawing jumps to.
+constexpr size_t kAhead = 12;
 
 // Writes directly to the destination, a row at a time: a temporary object would be stored twice.
 inline void write(shader::ObjectData& object, scene::Placement const& placement, double3 const& cameraWorld) {

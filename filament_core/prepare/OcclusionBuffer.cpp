@@ -65,6 +65,7 @@ public:
         OccluderMesh const& mesh = *mOccluder.mesh;
         for (size_t i = 0; i < mesh.positions.size(); ++i)
             clip[i] = mOccluder.clipFromObject * double4(double3(mesh.positions[i]), 1);
+        // All sides come first: whether an edge is open depends on whether the triangle beyond it is drawn.
         for (size_t i = 0; i < mesh.triangles.size(); ++i) {
             auto const& corners = mesh.triangles[i].corners;
             drawn[i] = isDrawn(facing(clip[corners[0]], clip[corners[1]], clip[corners[2]]));
@@ -166,6 +167,7 @@ void drawRow(ScreenTriangle const& triangle, int32_t y, uint32_t width, float* r
     const double begin = triangle.depth + triangle.depthX * (first + 0.5) + triangle.depthY * middle;
     const auto depth = static_cast<float>(begin), step = static_cast<float>(triangle.depthX);
     for (int32_t i = 0; i <= last - first; ++i) {
+        // A product for each pixel: the error of a running sum would grow along the row.
         const float here = (depth + step * static_cast<float>(i)) * (1 - kDepthError) - kSmallestStep;
         row[first + i] = std::max(row[first + i], here);
     }
@@ -202,6 +204,7 @@ OcclusionBuffer::OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size
 
     jobs::parallelFor<"occlusion">(jobs, mTileCount.y, kTileRowsOfJob, [&](size_t begin, size_t end) {
         const auto top = static_cast<int32_t>(begin * kTile), bottom = static_cast<int32_t>(end * kTile);
+        // Each job visits all triangles and draws their part in its own rows: no two jobs write to the same pixel.
         std::ranges::fill(mDepths.subspan(begin * kTile * mRow, (end - begin) * kTile * mRow), 0.0f);
         for (size_t i = 0; i < occluders.size(); ++i) {
             for (ScreenTriangle const& triangle : screen.subspan(2 * size_t{ firstTriangles[i] }, counts[i])) {

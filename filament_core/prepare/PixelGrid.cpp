@@ -54,6 +54,8 @@ PixelGrid::PixelGrid(float4x4 const& clipFromWorld, uint2 size)
 
 uint32_t PixelGrid::mayMiss8(std::array<Float8, 3> const& center, std::array<Float8, 3> const& halfExtent) const {
     if (isEmpty()) return 0;
+    // The radius is less than a pixel, compared as squares: this runs for every box of the scene, and needs neither a
+    // root nor a division.
     const Float8 w = simd::dot(mW, center) + mOffset.z;
     const Float8 squaredRadius =
             halfExtent[0] * halfExtent[0] + halfExtent[1] * halfExtent[1] + halfExtent[2] * halfExtent[2];

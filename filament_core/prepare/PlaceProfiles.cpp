@@ -66,6 +66,7 @@ void placeProfiles(Arena& arena, scene::Lights const& lights, std::span<const ui
             placed[i].colorIntensity = float4(0, 0, 0, placed[i].colorIntensity.w);
             ++packet.counts.profilesOverLimit;
         } else {
+            // Counted from 1: to the shader, 0 is a light without a profile.
             placed[i].offset.w = static_cast<float>(profiled);
         }
     }

@@ -112,6 +112,8 @@ PlacedShadowMaps placeShadowMaps(Arena& arena, std::span<const ShadowMapRequest>
                          std::ranges::max(sizes) <= held.size;
     if (hasRoom) {
         for (size_t i = 0; i < requests.size(); ++i) kept[i] = heldTile(held, requests[i].owner, sizes[i]);
+        // Tiles that stay may leave no aligned gap for a new one. Then all of them are placed anew, from the largest
+        // down, which always fits; the maps that move are drawn again.
         if (place(arena, sizes, kept, held.size, tiles)) return { held.size, tiles };
         std::ranges::fill(kept, ShadowTile{});
     }

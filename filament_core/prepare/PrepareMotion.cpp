@@ -35,6 +35,7 @@ bool hasMoved(Moment const& moment, DrawCall const& draw, Placement const& now, 
     shader::MaterialPackage const& package = draw.material->material->package;
     const bool isDeformed = draw.deformation != scene::kNotDeformed;
     const auto deformed = isDeformed ? moment.last.deformation(moment.scene, draw.deformation) : std::nullopt;
+    // Without its last pose an object has no known motion. Its pixels are reprojected as if it stood still.
     if (isDeformed && !deformed) return false;
     if (package.depthReadsParameters && package.readsFrame && moment.isTimePassed) return true;
     switch (package.vertexDomain) {
@@ -92,6 +93,7 @@ size_t countObjects(std::span<const DrawCall> draws) {
 PreparedMotion prepareMotion(Arena& arena, scene::SceneData const& scene, ViewPacket const& main, LastFrame const& last,
                              LastView const& seen) {
     const Moment moment{ scene, last, seen.time != main.uniforms.time, seen.isElsewhere };
+    // Of opaque objects only: a pixel has one motion vector, that of the surface whose depth it has.
     MotionList moved(arena, countObjects(main.opaque));
     for (DrawCall const& draw : main.opaque) {
         for (uint32_t i = 0; i < draw.instanceCount; ++i) {

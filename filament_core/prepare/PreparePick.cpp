@@ -88,6 +88,7 @@ std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, s
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::nth_element(order, order.begin() + kMostCandidates,
                              [&](uint32_t a, uint32_t b) { return std::pair(begins[a], a) < std::pair(begins[b], b); });
+    // Back in the order of drawing, which decides between equal depths, as it does in the image.
     std::ranges::sort(order.first(kMostCandidates));
     for (size_t i = 0; i < kMostCandidates; ++i) all[i] = all[order[i]];
     return all.first(kMostCandidates);
@@ -98,8 +99,11 @@ std::span<PickCandidate> nearestOf(Arena& arena, std::span<PickCandidate> all, s
 PreparedPick preparePick(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
                          uint2 pixel, PickAim aim, std::span<const DrawnLevel> last) {
     ViewInput reversed = view;
+    // pickedPoint() computes the distance from a reversed depth, which is also the more precise one.
     reversed.quality.depthRange = DepthRange::Reversed;
     const FrameSettings settings = resolve(reversed);
+    // Culling sees the few pixels around the picked one, but levels of detail are chosen by the whole view: in the
+    // magnified one they would be finer than what the user sees and clicks.
     PreparedView prepared =
             prepareView(jobs, arena, scene, aroundPixel(reversed, pixel), settings, LevelChoice(scene, reversed, last));
     const ViewSpace space = makeViewSpace(reversed);

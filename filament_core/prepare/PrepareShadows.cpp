@@ -132,6 +132,7 @@ private:
         const uint32_t cascades = std::clamp<uint32_t>(mSettings.quality.shadowCascades, 1, kMaxCascades);
         const auto slices = splitDepth({ mReceivers.nearest, mReceivers.farthest }, cascades);
         bool coversScene = false;
+        // A map that holds the whole scene serves all farther slices as well.
         for (uint32_t i = 0; i < cascades && !coversScene; ++i)
             add(fitCascade(mSpace, slices[i], axes, extent, coversScene), caster, index, i);
     }
@@ -153,6 +154,7 @@ private:
         input.lodPixels = std::min(mView.lodPixels, 1.0f) / static_cast<float>(sizeOf(caster));
         PreparedView prepared =
                 prepareView(mJobs, mArena, mScene, input, mSettings, LevelChoice::ofShadowMap(mScene, input, mLevels));
+        // Known only after culling: a map without casters takes no room in the atlas from others.
         if (prepared.packet.opaque.empty()) {
             ++mCounts.mapsWithoutCasters;
             return;
@@ -197,6 +199,8 @@ private:
         const auto isLamps = [](Candidate const& candidate) { return isPerspective(candidate.fitted); };
         if (moments != ShadowMoments::None && std::ranges::any_of(mCandidates.first(mCount), isLamps))
             mWorld = sceneInLightSpace(mJobs, mArena, mScene.renderables, double3x3(1.0), mView.visibleLayers);
+        // The lights of the view are spans of constants. The copies below get their maps, and replace them only if
+        // there are any maps in the end.
         mLights = mArena.copy(mMain.packet.lights);
         mUniforms = mArena.make<shader::ShadowUniforms>();
         const auto maps = mArena.arrayForOverwrite<ShadowMapPacket>(mCount);
@@ -209,6 +213,8 @@ private:
             }
             Candidate& candidate = mCandidates[i];
             ViewPacket& view = candidate.prepared.packet;
+            // The record comes before the hash, which reads its softness: moments are blurred by it when the map is
+            // drawn.
             writeMap(count, casters[candidate.caster], candidate, placed.tiles[i]);
             maps[count] = { { requests[i].owner, hashOf(candidate, placed.tiles[i].size, mUniforms->maps[count]),
                               placed.tiles[i] },
@@ -282,6 +288,7 @@ private:
             light.y = static_cast<float>(map + 1);
             if (takesCube(mScene.lights.records[caster.record])) light.z += static_cast<float>(1u << kCubeFaces);
         }
+        // A set of bits, added one by one; a float holds all integers up to 2^24.
         light.z += static_cast<float>(1u << part);
     }
 

@@ -18,7 +18,8 @@ using scene::kSplatReach;
 using scene::SplatData;
 
 constexpr size_t kSplatRange = 2048;
-constexpr float kMostColor = 64;    // decoded, it still is a half float
+constexpr float kMostColor = 64; // decoded, it still is a half float
+// These two as in the implementation of Kerbl et al. 2023, for which clouds are trained.
 constexpr float kLowPass = 0.3f;    // square pixels
 constexpr float kWidestLens = 1.3f; // the Jacobian is that of a point at most so far from the middle of the picture
 
@@ -84,6 +85,8 @@ std::array<float2, 2> axesOf(Spread const& s) {
     const float largest = std::max(std::abs(half), std::abs(s.xy)); // whose square may be too large for a float
     const float2 turn = largest > 0 ? float2(half, s.xy) / largest : float2(0);
     const float tilt = std::sqrt(glm::dot(turn, turn)), radius = largest * tilt;
+    // The direction has half the angle of `turn`. Of its two forms, (cos + 1, sin) and (sin, 1 - cos), this takes the
+    // one that does not cancel.
     const float2 along = half >= 0 ? float2(turn.x + tilt, turn.y) : float2(turn.y, tilt - turn.x);
     const float length = std::sqrt(glm::dot(along, along));
     const float2 unit = length > 0 ? along / length : float2(1, 0);
@@ -119,6 +122,8 @@ public:
         const float2 reach = kSplatReach * glm::sqrt(float2(spread.xx, spread.yy)) / pixels;
         const bool isSeen = std::abs(ndc.x) - reach.x < 1 && std::abs(ndc.y) - reach.y < 1;
         if (!isSeen || !std::isfinite(reach.x + reach.y)) return std::nullopt;
+        // By distance, not by depth: a camera that turns in its place changes no order, so nothing pops. The bits of
+        // positive floats have the order of their values, and a square that of its root.
         key = ~std::bit_cast<uint32_t>(glm::dot(centerView, centerView));
         return quadOf(cloud, i, ndc, spread);
     }
@@ -195,6 +200,7 @@ SplatList listOf(jobs::JobSystem& jobs, Arena& arena, Projector const& projector
     });
     size_t visible = 0;
     for (size_t range = 0; range < ranges; ++range) {
+        // In the order of ranges, so that splats of equal distances keep that of the scene: the sort is stable.
         SortItem const* const from = items.data() + range * kSplatRange;
         SortItem* const to = items.data() + visible;
         if (from != to) std::copy(from, from + counts[range], to);

@@ -150,6 +150,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.hasAreaLights = !packet.lights.empty() && packet.counts.areaLights > 0;
     if (!packet.lights.empty() && packet.counts.profiledLights > 0)
         placeProfiles(arena, lights, prepared.lightRecords, packet);
+    // After the last change of the list of lights, because froxels hold indices into it.
     packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
     packet.objects = { order, renderables.placement,
                        settings.quality.cameraRelative ? space.cameraWorld : double3(0.0) };

@@ -59,6 +59,8 @@ std::span<const SceneColorCopy> sceneColorLayers(Arena& arena, scene::Renderable
     const size_t end = itemsBefore(order, kRefractingEndKey).size();
     const auto layers = arena.array<SceneColorCopy>(
             std::clamp<size_t>(end - begin, 1, std::clamp<size_t>(mostLayers, 1, kMostLayers)));
+    // The objects lie from back to front. The nearest have a copy each, since they are seen best; all the others share
+    // the first copy.
     const auto firstItem = [&](size_t layer) { return layer == 0 ? begin : end - (layers.size() - layer); };
     for (size_t i = 0; i < layers.size(); ++i) {
         const size_t first = firstItem(i), next = i + 1 < layers.size() ? firstItem(i + 1) : order.size();

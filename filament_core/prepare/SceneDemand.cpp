@@ -24,6 +24,7 @@ SceneDemand findDemand(DemandInput const& input) {
                 isLeftOut ? EffectDemand{ .reason = DemandReason::UnlitDebugView } : row.demand.alone(input);
     }
     for (EffectRow const& row : kEffectTable) {
+        // After all others: whether there is a depth prepass depends on the effects that read its depth.
         if (row.demand.byOthers) demand.effects[static_cast<size_t>(row.effect)] = row.demand.byOthers(input, demand);
     }
     return demand;

@@ -39,6 +39,8 @@ bool isCheaperToCompare(size_t count, uint32_t digits) {
 
 void sortByComparing(std::span<SortItem> items) {
     std::sort(items.begin(), items.end(), [](SortItem const& a, SortItem const& b) {
+        // Items come in ascending order of their renderables, which is what a stable sort keeps of equal keys. Both
+        // ways therefore give the same order, and which of them is faster does not show in the image.
         return a.key != b.key ? a.key < b.key : a.renderable < b.renderable;
     });
 }
@@ -89,6 +91,7 @@ std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::sp
     }
     const size_t ranges = std::clamp<size_t>(items.size() / kSortRange, 1, kMaxRanges);
     const auto histograms = arena.arrayForOverwrite<Histogram>(ranges);
+    // From the lowest digit up: each pass is stable, and keeps the order by the digits before it.
     std::span<SortItem> from = items, to = arena.arrayForOverwrite<SortItem>(items.size());
     for (uint32_t i = 0; i < plan.count; ++i) {
         sortDigit(jobs, from, to.data(), plan.shifts[i], histograms);

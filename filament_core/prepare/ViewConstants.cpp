@@ -97,6 +97,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     const float2 shown(view.shown()); // rounding of the drawn size changes no proportions
     const float aspect = shown.x / shown.y;
     space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
+    // The band before the jitter, which counts in pixels of the image with its band.
     if (view.band > 0) space.clipFromView = withBand(space.clipFromView, view.inside(), view.size);
     if (view.jitterPixels != float2(0))
         space.clipFromView = withJitter(space.clipFromView, view.jitterPixels, view.size);
@@ -106,6 +107,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
         space.clipFromView = withOrdinaryDepth(space.clipFromView);
         space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     }
+    // Maps are culled before they have a size, and samples of a pixel lie beside its centre.
     if (view.kind != ViewKind::Shadow && view.samples == 1) space.pixels = PixelGrid(space.clipFromWorld, view.size);
     space.exposure = view.camera.exposure.factor();
     space.visibleLayers = view.visibleLayers;
