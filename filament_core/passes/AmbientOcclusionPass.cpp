@@ -108,6 +108,7 @@ struct OcclusionSource {
     float4 clearColor() const {
         constexpr float kInverseOfNothing = 1e-30f; // shaders/post/occlusion_places.glsl
         constexpr float kNoLean = 128.0f / 255;     // encodeLean()
+        // Inverted twice, as the shader does it: the quotient of a quotient need not have the bits of the number.
         return hasBentNormals ? float4(1, kNoLean, kNoLean, kNoLean) : float4(1, 1 / (1 / kInverseOfNothing), 0, 0);
     }
 
@@ -229,6 +230,7 @@ void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, Fra
                                 occlusion.bentNormals };
     const bool isUpsampled = from.grid.code != 0;
     targets.ambientOcclusion = addPoints(graph, from, !occlusion.blur && !isUpsampled);
+    // The blur comes before the upsampling: it works on fewer pixels, and what it removes is not magnified.
     if (occlusion.blur) {
         targets.ambientOcclusion = addBlur(graph, from, targets.ambientOcclusion, true, false);
         targets.ambientOcclusion = addBlur(graph, from, targets.ambientOcclusion, false, !isUpsampled);

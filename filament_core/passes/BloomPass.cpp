@@ -62,6 +62,7 @@ void addUp(FrameGraph& graph, FrameContext const& context, TextureId spread, uin
                                               .texture = spread,
                                               .sampler = context.resources.samplers.bilinear,
                                               .range = backend::oneLevel(below) } };
+    // The level below stands for all levels from there on, and weighs as much as these. So each level counts once.
     const float weight = static_cast<float>(levels - below) / static_cast<float>(levels - level);
     const std::array values{ FullScreenValue{ "perTexel", perTexel(graph, spread, below) },
                              FullScreenValue{ "weight", weight } };
@@ -96,6 +97,7 @@ void addBloomPasses(FrameGraph& graph, FrameContext const& context, FrameTargets
                                                    .format = Format::RGBA16F,
                                                    .levels = levels,
                                                    .name = "spread light" });
+    // All levels are made first: adding overwrites a level, from which the next smaller one is made.
     for (uint8_t level = 0; level < levels; ++level) addDown(graph, context, targets.color, spread, level);
     for (int level = levels - 2; level >= 0; --level)
         addUp(graph, context, spread, static_cast<uint8_t>(level), levels);

@@ -126,6 +126,8 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
 void recordScene(PassContext& pass, FrameContext const& context, Chosen const& chosen) {
     const ViewGroup view = viewOf(context, 0).group;
     const DrawContext draws = shadedDraws(context, chosen.passGroups);
+    // The sky follows opaque objects, whose depth keeps it from pixels that they cover, and comes before transparent
+    // ones, which it is seen through. Discs of suns add to the sky.
     recordDrawRanges(pass, draws, chosen.opaqueDraws, chosen.opaque);
     const BindGroupHandle unlit = chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)];
     if (chosen.sky) recordFullScreen(pass.commands(), chosen.sky, view, unlit, std::span(&chosen.skyGroup, 1));
@@ -147,6 +149,8 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
                            .isWeighted = context.packet.demand.needs(prepare::Effect::MsaaResolve) };
     const bool hasStencil = context.packet.demand.needs(prepare::Effect::Stencil);
     const Format depth = hasStencil ? Format::D32FS8 : Format::D32F;
+    // Depths of the prepass have one sample a pixel and no stencil values. Where these are needed, and where only
+    // effects asked for the prepass, the colour pass has a depth of its own.
     made.hasDepth = targets.depth && samples == 1 && !hasStencil &&
                     context.settings().quality.depthPrepass != DepthPrepass::Off;
     made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, depth, samples, "depth");
@@ -169,6 +173,7 @@ void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachm
     if (part.isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
     pass.writeColor(0, to.samples, color);
     framegraph::DepthTarget depth;
+    // Later parts continue with the depth of earlier ones, and so does the first part with that of the prepass.
     if (part.isFirst && !to.hasDepth) depth.clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
     const bool isRead = !part.isLast || context.keepsDepth;
     if (isRead && settings.samples > 1) depth.resolve = to.sceneDepth;
@@ -228,6 +233,8 @@ void addComposedParts(FrameGraph& graph, FrameContext const& context, ColorAttac
     if (context.settings().quality.transparency == TransparencyOrder::Weighted) {
         addWeightedPasses(graph, context, targets);
     } else {
+        // Layers are found first, because what lies beyond them needs the depth of the last one. It is drawn first all
+        // the same: the layers are composed over it.
         const PeeledLayers layers = addPeelPasses(graph, context, targets);
         ColorBlocks beyond = blocks;
         beyond.textures.occlusion = layers.depth;
@@ -273,14 +280,18 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     };
     blocks.part = partOf(view, 0);
     const bool hasSplats = context.packet.demand.needs(prepare::Effect::Splats);
+    // Splats write no depth: opaque objects come before them, to hide them, and transparent objects after them.
     if (hasSplats) addSplatsFirst(graph, context, to, blocks);
     if (!hasSplats || !blocks.part.blended.empty()) add(hasSplats ? "blended" : "color");
     for (size_t i = 0; i < view.pictures.size(); ++i) {
+        // Each copy shows what all parts before it have drawn.
         targets.sceneColor = addSceneColorCopyPasses(graph, context, to.color, to.sceneDepth, view.pictures[i]);
         showPicture(context, like, view.pictures[i], targets.sceneColor, blocks);
         blocks.part = partOf(view, i + 1);
         add("refraction");
     }
+    // The samples are complete only now. The device resolves them at the end of each part that is copied
+    // (declareTargets()).
     if (to.isWeighted) addResolvePass(graph, context, to.samples, to.color);
 }
 

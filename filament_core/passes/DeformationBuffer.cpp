@@ -31,6 +31,8 @@ void DeformationBuffer::dropUnused(CommandStream& stream, CommandBuffer& command
 
 void DeformationBuffer::reserve(CommandStream& stream, CommandBuffer& commands, uint32_t bytes) {
     if (bytes <= mBytes) return;
+    // The groups name the buffer, and go before it. Until the next one is recorded there is none: if memory runs out in
+    // between, the next frame creates it, and uses no handle of a destroyed one.
     dropUnused(stream, commands, 0);
     if (mBuffer) stream.destroy(commands, std::exchange(mBuffer, {}));
     const uint32_t grown = std::max(bytes, mBytes * 2);
@@ -70,6 +72,8 @@ uint32_t DeformationBuffer::uploadBones(CommandStream& stream, jobs::JobSystem& 
     const std::span records(reinterpret_cast<shader::BoneData*>(memory.data()), bones);
     const uint32_t used = std::min(bones, list.boneCount);
     prepare::writeBones(jobs, list, records.first(used));
+    // An upload covers whole rows, and no bytes of other frames may reach the device: traces of a frame are the same in
+    // every run.
     std::ranges::fill(records.subspan(used), shader::BoneData{});
     const uint32_t width = rows == 1 ? bones * kRowTexels / shader::kBonesPerRow : kRowTexels;
     commands.recordAdopted(CmdUploadTexture{ mBones, 0, 0, 1, { 0, 0, width, rows }, memory });
@@ -110,6 +114,7 @@ BindGroupHandle DeformationBuffer::groupFor(CommandStream& stream, CommandBuffer
             { .binding = shader::kBindingLastDeformation, .buffer = mBuffer, .size = kWindow },
     } };
     const BindGroupLayout layout = shader::deformationGroupLayout(isOfMotion);
+    // Room comes first: a group that is recorded must be remembered, or it would never be destroyed.
     mGroups.reserve(mGroups.size() + 1);
     NewHandle group(stream, stream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "deformation" } });

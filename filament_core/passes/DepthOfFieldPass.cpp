@@ -47,6 +47,8 @@ public:
         const uint32_t tile = 2 * static_cast<uint32_t>(mTile);
         const TextureId own = create(tile, Format::RGBA16F, "blur of tiles"),
                         around = create(tile, Format::RGBA16F, "blur around tiles");
+        // The widest blur of each tile, then of its neighbours: a pixel in focus must know that a blurred one beside it
+        // reaches it.
         addTiles(half, own, false);
         addTiles(own, around, true);
         const TextureId blurred = create(2, Format::RGBA16F, "blurred");

@@ -24,6 +24,7 @@ public:
             mCommands.record(CmdBindPipeline{ pipeline });
             mPipeline = pipeline;
             mDeformation = scene::kNotDeformed; // its group does not survive a change of earlier groups
+            // Lit, unlit and full-screen programs have different layouts of this group.
             bindPass(draw.material->material->package);
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
@@ -145,6 +146,8 @@ std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena,
         if (!lookUp(range, pipelines, slot, draws.subspan(begin, end - begin), variants))
             someAreMissing.store(true, std::memory_order_relaxed);
     });
+    // Jobs only look up. What is missing is created here, in the order of drawing, so that the command stream is the
+    // same for any number of workers; after the first frames that is nothing.
     if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, slot, draws, variants);
     return chosen;
 }
@@ -153,6 +156,7 @@ void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<
                  std::span<const PipelineHandle> pipelines) {
     StateFilter state(commands, context);
     for (size_t i = 0; i < draws.size(); ++i) {
+        // A material without the variant, which takeErrors() reports.
         if (!pipelines[i]) continue;
         DrawCall const& draw = draws[i];
         state.bind(draw, pipelines[i]);

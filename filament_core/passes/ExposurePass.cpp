@@ -24,6 +24,7 @@ constexpr FullScreenParameter kExposureValues[] = { { "shares", ParameterType::F
                                                     { "steps", ParameterType::Float2 } };
 constexpr FullScreenInterface kExposure{ .pass = "exposure", .inputs = kExposureInputs, .values = kExposureValues };
 
+// At most 14 400 samples, so 480 in a row of the histogram: a half float counts exactly up to 2048.
 constexpr uint2 kMostSamples(160, 90); // of the picture, each way
 constexpr uint32_t kColumns = 16;      // of the histogram: four bins in each texel
 constexpr uint32_t kRows = 30;         // each counts a part of the picture
@@ -73,6 +74,7 @@ void addExposurePasses(FrameGraph& graph, FrameContext const& context, FrameTarg
     prepare::LastView const& last = context.packet.last;
     const framegraph::History history =
             graph.history({ .width = 1, .height = 1, .format = Format::R32F, .name = "exposure" }, {}, !last.isExposed);
+    // The first frame is exposed at once; there is nothing to adapt from.
     const float2 steps = last.isExposed ? float2(options.speedUp, options.speedDown) * last.secondsSince : float2(-1);
     const std::array inputs{ FullScreenInput{ .name = "histogram", .texture = targets.histogram },
                              FullScreenInput{ .name = "last", .texture = history.previous } };

@@ -50,6 +50,7 @@ void FrameData::release(CommandBuffer& commands, Blocks& blocks) {
 void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, BlockKind const& kind) {
     if (count <= blocks.capacity) return;
     const uint32_t grown = std::max(count, blocks.capacity * 2);
+    // The group names the buffers: it goes with any of them, and bindViews() makes another once all have their place.
     release(commands, set.view);
     release(commands, blocks);
     NewHandle handle(mStream, mStream.allocateBuffer());
@@ -171,8 +172,10 @@ void FrameData::uploadProfiles(CommandBuffer& commands, Set const& set, prepare:
 }
 
 void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet) {
+    // The sets are used in turn: frames before this one may still be replayed, or read by the device.
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
+    // All places are known before anything is uploaded: buffers grow once, and the group is made at most once.
     const Needs needs = placeViews(packet);
     reserve(commands, set, set.objects, needs.windows, { kWindowBytes, BufferUsage::Uniform, "objects" });
     reserve(commands, set, set.uniforms, needs.views, { kUniformBytes, BufferUsage::Uniform, "frame" });

@@ -89,6 +89,7 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
 }
 
 framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
+    // What draws every pixel without blending needs no earlier contents: tiled devices then load none.
     framegraph::ColorTarget target{ .overwrites = (pass.tiles.empty() || pass.fillsTarget) &&
                                                   pass.material.package.blending == shader::Blending::Opaque,
                                     .level = pass.level,
@@ -140,6 +141,7 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
         const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.samplers.nearest;
         entries[count++] = { .binding = input.parameter->binding,
                              .texture = imageOf(pass, context, input.from),
+                             // An input attachment is the pixel itself, and read without a sampler.
                              .sampler = merged && input.parameter->currentPixel ? SamplerHandle{} : sampler,
                              .range = input.from.range };
     }

@@ -39,6 +39,7 @@ public:
         const TextureId ways = create(1, "ways"), own = create(mTile, "longest ways"),
                         around = create(mTile, "longest ways around"), blurred = create(1, "color with motion");
         addWays(ways);
+        // As the tiles of depth of field: a pixel at rest must know that a moving one beside it is blurred over it.
         addTiles(ways, own, false);
         addTiles(own, around, true);
         addBlur(ways, around, blurred);

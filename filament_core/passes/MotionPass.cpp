@@ -46,6 +46,8 @@ void addMotionPass(FrameGraph& graph, FrameContext const& context, FrameTargets&
             "motion",
             [&](PassBuilder& pass) {
                 pass.writeColor(0, targets.motionVectors, { .clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f } });
+                // Tested, not written: only what is seen leaves a vector, and the depths of the prepass stay for the
+                // passes after this.
                 pass.writeDepth(targets.prepassDepth, {});
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {

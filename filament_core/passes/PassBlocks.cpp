@@ -35,6 +35,7 @@ void PassBlocks::upload(CommandBuffer& commands) {
     if (mBytes.size() > set.bytes) {
         if (set.buffer) mStream.destroy(commands, std::exchange(set.buffer, {}));
         set.bytes = 0;
+        // To a power of two: frames that need a little more each time create few buffers.
         const size_t grown = std::max(kFirstBytes, std::bit_ceil(mBytes.size()));
         NewHandle buffer(mStream, mStream.allocateBuffer());
         commands.record(CmdCreateBuffer{ buffer, { grown, BufferUsage::Uniform, "pass blocks" } });

@@ -89,6 +89,7 @@ std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameCo
     LightingTextures const& light = context.resources.lighting;
     FrameSamplers const& samplers = context.resources.samplers;
     PassShadows const& shadows = textures.shadows;
+    // Every binding of a layout has something bound, whether a program with these constants reads it or not.
     const auto orWhite = [&](framegraph::TextureId drawn) {
         return drawn ? pass.texture(drawn) : context.resources.white;
     };
@@ -127,6 +128,7 @@ BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& con
     const BindGroupLayout layout = shader::passGroupLayout(kind);
     std::array<BindGroupEntry, all.size()> entries;
     size_t count = 0;
+    // Both are in ascending order of bindings, so that one pass over them picks what this kind of program reads.
     for (BindGroupEntry const& entry : all) {
         if (count < layout.count && entry.binding == layout.bindings[count].binding) entries[count++] = entry;
     }

@@ -30,6 +30,8 @@ void recordPick(PassContext& pass, FrameContext const& context, ChosenDraws cons
     const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
                              context.settings().quality.textureFilter };
     for (size_t i = 0; i < chosen.draws.size(); ++i) {
+        // Each object has a pixel of its own: the viewport moves the picked pixel there, and the scissor keeps the rest
+        // out. So one read-back has the depth of every candidate.
         const auto x = static_cast<int32_t>(i % kPickSide), y = static_cast<int32_t>(i / kPickSide);
         pass.commands().record(CmdSetViewport{ { static_cast<float>(x) - static_cast<float>(pixel.x),
                                                  static_cast<float>(y) - static_cast<float>(pixel.y),

@@ -65,6 +65,7 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
 // A material that reads only the current pixel is merged if its pass is. The pipeline's key need not contain this,
 // because the slot determines it.
 uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& package) {
+    // A depth variant of a full-screen material empties tiles of the shadow atlas.
     if (slot.depthOnly) return shader::kVariantDepth;
     const bool isMerged = slot.layout.subpasses[slot.subpass].inputMask != 0;
     return isMerged && package.findVariant(shader::kVariantMerged) ? uint16_t{ shader::kVariantMerged } : uint16_t{ 0 };
@@ -152,6 +153,7 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material co
     shader::Variant const* code = material.package.findVariant(variant);
     if (!code) return refuse(material, variant, missingVariant(material.name, material.package, variant));
     std::vector<Program>& programs = mMaterials[material.id].programs;
+    // Room for it comes first. If recording fails, the entry leaves again.
     programs.push_back({ key, {} });
     try {
         shader::Variant const& fragment = edges ? *edges->package.findVariant(0) : *code;
@@ -185,6 +187,8 @@ PipelineCache::ProgramChoice PipelineCache::chooseWithTextures(uint32_t slot, sc
     }
     if (material.isLit() && needsNoLight(at.transparency))
         return { static_cast<uint16_t>(variant & shader::kVariantSkinning), withTransparency(0, at.transparency) };
+    // From here on, choices that this program does not read leave its key. Passes and settings that differ in nothing
+    // else share the program.
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
     const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
     ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
@@ -310,6 +314,7 @@ void PipelineCache::forget(CommandBuffer& commands, scene::Material const& mater
     });
     const auto state = mMaterials.find(material.id);
     if (state == mMaterials.end()) return;
+    // After the pipelines, which were made of them.
     for (Program const& program : state->second.programs) mStream.destroy(commands, program.handle);
     mMaterials.erase(state);
 }

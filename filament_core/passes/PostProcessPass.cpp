@@ -251,6 +251,7 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, PostProcessStep
     const Rect withEdges = pixelsWithEdges(context.packet, steps, size);
     std::array<FullScreenTile, 5> tiles{ FullScreenTile{ withEdges, values } };
     size_t count = 1;
+    // Pixels that cannot have edges are copied by the same pass: a copy reads one texel, the filter many.
     for (Rect const& rect : around(withEdges, size)) {
         if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &fxaaMaterial(context, steps, false) };
     }
@@ -337,6 +338,8 @@ void addPostProcessPasses(FrameGraph& graph, FrameContext const& context, FrameT
         picture = createUnfinished(graph, steps, size, steps.smoothsEdges ? "with edges" : "with few pixels");
         addPictureOfView(graph, context, steps, targets, picture);
     }
+    // Edges are smoothed before the image grows, since upscaling would take their steps for detail. Sharpening is last:
+    // it makes up for the blur of upscaling. This is the order of FidelityFX Super Resolution 1 (Lottes 2021).
     if (steps.smoothsEdges) {
         const TextureId smooth =
                 steps.changesPixels() ? createUnfinished(graph, steps, size, "smooth") : targets.output;

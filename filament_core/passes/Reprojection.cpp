@@ -21,6 +21,7 @@ double4x4 worldFromPixel(FrameContext const& context) {
     double4x4 clipFromPixel(1.0);
     clipFromPixel[0][0] = 2 / size.x, clipFromPixel[1][1] = 2 / size.y;
     clipFromPixel[3] = double4(-1, -1, 0, 1);
+    // Products of a matrix and the inverse of another nearly cancel: in floats, a still camera would move pixels.
     return double4x4(context.packet.mainView().uniforms.worldFromClip) * clipFromPixel;
 }
 

@@ -15,6 +15,8 @@ constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResol
 
 /// Of the light before the grading, which scales it. What auto exposure will make of it is not known yet.
 float halfWhiteOf(FrameContext const& context) {
+    // Samples are weighed by what they display, so that a bright one does not outshine the others: Karis 2013, "Tone
+    // Mapping".
     const float half = context.settings().display.halfWhiteLight;
     const bool isGraded = context.packet.demand.needs(prepare::Effect::ColorGrading);
     return isGraded ? half * elementary::exp2(-context.settings().effects.colorGrading.exposure) : half;

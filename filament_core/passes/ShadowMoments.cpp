@@ -69,6 +69,8 @@ void addBlur(FrameGraph& graph, FrameContext const& context, TextureId depths, T
     framegraph::GraphTextureDesc like = graph.texture(moments).desc;
     like.levels = 1;
     like.name = "shadow moments, half blurred";
+    // A blur along x and then along y: 2 n look-ups a texel instead of n^2. The texture between them is as large as the
+    // atlas, and the graph shares its memory with others.
     const TextureId half = graph.createTexture(like);
     const std::span<const FullScreenTile> tiles = drawnTiles(context, 0, true);
     const std::array fromDepths{ FullScreenInput{ .name = "depths", .texture = depths },

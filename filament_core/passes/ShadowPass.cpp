@@ -72,6 +72,8 @@ void recordMaps(PassContext& pass, FrameContext const& context, std::span<const 
     for (DrawnMap const& map : maps) {
         const FrameView view = viewOf(context, map.view);
         enterTile(pass.commands(), map.tile);
+        // Other tiles of the atlas keep their maps. A load operation clears whole attachments, so a triangle empties
+        // the tile.
         if (chosen.farDepth)
             recordFullScreen(pass.commands(), chosen.farDepth, view.group,
                              map.passGroups[static_cast<size_t>(shader::PassKind::Unlit)]);

@@ -72,6 +72,8 @@ scene::GeometryLayout splatLayout() {
 }
 
 void addSplatPasses(FrameGraph& graph, FrameContext const& context, SplatTargets const& targets) {
+    // Colours are blended in the encoding in which they were trained, which the target does not have. So each encoding
+    // has a layer, which is decoded when it is composed.
     for (size_t encoding = 0; encoding < context.packet.splats.lists.size(); ++encoding) {
         if (context.packet.splats.lists[encoding].empty()) continue;
         const TextureId layer = addLayer(graph, context, targets, encoding);

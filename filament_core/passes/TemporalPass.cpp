@@ -44,6 +44,7 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                              FullScreenValue{ "ramp", context.packet.accumulation.ramp },
                              FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) } };
     const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motionVectors);
+    // A still camera and still objects need no depth: pixels stay where they are.
     const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
     const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
                                 EffectConstant{ "hasDepth", hasDepth },

@@ -108,6 +108,8 @@ PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, Trans
     for (uint32_t i = 0; i < count; ++i) {
         const framegraph::ColorTarget light =
                 i == 0 ? framegraph::ColorTarget{ .clear = kNoLayer } : framegraph::ColorTarget{};
+        // The binding of ambient occlusion has the depth of the layer before: unlit materials have it, too, and
+        // transparent surfaces are not occluded.
         with.textures.occlusion = layers.depth;
         layers.depth = createLike(graph, targets.color, Format::D32F, 1, "layer depth");
         addSurfaces(graph, context, "layer depth", with,
@@ -116,6 +118,8 @@ PeeledLayers addPeelPasses(FrameGraph& graph, FrameContext const& context, Trans
                         pass.writeDepth(layers.depth, { .clear = farthest });
                     });
         with.textures.occlusion = layers.depth;
+        // The surface that left the depth is shaded: it passes an equality in the shader, not a depth test, whose
+        // attachment holds the opaque surfaces.
         addSurfaces(graph, context, "layer", with, shader::kTransparencyLayer, [&](PassBuilder& pass) {
             pass.writeColor(0, layers.light);
             pass.testDepth(targets.sceneDepth);

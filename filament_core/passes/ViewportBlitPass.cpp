@@ -73,6 +73,8 @@ void beginViewportBlit(FrameGraph& graph, FrameContext const& context, FrameOutp
                                            .levels = output.srgbLevels,
                                            .name = "output" },
                                          isKept ? InitialContents::Keep : InitialContents::Undefined);
+    // A view that fills its target is drawn there directly. Others need an image of their own: passes write whole
+    // targets.
     targets.output = fills ? targets.target
                            : graph.createTexture({ .width = settings.shownSize.x,
                                                    .height = settings.shownSize.y,

@@ -33,6 +33,7 @@ PixelSpan spanAround(float least, float most, uint32_t size) {
     const auto pixelAt = [size](float at) {
         return static_cast<uint32_t>(std::clamp(std::floor(at), 0.0f, static_cast<float>(size)));
     };
+    // At even pixels: a texel of ambient occlusion at half the resolution is two pixels wide.
     const uint32_t first = std::min(pixelAt(least - static_cast<float>(kCoverMargin)), size - 1) & ~1u;
     const uint32_t end = (pixelAt(most + static_cast<float>(kCoverMargin)) + 2) & ~1u;
     return { first, std::clamp(end, first + 1, size) };
