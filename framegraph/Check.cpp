@@ -241,8 +241,10 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
 
 void checkDeclarations(FrameGraph const& graph) {
     for (Pass const& pass : graph.passes()) {
+        // Ranges first: the other checks count levels and layers by them.
         for (Access const& access : graph.accesses(pass)) checkRange(graph, pass, access);
     }
+    // Reads are checked before the writes of their pass count: a pass cannot read what it is about to write.
     Written written(graph);
     for (uint32_t i = 0; i < graph.passes().size(); ++i) {
         written.checkReads(i);

@@ -50,10 +50,13 @@ CompiledGraph compile(FrameGraph const& graph, TransientPool& pool) {
     DeviceInfo const& device = pool.stream().info();
     checkDeclarations(graph);
     const PassOrder order = cullUnreadPasses(graph);
+    // Merging comes before all that counts uses: lifetimes and load operations are those of groups, and an input that
+    // is merged needs another usage, and perhaps no memory at all.
     const auto groups = mergePasses(graph, order, { device.features.mergedPasses, device.limits.maxColorAttachments });
     const auto lifetimes = firstAndLastUse(graph, order, groups);
     deriveLoadAndStore(graph, order, groups);
     const auto usage = deriveUsage(graph, order, lifetimes);
+    // The pool is asked last: nothing after this can refuse the graph.
     pool.beginGraph();
     const auto textures = assignTransients(graph, lifetimes, usage, pool);
     const auto buffers = assignBuffers(graph, order, groups, pool);

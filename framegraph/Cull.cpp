@@ -45,6 +45,8 @@ public:
         const std::span<const Access> accesses = mGraph.accesses(mGraph.passes()[pass]);
         for (Access const& access : accesses) {
             if (access.resolve) set(access.resolve, kResolved, {});
+            // What is replaced leaves before what is read enters: a pass may replace one level of a texture and read
+            // another.
             const bool replaces = !isPureRead(access.kind) && access.previous != Previous::Keep;
             if (replaces) set(access.texture, access.range, {});
         }
@@ -96,6 +98,8 @@ PassOrder cullUnreadPasses(FrameGraph const& graph) {
     const std::span<PassDecision> decisions = graph.arena().array<PassDecision>(passCount);
     Demands demands(graph);
     uint32_t running = 0;
+    // From the last pass back: whether a pass is needed is known once all passes are known that may read what it
+    // writes.
     for (uint32_t pass = passCount; pass-- > 0;) {
         decisions[pass] = demands.decide(graph.passes()[pass]);
         if (!decisions[pass].runs()) continue;

@@ -166,6 +166,7 @@ std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const
         plans[i].memory = pooled.memory;
     }
     for (size_t i = 0; i < plans.size(); ++i) {
+        // Histories last: their pairs of textures are never shared, so they take no part in the order by size.
         if (graph.textures()[i].history == HistoryRole::Previous) assignHistory(graph, i, plans, pool);
     }
     return plans;

@@ -54,6 +54,7 @@ LoadOp loadOpOf(Previous previous, bool isWritten) {
 
 } // namespace
 
+// Quadratic in the groups of a frame, of which there are tens.
 void deriveLoadAndStore(FrameGraph const& graph, PassOrder const& order, std::span<PassGroup> groups) {
     for (size_t i = 0; i < groups.size(); ++i) {
         const auto derive = [&](GroupAttachment& attachment) {

@@ -135,6 +135,7 @@ Merge tryJoin(FrameGraph const& graph, PassOrder const& order, MergeLimits const
     if (alone.width != group.width || alone.height != group.height) return Merge::DifferentSize;
     if (group.count == backend::kMaxSubpasses) return Merge::TooManySubpasses;
 
+    // A copy, since a pass may turn out not to fit after half of its attachments have been added.
     PassGroup joined = group;
     joined.subpasses[group.count] = { .colorMask = 0, .inputMask = 0, .usesDepth = false };
     const uint32_t maxColors = std::min(limits.maxColorAttachments, backend::kMaxColorAttachments);

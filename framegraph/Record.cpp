@@ -44,6 +44,8 @@ void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext
 void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup const& group, RangeRecorder* ranges) {
     PassContext context(plan, commands, ranges);
     const std::span<const uint32_t> passes = plan.order.subspan(group.first, group.count);
+    // What passes create and upload comes before the backend pass, inside of which the backend accepts draws only; for
+    // merged passes, before the first of them.
     for (const uint32_t pass : passes) {
         PassCode const& code = plan.graph->passes()[pass].code;
         context.enter(pass, false);
@@ -53,6 +55,7 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
         executePass(commands, plan, context, passes[0], false);
         return;
     }
+    // If memory runs out inside of the pass, its beginning is taken back: the command buffer can still be submitted.
     AllOrNothing wholePass(commands);
     commands.record(CmdBeginPass{ passDescOf(plan, group) });
     for (size_t subpass = 0; subpass < passes.size(); ++subpass) {
@@ -95,6 +98,7 @@ void clearHistories(CommandBuffer& commands, CompiledGraph const& plan) {
 } // namespace
 
 void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers, RangeRecorder* ranges) {
+    // Only textures of graphs that are recorded exist on the device. Compiling alone creates nothing.
     plan.pool->recordCreations(commands);
     clearHistories(commands, plan);
     if (timers) timers->clear();
@@ -109,7 +113,10 @@ void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<Pass
         const InReserve<CmdEndTimer> end{ commands, { ticket } };
         recordGroup(commands, plan, group, ranges);
     }
+    // The pairs change places once the whole graph is recorded. If it fails before, the next frame has the same
+    // previous ones.
     plan.pool->keepHistory();
+    // After the last pass that may use what leaves.
     plan.pool->recordEvictions(commands);
 }
 

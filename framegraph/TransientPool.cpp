@@ -60,6 +60,8 @@ uint32_t TransientPool::memoryFor(backend::DeviceTextureDesc const& desc, UseInt
     const uint64_t bytes = backend::textureBytes(desc);
     auto best = mMemories.end();
     const auto isBetter = [&](PooledMemory const& one, PooledMemory const& other) {
+        // The memory whose other uses end closest to this one: what has long gaps stays free for textures with long
+        // lives. Then the smallest that is large enough.
         const uint32_t idle = idleBeside(one, use), idleOther = idleBeside(other, use);
         return idle != idleOther ? idle < idleOther : one.bytes < other.bytes;
     };
@@ -186,6 +188,8 @@ backend::TextureHandle TransientPool::createdIn(uint32_t memory) const {
 void TransientPool::recordCreations(backend::CommandBuffer& commands) {
     for (PooledTexture& pooled : mTextures) {
         if (pooled.isCreated || pooled.lastGraph != mGraph) continue; // its graph was never recorded
+        // Textures are requested from the largest down (assignTransients()): the first one of a memory has room for the
+        // others.
         pooled.desc.placedOn = createdIn(pooled.memory);
         commands.record(backend::CmdCreateTexture{ pooled.handle, pooled.desc });
         pooled.isCreated = true;
@@ -216,6 +220,7 @@ void TransientPool::createHistory(backend::CommandBuffer& commands, KeptHistory&
 
 void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
     const auto isStale = [&](auto const& pooled) { return pooled.lastGraph + mKeepFrames < mGraph; };
+    // Groups leave before the textures that they name.
     std::erase_if(mBindGroups, [&](PooledBindGroup const& pooled) {
         if (!isStale(pooled)) return false;
         mStream.destroy(commands, pooled.handle);
@@ -242,6 +247,7 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
 }
 
 void TransientPool::destroyAll(backend::CommandBuffer& commands) {
+    // Then everything is older than what is kept.
     mGraph += mKeepFrames + 1;
     recordEvictions(commands);
 }
