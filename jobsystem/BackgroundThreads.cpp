@@ -49,6 +49,8 @@ bool BackgroundThreads::push(Job& job) {
         mFree.fetch_sub(1, std::memory_order_relaxed);
     }
     mPushed.notify_one();
+    // Threads that wait for a group sleep at their bells, and take jobs of their group only: each looks whether this
+    // job is one.
     for (uint32_t i = 0; i < mLimit; ++i) mBells[i].wakeAll();
     return true;
 }
@@ -76,6 +78,7 @@ std::string BackgroundThreads::nameOf(uint32_t index) const {
 void BackgroundThreads::runThread(ParkingLot& bell, uint32_t index) {
     nameThisThread(nameOf(index));
     mScheduler.placement().placeBackgroundThread();
+    // Linux has a niceness for each thread, which is addressed by its own number.
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     tThread.background = this;
     tThread.backgroundBell = &bell;
@@ -125,6 +128,8 @@ Job* BackgroundThreads::popOf(Completion const& completion) {
 
 void BackgroundThreads::sleepUntilDoneOrPushed(Completion& completion) {
     ParkingLot& bell = *tThread.backgroundBell;
+    // The order that ParkingLot needs: announced at the bell and at the group, then looked once more, then asleep. A
+    // push or the end of the group in between rings the bell.
     const ParkingLot::Ticket ticket = bell.prepare();
     const bool pending = completion.announceSleeper(bell);
     Job* job = pending ? popOf(completion) : nullptr;

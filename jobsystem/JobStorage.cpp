@@ -38,6 +38,7 @@ Job* JobStorage::allocateShared(Cache* cache) {
     }
     const uint32_t job = mBatches.pop();
     if (job == kNone) return nullptr;
+    // Without a cache there is no place for the rest of the batch, which goes back as a smaller one.
     const uint32_t rest = mNextInBatch[job].load(std::memory_order_relaxed);
     if (rest != kNone) mBatches.push(rest);
     return &mJobs[job];

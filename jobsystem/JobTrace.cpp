@@ -45,6 +45,9 @@ private:
     };
 
     template <class T>
+    // Released and acquired, not relaxed: a reader that sees a field of a new event must also see the count of all
+    // events before it, by which it discards the copy. Boehm 2012, "Can Seqlocks Get Along With Programming Language
+    // Memory Models?".
     static void store(T& field, T value) {
         std::atomic_ref<T>(field).store(value, std::memory_order_release);
     }

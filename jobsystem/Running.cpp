@@ -97,6 +97,7 @@ void Scheduler::work(Seat& seat, Found found, Hunt& hunt) {
     const int64_t begin = hunt.now;
     Report report(*this, seat);
     while (found) {
+        // Read first: run() returns the job to the pool, where another thread may fill it at once.
         Completion& completion = *found.job->completion;
         const bool stolen = found.stolen;
         run(&seat, found);
@@ -120,10 +121,12 @@ Scheduler::Found Scheduler::stealAgain(Seat& seat, Hunt& hunt) {
 void Scheduler::run(Seat* seat, Found const& found) {
     while (call(seat, found)) {
     }
+    // Before the group counts the job as done: the thread that waits for it may end the whole system.
     mStorage.release(seat ? &seat->cache : nullptr, *found.job);
 }
 
 void Scheduler::execute(Seat* seat, Found const& found) {
+    // As in work(): the job may belong to another thread after run().
     Completion& completion = *found.job->completion;
     run(seat, found);
     finish(seat, completion, found.stolen);

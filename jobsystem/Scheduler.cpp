@@ -56,6 +56,7 @@ void Scheduler::startWorkers(std::string const& threadName) {
 
 void Scheduler::endThreads() {
     if (mBackground) mBackground->stop(); // background jobs may still need the workers and the whole system
+    // Before the bell rings: a worker that is about to sleep sees one or the other (ParkingLot.h).
     mStopping.store(true, std::memory_order_seq_cst);
     mIdle.wakeAll();
     for (std::thread& thread : mThreads) thread.join();
@@ -105,6 +106,7 @@ void Scheduler::runWorker(uint32_t index, std::string const& name) {
 void Scheduler::sleepUntilWork(Hunt& hunt) {
     stopWatching(hunt);
     const ParkingLot::Ticket ticket = mIdle.prepare();
+    // Once more after announcing the sleep. A push from here on sees a sleeper and wakes it.
     if (visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
         mIdle.cancel();
     } else {
@@ -141,12 +143,15 @@ void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
     } else if (seat ? !seat->critical.push(&job) : !mInjected[static_cast<int>(priority)].push(job)) {
         return executeInline(seat, job, priority);
     }
+    // After the push, so that a search that the hint calls finds the job. Read first: a store takes the cache line from
+    // every thread that searches.
     if (priority == Priority::FrameCritical && !mCriticalHint.load(std::memory_order_seq_cst))
         mCriticalHint.store(true, std::memory_order_seq_cst);
     notifyWork(priority);
 }
 
 void Scheduler::wakeSomebody(Priority priority) {
+    // A thread is looking for work, and will see this.
     if (mWatched.load(std::memory_order_seq_cst)) return;
     if (mIdle.hasSleepers()) {
         mIdle.wakeOne();

@@ -31,6 +31,7 @@ void Scheduler::wait(Completion& completion) {
 }
 
 void Scheduler::waitAt(Seat* seat, Completion& completion) {
+    // No less urgent work than the group's: a frame must not wait until an image is decoded.
     const Priority least = std::min(completion.priority(), Priority::Normal);
     Hunt hunt;
     while (!completion.isDone()) {
@@ -62,6 +63,8 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion, 
     ParkingLot& bell = seat ? seat->bell : mUnseatedBell;
     if (seat) {
         seat->waitsFor.store(static_cast<uint8_t>(least), std::memory_order_relaxed);
+        // Counted before the last look for work, as a push reads the count after it is published: one of the two sees
+        // the other.
         mSleepingWaiters.fetch_add(1, std::memory_order_seq_cst);
     }
     const ParkingLot::Ticket ticket = bell.prepare();

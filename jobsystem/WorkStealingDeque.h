@@ -38,6 +38,8 @@ public:
     /// The last item pushed, or null.
     T* take() {
         const int64_t bottom = mBottom.load(std::memory_order_relaxed) - 1;
+        // Thieves may have moved top on since: then fewer items are left than this shows. The compare-and-swap, or the
+        // second load below, notices.
         int64_t top = mTop.load(std::memory_order_relaxed);
         if (top > bottom) return nullptr;                    // top never passes bottom: certainly empty
         if (top == bottom) return claim(top);                // the last item: compete with the thieves
@@ -52,6 +54,8 @@ public:
     T* steal() {
         int64_t top = mTop.load(std::memory_order_seq_cst);
         while (top < mBottom.load(std::memory_order_seq_cst)) {
+            // Read before it is claimed: afterwards the owner may push another item into the slot. An item that is
+            // outdated by then fails the claim.
             T* item = slot(top).load(std::memory_order_relaxed);
             if (mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) return item;
         }
