@@ -23,6 +23,7 @@ Allocator::~Allocator() {
 }
 
 std::optional<Allocation> Allocator::allocate(MemoryRequest const& request) {
+    // A block never holds two of them, and nearly half of it could stay unused.
     if (request.bytes > mOptions.blockBytes / 2) return allocateDedicated(request);
 
     const uint32_t pool = request.memoryType * 2 + static_cast<uint32_t>(request.kind);

@@ -70,6 +70,7 @@ bool SubresourceUses::isUniform(SubresourceRange const& range) const {
 
 void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
     UseInfo const& next = infoOf(use);
+    // First: it forgets the uses of this texture, which the parts below are compared with.
     if (!texture.hasMemory()) takeMemory(texture, next);
     texture.uses.forEachPart(range, [&](SubresourceRange const& part, Use before) {
         if (before == use && next.written == 0) return; // a read after a read
@@ -78,6 +79,7 @@ void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, C
         auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
         barrier.srcAccessMask = isNew ? texture.memory().written : last.written;
         barrier.dstAccessMask = next.access;
+        // From the undefined layout nothing needs to be converted or decompressed.
         barrier.oldLayout = contents == Contents::Discard ? VK_IMAGE_LAYOUT_UNDEFINED : last.layout;
         barrier.newLayout = next.layout;
         barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
@@ -92,7 +94,10 @@ void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, C
 
 void Barriers::takeMemory(Texture& texture, UseInfo const& next) {
     ImageMemory const& shared = texture.memory();
+    // What had the memory may still be read: its readers must have finished, which needs no memory dependency. All
+    // writes to the memory, by whichever texture, must be available before the first new one.
     if (Texture* const last = texture.takeMemory()) {
+        // Its contents are gone: making them readable would only cost a barrier.
         forget(*last);
         last->uses.forEachPart(last->uses.all(), [&](SubresourceRange const&, Use use) {
             memory(infoOf(use).stages, 0, next.stages, next.access); // readers
@@ -124,9 +129,12 @@ void Barriers::forget(Texture& texture) {
 }
 
 void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
+    // A dispatch may have written these very bytes, and the copy must come after.
     if (mStorageWrites) publishWrites();
+    // A write after a read needs an execution dependency only: there is nothing to make available.
     if (mReaders != 0) memory(mReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // of what is overwritten next
     mReaders = 0;
+    // Uploads of a frame mostly go to separate ranges and may run in any order. Those that overlap must not.
     if (buffer.overlapsWrites(mTransferEpoch, begin, end)) {
         memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT);
         ++mTransferEpoch;
@@ -146,6 +154,8 @@ void Barriers::publishWrites() {
     if (mTransferWrites) stages |= kTransfer, written |= VK_ACCESS_TRANSFER_WRITE_BIT;
     if (mStorageWrites) stages |= kCompute, written |= VK_ACCESS_SHADER_WRITE_BIT;
     if (stages == 0) return;
+    // To all readers at once: the uploads come together, before the first pass, and later passes then need no barrier
+    // of their own.
     memory(stages, written, kDrawReaders | kCompute | kTransfer, kBufferAccess);
     mTransferWrites = mStorageWrites = false;
     ++mTransferEpoch;
@@ -173,6 +183,7 @@ bool Barriers::settle(Texture& texture) {
         image(texture, texture.uses.all(), Use::ShaderRead);
         return true;
     }
+    // A pass that writes one level or layer may read the others, as chains of smaller and smaller images do.
     for (uint32_t level = 0; level < texture.levels(); ++level) {
         for (uint32_t layer = 0; layer < texture.layers(); ++layer) {
             if (!isAttached(texture, level, layer)) image(texture, { level, 1, layer, 1 }, Use::ShaderRead);
@@ -184,6 +195,7 @@ bool Barriers::settle(Texture& texture) {
 void Barriers::beginPass() {
     publishWrites();
     settleAll();
+    // After settling, which leaves out what is attached.
     mAttached.clear();
 }
 

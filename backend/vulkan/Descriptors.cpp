@@ -212,6 +212,7 @@ Result<std::unique_ptr<BindGroup>> BindGroup::create(Device& device, SetLayout& 
                     layout.layout().count);
     }
 
+    // Only now that the entries are known to be complete: a group that is refused takes no set.
     const VkDescriptorSet set = layout.takeSet();
     if (set == VK_NULL_HANDLE)
         return fail(ErrorCode::OutOfMemory, "bind group '{}': no descriptor set left", debugName);

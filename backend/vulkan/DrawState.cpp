@@ -18,6 +18,7 @@ VkRect2D scissorOf(Rect const& rect) {
 
 void DrawState::beginCommands(VkCommandBuffer commands) {
     mCommands = commands;
+    // A new command buffer inherits no state from the one before.
     mEmitted = {};
     mEmittedLayout = nullptr;
     mAreZerosEmitted = mIsRasterEmitted = false;
@@ -25,6 +26,8 @@ void DrawState::beginCommands(VkCommandBuffer commands) {
 }
 
 void DrawState::beginSubpass(Rect const& area) {
+    // A pass begins with nothing bound, but the command buffer still has what was bound in the last one: binding that
+    // again emits nothing.
     mWanted = {};
     mWanted.scissor = area;
     mWanted.viewport = { static_cast<float>(area.x), static_cast<float>(area.y), static_cast<float>(area.width),
@@ -75,6 +78,7 @@ void DrawState::setIndexBuffer(BoundIndexBuffer const& buffer) {
 void DrawState::emit() {
     mIsDrawable = isComplete();
     if (!mIsDrawable) return; // keep the changes: the next bind may complete the state
+    // The pipeline first: its layout decides which groups are still bound, and groups are bound through it.
     emitPipeline();
     emitGroups();
     if ((mChanged & (kVertices | kPipeline)) != 0) emitVertices();

@@ -57,10 +57,12 @@ void Executor::execute(CmdUpdateBuffer const& command) {
     if (!buffer || command.bytes.empty()) return;
     const uint64_t end = command.offset + command.bytes.size();
     FILAMENT_ASSERT(end >= command.offset && end <= buffer->bytes(), "an update stays inside its buffer");
+    // No submission refers to it yet, so it can be written now, without a copy on the device.
     if (!buffer->isUsed && buffer->mapped()) {
         std::memcpy(buffer->mapped() + command.offset, command.bytes.data(), command.bytes.size());
         return; // visible to the next submission
     }
+    // Staging comes before the barrier, since it may fail: without a copy, no write must be noted.
     const auto staged = stage(command.bytes, "a buffer");
     if (!staged) return;
     buffer->isUsed = true;
@@ -83,6 +85,7 @@ void Executor::execute(CmdUploadTexture const& command) {
     if (!staged) return;
     const SubresourceRange range = layersOf(*texture, command.level, command.layer, command.layerCount);
     const bool replacesAll = !texture->is3D() && covers(command.rect, texture->extent(command.level));
+    // A level of a layer has one layout: the texels around the rectangle survive only if the old one is named.
     mBarriers.image(*texture, range, Use::TransferWrite, replacesAll ? Contents::Discard : Contents::Keep);
     flushBarriers();
     const VkBufferImageCopy region =
@@ -172,6 +175,7 @@ void Executor::execute(CmdReadBuffer const& command) {
     flushBarriers();
     const VkBufferCopy region{ command.offset, 0, command.size };
     mDevice->fn().vkCmdCopyBuffer(recording, buffer->handle(), (*target)->handle(), 1, &region);
+    // Emitted at the latest when the submission ends. A fence alone makes no writes visible to the host.
     mBarriers.hostRead();
     mReadbacks->add(command.ticket, Format::None, std::move(*target), mSubmissions->recordingSerial());
 }
@@ -206,6 +210,7 @@ void Executor::execute(CmdPresent const& command) {
     Texture* const texture = mTextures.find(command.texture);
     if (!surface || !texture) return;
     commands(); // opens the submission that will wait for the image
+    // Before anything is recorded: without an image the frame stays as it is.
     const Result<std::optional<Surface::Target>> target =
             surface->acquire(texture->format(), texture->extent(0), *mSubmissions);
     if (!target && !std::exchange(surface->isReported, true)) report(target.error());
@@ -213,6 +218,7 @@ void Executor::execute(CmdPresent const& command) {
     mBarriers.image(*texture, { 0, 1, 0, 1 }, Use::TransferRead);
     flushBarriers();
     surface->recordCopy(commands(), texture->image(), texture->extent(0), **target);
+    // The semaphores belong to a submission, so this one ends here.
     if (!check(mSubmissions->submit((*target)->acquired, (*target)->drawn), "submit")) return;
     const VkResult presented = surface->present(**target);
     if (presented == VK_ERROR_DEVICE_LOST) check(presented, "present");

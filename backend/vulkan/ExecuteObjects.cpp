@@ -92,6 +92,7 @@ void Executor::execute(CmdDestroyTexture const& command) {
     std::unique_ptr<Texture> texture = mTextures.take(command.handle);
     if (!texture) return;
     mBarriers.forget(*texture);
+    // Kept objects end in this order: the framebuffers before the views that they refer to.
     for (auto& framebuffer : mFramebuffers->take(*texture)) mSubmissions->keep(std::move(framebuffer));
     mSubmissions->keep(std::move(texture));
 }

@@ -86,6 +86,7 @@ void Executor::execute(CmdDrawIndexed const& command) {
 // ---------------------------------------------------------------------------------------------- dispatches
 
 void Executor::execute(CmdDispatch const& command) {
+    // Whether the dispatch can run is decided before barriers are recorded for it.
     if (mPass->isOpen() || !mCompute.prepareDispatch()) return;
     VkCommandBuffer recording = commands();
     mBarriers.beginDispatch();

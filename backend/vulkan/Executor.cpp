@@ -73,6 +73,7 @@ Result<void> Executor::initialize(std::filesystem::path const& cacheDirectory) {
 }
 
 Executor::~Executor() {
+    // A command buffer cannot be ended inside of a render pass.
     if (!mIsLost && !mPass->isOpen()) submitAtEnd();
     mDevice->fn().vkDeviceWaitIdle(mDevice->handle()); // fails at once if the device is lost
     if (mProgramCache && !mIsLost) mProgramCache->save();
@@ -101,6 +102,7 @@ void Executor::publishStatistics() {
 
 void Executor::execute(CommandView commands) {
     if (mIsLost) return;
+    // Before the new commands: they find the memory of the staging ring that finished work gives back.
     if (check(mSubmissions->poll(), "poll")) answer();
     Dispatch dispatch{ *this, mStatistics.commands, mIsLost };
     try {
@@ -129,11 +131,13 @@ VkCommandBuffer Executor::commands() {
 
 void Executor::submit() {
     if (!mSubmissions->isOpen()) return;
+    // Barriers that wait for a next command, such as those for reads by the host, must be part of this submission.
     flushBarriers();
     check(mSubmissions->submit(), "submit");
 }
 
 void Executor::answer() {
+    // Timers first: a thread that waits for a read-back may ask for them as soon as it wakes.
     mTimers->answer(mSubmissions->finishedSerial(), mSink);
     mReadbacks->answer(mSubmissions->finishedSerial(), mSink);
 }

@@ -302,6 +302,7 @@ private:
             });
         }
         for (Block& block : mBlocks) {
+            // Only after all blocks have been visited: whether something leads to a merge block is not known earlier.
             if (block.isReached && block.jump == 0 && !block.merge.empty()) keepNamed(block);
         }
     }
@@ -358,6 +359,7 @@ private:
 
 /// Of an instruction in a block; 0: it has no result.
 Id resultOf(Words it) {
+    // No-op, line, stores, copies of memory, image writes, emitted vertices, atomic stores, demotion.
     constexpr std::array<uint32_t, 12> kWithout{ 0, 8, 62, 63, 64, 99, 218, 219, 220, 221, 228, 5380 };
     const uint32_t op = opOf(it);
     const bool isControl = op >= 224 && op <= 225;
@@ -378,6 +380,8 @@ struct Module {
         size_t begin = 0; // of the function that the walk is in
         forEach(words.subspan(kHeaderWords), [&](Words it) {
             const auto at = static_cast<size_t>(it.data() - words.data());
+            // The specification orders a module: decorations, then constants, then functions (2.4). One walk knows each
+            // value before its first use.
             if (opOf(it) == OpFunction && globals.empty()) globals = words.first(at);
             if (opOf(it) == OpFunction) begin = at;
             if (globals.empty()) values.read(it);

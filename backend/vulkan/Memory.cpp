@@ -15,14 +15,18 @@ struct PropertyFlags {
 PropertyFlags propertiesFor(MemoryPurpose purpose) {
     switch (purpose) {
     case MemoryPurpose::Device:
+        // Lazily allocated memory takes transient attachments only.
         return { 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT };
     case MemoryPurpose::Transient:
         return { 0, VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT, 0 };
     case MemoryPurpose::Upload:
+        // Staged bytes are written once, front to back, and never read: write-combined memory is best for that, and
+        // leaves the processor's cache to others.
         return { kMappable, 0, VK_MEMORY_PROPERTY_HOST_CACHED_BIT };
     case MemoryPurpose::Readback:
         break;
     }
+    // Reading memory that is not cached is slower by far.
     return { kMappable, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 0 };
 }
 

@@ -30,6 +30,7 @@ Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
     mOpen = true;
     mUsable = false;
     FramebufferKey key;
+    // Before anything is recorded: a pass with a missing attachment leaves no barrier behind.
     if (!collect(desc, key)) return {};
     key.pass = mRenderPasses.get(keyOf(desc));
     const VkFramebuffer framebuffer = key.pass != VK_NULL_HANDLE ? mFramebuffers.get(key) : VK_NULL_HANDLE;
@@ -38,6 +39,7 @@ Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
     }
     mUsable = true;
     prepareAttachments(desc);
+    // The attachments are known by now: all other sampled textures become readable.
     mBarriers.beginPass();
     mBarriers.flush(mDevice.fn(), commands);
     recordBegin(desc, key, framebuffer, commands);
@@ -51,6 +53,7 @@ void Pass::nextSubpass(VkCommandBuffer commands) {
 void Pass::end(VkCommandBuffer commands) {
     if (mUsable) {
         mDevice.fn().vkCmdEndRenderPass(commands);
+        // The render pass has changed the layouts by itself, without a barrier.
         leaveAttachments();
         mBarriers.endPass();
     }

@@ -46,6 +46,7 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     device.type = core.deviceType;
     device.quirks = Quirks::of(driver.driverID);
     device.timestampNanoseconds = limits.timestampPeriod;
+    // An offset must also be a multiple of the texel block, of which the largest has 16 bytes.
     device.copyOffsetAlignment = std::max<uint64_t>(limits.optimalBufferCopyOffsetAlignment, 16);
     if (core.apiVersion < VK_API_VERSION_1_1) device.unusable = "Vulkan 1.0 only";
 

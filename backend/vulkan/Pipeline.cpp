@@ -108,6 +108,7 @@ void fillBlend(BlendInfo& blend, Device const& device, PipelineDesc const& desc,
     for (uint32_t i = 0; i < desc.pass.colorCount; ++i) {
         blend.attachments[i] = blendAttachment(desc.blend[i], desc.pass.colorFormats[i]);
         if ((written >> i & 1) == 0) blend.attachments[i].colorWriteMask = 0;
+        // Without the feature the states of all attachments must be equal.
         if (!device.physical().features.independentBlend) blend.attachments[i] = blend.attachments[0];
     }
     blend.info.attachmentCount = colorReferences(device.physical().quirks, desc.pass);

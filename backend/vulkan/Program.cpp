@@ -35,6 +35,7 @@ Result<Stage> makeStage(Device& device, ProgramDesc const& desc, std::span<const
         return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; what uses it is skipped", program, stageName,
                     edges.error().message);
     }
+    // Folding first: conditions that it decides need not be hidden, and hidden ones could no longer be decided.
     words = foldConstants(std::move(words), desc.constants);
     if (device.physical().quirks.inlinesUniforms) words = hideUniformConditions(std::move(words), stage);
     Stage made{ .edges = std::move(*edges) };

@@ -49,6 +49,7 @@ std::optional<RangeAllocator::Range> RangeAllocator::allocate(uint64_t bytes, ui
                     "an allocation has a size and a power-of-two alignment");
     if (bytes > mSize || alignment > mSize) return std::nullopt;
     const uint64_t size = alignUp(bytes, kGranule);
+    // Offsets are multiples of the granule, so aligning one skips at most this much.
     const uint64_t slack = alignment > kGranule ? alignment - kGranule : 0;
     uint32_t node = findFree(size + slack);
     if (node == kNone) return std::nullopt;
@@ -68,6 +69,7 @@ std::optional<RangeAllocator::Range> RangeAllocator::allocate(uint64_t bytes, ui
 void RangeAllocator::free(uint32_t node) {
     FILAMENT_ASSERT(node < mNodes.size() && !mNodes[node].isFree && mNodes[node].size > 0, "a range is freed once");
     mFreeBytes += mNodes[node].size;
+    // The next range first: merging with the previous one ends this node.
     const uint32_t next = mNodes[node].next;
     if (next != kNone && mNodes[next].isFree) {
         unlink(next);
@@ -132,6 +134,7 @@ void RangeAllocator::unlink(uint32_t node) {
 }
 
 uint32_t RangeAllocator::splitBehind(uint32_t node, uint64_t bytes) {
+    // Nodes are named by index, because making one may move them all.
     const uint32_t rest = makeNode(mNodes[node].offset + bytes, mNodes[node].size - bytes);
     mNodes[rest].previous = node;
     mNodes[rest].next = mNodes[node].next;

@@ -7,6 +7,7 @@ std::optional<uint64_t> RingCursor::allocate(uint64_t bytes, uint64_t alignment,
     if (bytes > mSize) return std::nullopt;
     uint64_t start = (mHead + alignment - 1) / alignment * alignment;
     if (start % mSize + bytes > mSize) start = (start / mSize + 1) * mSize; // never split: skip the rest of the ring
+    // Head and tail are not reduced modulo the size, so that a full ring differs from an empty one.
     if (start + bytes - mTail > mSize) return std::nullopt;
     mHead = start + bytes;
     if (!mMarks.empty() && mMarks.back().serial == serial) {

@@ -47,6 +47,7 @@ VkResult Submissions::open() {
     VolkDeviceTable const& fn = mDevice.fn();
     const size_t next = (mCurrent + 1) % kSlots;
     Slot& slot = mSlots[next];
+    // After the wait the slot counts as finished, and poll() no longer looks at its fence, which can be reset.
     VkResult result = wait(slot.serial);
     if (result == VK_SUCCESS) result = fn.vkResetFences(mDevice.handle(), 1, &slot.fence);
     if (result == VK_SUCCESS) result = fn.vkResetCommandPool(mDevice.handle(), slot.pool, 0);
@@ -78,6 +79,7 @@ VkResult Submissions::submit(VkSemaphore waits, VkSemaphore signals) {
     info.signalSemaphoreCount = signals ? 1 : 0;
     info.pSignalSemaphores = &signals;
     result = fn.vkQueueSubmit(mDevice.queue(), 1, &info, slot.fence);
+    // Only then: the fence of a failed submission is never signalled, and a wait for it would not end.
     if (result == VK_SUCCESS) slot.serial = ++mSubmitted;
     return result;
 }

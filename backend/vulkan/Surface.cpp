@@ -168,6 +168,7 @@ Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
 
     auto info = make<VkSwapchainCreateInfoKHR>(VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR);
     info.surface = mSurface;
+    // One is shown, one waits to be shown, and one can be drawn to.
     info.minImageCount = std::max(capabilities.minImageCount, 3u);
     if (capabilities.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
     info.imageFormat = surfaceFormat->format;
@@ -184,6 +185,7 @@ Result<bool> Surface::rebuild(Format format, VkExtent2D wanted) {
     fn.vkDeviceWaitIdle(mDevice.handle()); // images of the old one may be on their way to the window
     VkSwapchainKHR made = VK_NULL_HANDLE;
     result = fn.vkCreateSwapchainKHR(mDevice.handle(), &info, nullptr, &made);
+    // The old one goes in any case: the call retires it even where it fails.
     dropImages();
     if (mSwapchain != VK_NULL_HANDLE) fn.vkDestroySwapchainKHR(mDevice.handle(), mSwapchain, nullptr);
     mSwapchain = made;
@@ -200,6 +202,8 @@ VkResult Surface::takeImages() {
     });
     if (images.empty()) return VK_ERROR_OUT_OF_HOST_MEMORY;
     for (VkImage image : images) {
+        // A semaphore for each image, not for each frame: no fence tells when presenting has waited for it. It has when
+        // the same image can be acquired again.
         const Result<VkSemaphore> drawn = makeSemaphore();
         if (!drawn) return VK_ERROR_OUT_OF_HOST_MEMORY;
         mImages.push_back({ image, *drawn });
@@ -276,6 +280,7 @@ void Surface::recordCopy(VkCommandBuffer commands, VkImage source, VkExtent2D ex
     constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     VkImageMemoryBarrier barrier = barrierOf(target.image, VK_IMAGE_LAYOUT_UNDEFINED, kWritten);
     barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    // From the transfer stage, at which the submission waits for the image: the layout must not change before that.
     fn.vkCmdPipelineBarrier(commands, kTransfer, kTransfer, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 
     if (extent.width < target.extent.width || extent.height < target.extent.height) {

@@ -20,6 +20,7 @@ VkImageUsageFlags usageFlags(TextureUsage usage) {
     if (has(usage, TextureUsage::InputAttachment)) flags |= VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
     if (has(usage, TextureUsage::TransferSource)) flags |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (has(usage, TextureUsage::TransferTarget)) flags |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    // The specification allows no other use together with transient memory.
     const bool attachmentOnly = flags != 0 && (flags & ~kAttachmentUsage) == 0;
     if (has(usage, TextureUsage::Transient) && attachmentOnly) flags |= VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT;
     return flags;
@@ -95,6 +96,7 @@ Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, V
 
 /// Whether an image may be bound where another one is.
 bool fits(VkMemoryRequirements const& needs, ImageMemory const& memory) {
+    // The memory type was chosen among those of the first image, so another one must allow the same.
     return needs.size <= memory.allocation.bytes && memory.allocation.offset % needs.alignment == 0 &&
            needs.memoryTypeBits == memory.needs.memoryTypeBits;
 }
@@ -194,6 +196,8 @@ Texture::~Texture() {
     for (PartView const& each : mSampledParts) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
     fn.vkDestroyImageView(mDevice.handle(), mSampledView, nullptr);
     fn.vkDestroyImage(mDevice.handle(), mImage, nullptr);
+    // Whichever texture takes the memory next must not find this one. Its readers have finished, so nothing waits for
+    // them.
     if (mMemory && hasMemory()) mMemory->user = nullptr;
 }
 

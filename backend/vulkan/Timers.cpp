@@ -39,6 +39,7 @@ uint32_t Timers::writeTimestamp(VkCommandBuffer commands) {
     mFree.pop_back();
     VolkDeviceTable const& fn = mDevice.fn();
     VkQueryPool pool = mPools[query / kPoolSize];
+    // In the command buffer: resetting a query on the host needs Vulkan 1.2.
     fn.vkCmdResetQueryPool(commands, pool, query % kPoolSize, 1);
     // Both timestamps at the bottom of the pipe: from the end of all earlier work to the end of the timed work.
     fn.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, query % kPoolSize);

@@ -202,6 +202,7 @@ private:
 
     /// A phi that depends on itself through a loop counts as a constant: its other inputs decide.
     Known knowledgeOf(uint32_t id, int depth) {
+        // The walk recurses: a module made to harm must not exhaust the stack.
         constexpr int kMostDepth = 4000;
         Value* it = value(id);
         if (!it || depth > kMostDepth) return kVarying;

@@ -32,6 +32,7 @@ bool Upload::growRing() {
     if (bytes > kLargestRingBytes) return false;
     std::unique_ptr<Buffer> ring = makeBuffer(bytes);
     if (!ring) return false;
+    // Copies that are in flight still read the old ring.
     mSubmissions.keep(std::move(mRing));
     mRing = std::move(ring);
     mCursor = RingCursor(bytes);
