@@ -28,6 +28,7 @@ Result<std::unique_ptr<Driver>> makeDriver(Backend type, DriverOptions const& op
 } // namespace
 
 Result<std::unique_ptr<Driver>> createDriver(Backend type, DriverOptions const& options, ResultSink& sink) {
+    // Before the first driver is loaded: Mesa reads these variables once.
     applyMesaEnvironment();
     const auto make = [&](ResultSink& results) { return makeDriver(type, options, results); };
     return options.selfTest ? makeTestedDriver(make, sink, options.selfTestNotes) : make(sink);

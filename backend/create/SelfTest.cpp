@@ -48,6 +48,7 @@ public:
     std::string error;
 };
 
+/// What the test did is not the app's: its counts of commands, draws and pipelines begin at zero.
 DriverStatistics without(DriverStatistics all, DriverStatistics const& part) {
     using Count = uint64_t DriverStatistics::*;
     for (const Count count : { &DriverStatistics::commands, &DriverStatistics::draws, &DriverStatistics::dispatches,
@@ -91,11 +92,13 @@ private:
 
     void record() {
         createObjects();
+        // The light pass reads what these two write: that it sees it is part of the test.
         fillColors();
         drawDepth();
         drawLight();
         read(mLight, kLightTicket);
         if (mInfo.features.mergedPasses) read(mNegative, kNegativeTicket);
+        // All objects exist before the first pass, inside of which nothing can be created.
         mCommands.append(std::move(mDraws));
         destroyObjects();
     }
@@ -275,6 +278,7 @@ std::string mistakeOf(std::vector<std::byte> const& bytes, Picture const& expect
 std::string mistakeOf(Driver& driver, ForwardingSink& results) {
     driver.execute(Frame(driver.info()).view());
     driver.waitIdle();
+    // The error says more than a wrong pixel.
     if (!results.error.empty()) return results.error;
     const Picture light = expectedLight();
     std::string mistake = mistakeOf(results.readbacks[kLightTicket.value], light, "what is blended");

@@ -30,6 +30,7 @@ void Buffers::create(BufferHandle handle, BufferDesc const& desc) {
 
 void Buffers::destroy(Buffer const& buffer) {
     if (buffer.name == 0) return;
+    // Before the name is free: the next buffer may get it, and would seem to be bound already.
     mDevice.state.forgetBuffer(buffer.name);
     mDevice.gl.DeleteBuffers(1, &buffer.name);
     mDevice.statistics.deviceBytes -= buffer.size;

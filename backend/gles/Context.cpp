@@ -32,6 +32,7 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
     }
     const bool reset = hasExtension(extensions, "EGL_EXT_create_context_robustness");
     EGLContext context = EGL_NO_CONTEXT;
+    // The newest version first, and each with the notice of a reset before the one without.
     for (ContextRequest request : { ContextRequest{ 2, true }, { 2, false }, { 1, true }, { 1, false } }) {
         if (context == EGL_NO_CONTEXT && (reset || !request.resetNotice)) {
             context = createContext(egl, display, request, debug);
@@ -51,6 +52,7 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
 
 Context::~Context() {
     if (mContext == EGL_NO_CONTEXT) return;
+    // A context that is current would only be marked for destruction.
     mEgl->MakeCurrent(display(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     mEgl->DestroyContext(display(), mContext);
     mEgl->ReleaseThread();

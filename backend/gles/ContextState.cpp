@@ -74,6 +74,7 @@ void ContextState::bindSampler(uint32_t unit, GLuint sampler) {
 }
 
 void ContextState::forgetProgram(GLuint program) {
+    // A program in use would only be marked for deletion, and keep its memory.
     if (mProgram == program) useProgram(0);
 }
 
@@ -203,6 +204,7 @@ void ContextState::convertSrgb(bool wanted) {
 
 void ContextState::allowClears(uint32_t colorCount) {
     const uint32_t masks = mQuirks.indexedBlend ? colorCount : 1;
+    // Unlike in Vulkan, a clear obeys the write masks of the last draw.
     for (uint32_t i = 0; i < masks; ++i) setColorMask(i, 0xF);
     if (!mDepthWrite) mGl.DepthMask(mDepthWrite = GL_TRUE);
     if (mStencilFront.writeMask != 0xFF || mStencilBack.writeMask != 0xFF) {

@@ -44,6 +44,7 @@ void DepthReader::blit(Texture const& source, uint32_t level, uint32_t layer, Re
     const GLuint draw = mFramebuffers.single(Framebuffers::Side::Draw, mDepth, 0, 0);
     const auto width = static_cast<GLint>(rect.width), height = static_cast<GLint>(rect.height);
     mDevice.state.bindFramebuffers(draw, read);
+    // A blit obeys the scissor of the last draw.
     mDevice.state.setScissor({});
     mDevice.gl.BlitFramebuffer(rect.x, rect.y, rect.x + width, rect.y + height, 0, 0, width, height,
                                GL_DEPTH_BUFFER_BIT, GL_NEAREST);
@@ -54,6 +55,7 @@ GLuint DepthReader::copy(Texture const& texture, uint32_t level, uint32_t layer,
     mDevice.beginCreation();
     mDepth = makeTexture(texture.desc.format, rect);
     mFloat = makeTexture(Format::R32F, rect);
+    // Errors are asked for once, after both textures: the draw below must not run without one of them.
     if (!mDevice.created("texture", "depth read-back")) return 0;
     blit(texture, level, layer, rect);
     const GLuint target = mFramebuffers.single(Framebuffers::Side::Draw, mFloat, 0, 0);

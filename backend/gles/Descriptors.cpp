@@ -59,6 +59,7 @@ void Descriptors::bind(uint32_t index, BindGroup const* group,
 void Descriptors::setProgram(Program const& program) {
     FlatBindings const& wanted = program.bindings();
     for (uint32_t i = 0; i < kMaxBindGroups; ++i) {
+        // Programs that number the bindings of a group alike, as those of one material do, keep it bound.
         if (mBindings[i] == wanted[i]) continue;
         mBindings[i] = wanted[i];
         mPending |= 1u << i;
@@ -78,6 +79,7 @@ bool Descriptors::apply() {
         } else if (isNeeded(i)) {
             return false;
         }
+        // Only then: a group that could not be applied is tried again at the next draw.
         mPending &= ~(1u << i);
     }
     return true;

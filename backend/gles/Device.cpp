@@ -108,6 +108,7 @@ void Device::beginCreation() {
 
 bool Device::created(const char* what, std::string_view name) {
     creating = false;
+    // Errors of earlier calls are not those of the object that is made now.
     const GLenum found = takeError();
     if (found == GL_NO_ERROR) return true;
     const bool memory = found == GL_OUT_OF_MEMORY;

@@ -20,6 +20,7 @@ void DrawState::setStencilReference(uint8_t front, uint8_t back) {
 void DrawState::setPipeline(Pipeline const* pipeline) {
     mPipeline = pipeline;
     mPipelineApplied = false;
+    // The numbers of the bindings belong to the program: groups that were bound before it are applied to its slots.
     if (mPipeline && mPipeline->isUsable()) mDescriptors.setProgram(*mPipeline->program);
 }
 

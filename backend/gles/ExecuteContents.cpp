@@ -40,6 +40,7 @@ void Executor::copy(Image const& source, Image const& target, Filter filter) {
     const GLuint read = mFramebuffers.single(Framebuffers::Side::Read, source.texture, source.level, source.layer);
     const GLuint draw = mFramebuffers.single(Framebuffers::Side::Draw, target.texture, target.level, target.layer);
     mDevice.state.bindFramebuffers(draw, read);
+    // Blits from sRGB decode, as vkCmdBlitImage does; with the conversion off they would copy the encoded values.
     if (formatInfo(source.texture.desc.format).isSrgb) mDevice.state.convertSrgb(true);
     mDevice.state.setScissor({}); // blits obey the scissor
     mDevice.gl.BlitFramebuffer(source.rect.x, source.rect.y, right(source.rect), bottom(source.rect), target.rect.x,

@@ -34,6 +34,7 @@ void Executor::execute(CmdCreateSurface const& command) {
 void Executor::execute(CmdDestroyBuffer const& command) {
     const std::unique_ptr<Buffer> buffer = mBuffers.take(command.handle);
     if (!buffer) return;
+    // Before the name is free: vertex arrays that still hold it would keep the memory.
     mVertices.forget(buffer->name);
     mBuffers.destroy(*buffer);
 }
@@ -41,6 +42,7 @@ void Executor::execute(CmdDestroyBuffer const& command) {
 void Executor::execute(CmdDestroyTexture const& command) {
     const std::unique_ptr<Texture> texture = mTextures.take(command.handle);
     if (!texture) return;
+    // Framebuffers keep what is attached to them alive.
     mFramebuffers.forget(texture->name);
     mTextures.destroy(*texture);
 }

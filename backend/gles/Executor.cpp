@@ -86,6 +86,7 @@ void Executor::answer(bool wait) {
 // ---------------------------------------------------------------------------------------------- frames
 
 void Executor::endFrame() {
+    // The fence first, so that the flush carries it to the device, too.
     mFrames.push_back(Fence(mDevice));
     mDevice.gl.Flush();
     if (mFrames.size() <= kFramesInFlight) return;
@@ -97,6 +98,7 @@ void Executor::execute(CmdEndFrame const&) {
     endFrame();
     mDevice.checkLost();
 #ifndef NDEBUG
+    // Once a frame and in debug builds only: asking for errors may wait for a driver that works on a thread of its own.
     const GLenum error = mDevice.takeError();
     if (error != GL_NO_ERROR && !mDevice.messages) {
         mDevice.error(DriverErrorKind::Validation, "{} during this frame; DriverOptions::validation names the call",

@@ -38,6 +38,7 @@ void Framebuffers::destroy(GLuint object) {
 
 GLuint Framebuffers::get(FramebufferKey const& wanted, std::string_view what) {
     auto const [entry, isNew] = mObjects.try_emplace(wanted, 0);
+    // Zero is kept, too: a set that the driver refuses is reported once, not in each frame.
     if (isNew) entry->second = create(wanted, what);
     return entry->second;
 }

@@ -43,6 +43,7 @@ Result<HeldDisplay> HeldDisplay::open(Egl const& egl, DisplaySource source) {
         ++known->count;
         return HeldDisplay(egl, display);
     }
+    // Asked before we initialise it: an answer means that the app, or another library, has done so.
     const bool isOthers = egl.QueryString(display, EGL_VERSION) != nullptr;
     if (isOfWindowSystem(source)) table.held.push_back({ display, 1, !isOthers });
     if (Result<void> ready = egl.initialize(display); !ready) {

@@ -33,6 +33,7 @@ void Pass::begin(PassDesc const& desc) {
     state.setScissor(desc.area);
     state.setViewport({ static_cast<float>(desc.area.x), static_cast<float>(desc.area.y),
                         static_cast<float>(desc.area.width), static_cast<float>(desc.area.height) });
+    // At the start: a tiled device then need not load what is discarded.
     invalidate(discardedByLoad());
     clear();
 }
@@ -45,6 +46,7 @@ void Pass::end() {
     }
     if (mDesc.layout.resolvesDepth) resolveDepth();
     mDevice.state.bindFramebuffers(mFramebuffer, mFramebuffer);
+    // After the resolves, which read the samples that are discarded here.
     invalidate(discardedByStore());
     mFramebuffer = 0;
 }

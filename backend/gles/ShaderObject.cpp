@@ -66,6 +66,7 @@ GLuint link(Device& device, std::span<const StageText> stages, std::string_view 
     Api const& gl = device.gl;
     const GLuint program = gl.CreateProgram();
     if (attachStages(device, program, stages, name)) {
+        // Before linking, when the driver decides whether to keep the binary.
         if (device.programs) gl.ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
         gl.LinkProgram(program);
         GLint linked = GL_FALSE;

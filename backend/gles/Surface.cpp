@@ -111,6 +111,7 @@ Result<void> Surface::open(NativeDisplay const& display, SurfaceDesc const& desc
 Surface::~Surface() {
     Egl const& egl = mContext.egl();
     if (mSurface != EGL_NO_SURFACE) {
+        // A surface that is current would stay until the context lets go of it.
         mContext.makeCurrent(EGL_NO_SURFACE);
         egl.DestroySurface(mContext.display(), mSurface);
     }
@@ -146,12 +147,14 @@ void Surface::copy(Device& device, Framebuffers& framebuffers, Texture const& te
 }
 
 bool Surface::present(Device& device, Framebuffers& framebuffers, Texture const& texture) {
+    // Before anything is drawn: the back buffer takes its size with the first call.
     follow(texture);
     if (!mContext.makeCurrent(mSurface)) {
         reportOnce(device, "cannot be drawn to");
         return false;
     }
     Egl const& egl = mContext.egl();
+    // The interval belongs to the surface that is current, so it can be set only now.
     if (!mHasInterval) mHasInterval = egl.SwapInterval(mContext.display(), mInterval) == EGL_TRUE;
     copy(device, framebuffers, texture);
     if (egl.SwapBuffers(mContext.display(), mSurface)) return true;

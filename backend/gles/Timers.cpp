@@ -60,6 +60,7 @@ void Timers::poll(bool wait) {
         const Timer timer = mEnded.front();
         GLuint available = 0;
         if (!wait) mDevice.gl.GetQueryObjectuiv(timer.end, GL_QUERY_RESULT_AVAILABLE, &available);
+        // In the order of ending: if the end of one is not there, those of later ones are not either.
         if (!wait && !available) return;
         mEnded.pop_front();
         const uint64_t begin = read(timer.begin), end = read(timer.end);
