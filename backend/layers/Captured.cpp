@@ -108,6 +108,7 @@ public:
     template <class C>
     void execute(C const& command) {
         C copy = command;
+        // The edit first: what is noted, and perhaps dropped, is the command that the driver would get.
         if (mCapture->mEdit) change(copy);
         note(copy);
         if (runs(copy)) mWritten.recordAdopted(copy); // payloads need no copy: the stream outlives this call
@@ -133,6 +134,7 @@ private:
     template <class C>
     void note(C&) {}
     void note(CmdCreateTexture& command) {
+        // When the texture is made, no frame has been asked for yet: any attachment may be read later.
         if (isAttachment(command.desc.usage) && command.desc.samples == 1)
             command.desc.usage = readable(command.desc.usage);
         mTextures[command.handle] = { command.desc, std::string(command.desc.debugName) };
@@ -155,6 +157,7 @@ private:
         mPass = command.desc;
         mPipeline = {};
         if (!mRequest->attachments) return;
+        // What a pass discards at its end could not be read after it.
         for (uint32_t i = 0; i < command.desc.layout.colorCount; ++i) command.desc.colors[i].store = StoreOp::Store;
         command.desc.depth.store = StoreOp::Store;
     }
@@ -197,6 +200,7 @@ private:
         CapturedPass& pass = mFrame.passes.back();
         DeviceTextureDesc const& desc = found->second.desc;
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
+        // In the order of the tickets: an answer finds its attachment by the ticket's distance from the first.
         mPending.push_back(
                 { static_cast<uint32_t>(mFrame.passes.size() - 1), static_cast<uint32_t>(pass.attachments.size()) });
         pass.attachments.push_back({ .name = found->second.name,

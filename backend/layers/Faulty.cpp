@@ -63,6 +63,7 @@ public:
         mOpen = {};
         for (CommandChunk const& chunk : commands) walk(chunk);
         closePiece();
+        // Forwarded where they lie: the watch of the driver thread knows a command by its address.
         mInner->execute(mPieces);
         writeCounts();
         if (mStrikes) mSink.onError(DriverErrorKind::DeviceLost, mLoss); // after all answers that the device still gave

@@ -28,6 +28,7 @@ public:
 
     DeviceInfo const& info() const override { return mInner->info(); }
     void execute(CommandView commands) override {
+        // Written and flushed before the driver gets it: if the driver crashes, the trace has the stream that did it.
         if (writes()) write(commands);
         mInner->execute(commands);
     }
@@ -40,6 +41,7 @@ private:
         mPending.blob.clear();
         writeTrace(commands, mPending, mBlobBytes);
         mBlobBytes += mPending.blob.size();
+        // The bytes before the text that refers to them: a trace that ends here is still complete.
         mBlob.write(reinterpret_cast<const char*>(mPending.blob.data()),
                     static_cast<std::streamsize>(mPending.blob.size()));
         mBlob.flush();

@@ -27,6 +27,7 @@ bool Validator::check(CommandView commands) {
             mOpenTimers.size());
     require(mOpenGroups.empty(), Harm::WrongResult, "group '{}' is still open; record CmdPopGroup",
             mOpenGroups.empty() ? "" : mOpenGroups.back());
+    // Each stream starts anew: one mistake should not be reported again for every stream that follows.
     mPass.reset();
     mOpenTimers.clear();
     mOpenGroups.clear();
@@ -35,6 +36,7 @@ bool Validator::check(CommandView commands) {
         forEachTable([](auto& table) { table.commit(); });
         return true;
     }
+    // The driver never sees this stream, so the model must not have its objects either.
     forEachTable([](auto& table) { table.rollback(); });
     mFrameOpen = frameWasOpen;
     mSink.onError(DriverErrorKind::Validation,

@@ -175,6 +175,7 @@ void Validator::checkStages(ProgramDesc const& desc) {
     const bool isCompute = !desc.compute.empty();
     require(isCompute ? desc.vertex.empty() && desc.fragment.empty() : !desc.vertex.empty() && !desc.fragment.empty(),
             Harm::Crash, "a program has a vertex and a fragment stage, or a compute stage alone");
+    // Drivers of Vulkan may crash on other words; those of OpenGL ES refuse text that they cannot compile.
     if (mInfo.backend != Backend::Vulkan) return;
     const bool isSpirv =
             isCompute ? beginsLikeSpirv(desc.compute) : beginsLikeSpirv(desc.vertex) && beginsLikeSpirv(desc.fragment);

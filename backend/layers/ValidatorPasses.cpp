@@ -79,6 +79,7 @@ void Validator::execute(CmdBeginPass const& command) {
             require(!desc.depth.texture, Harm::WrongResult, "a depth texture, but layout.depthFormat is None");
         checkAttachedOnce(desc);
     }
+    // Even after an error: the draws of the pass are checked, too, and are not reported as outside of one.
     mPass = OpenPass{ std::string(desc.debugName), desc, 0 };
     mPass->desc.debugName = {};
     mBound = {};

@@ -95,6 +95,7 @@ std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
     }
     Block const& block = takeBlock(bytes);
     const Range rest{ block.data.get() + bytes, block.data.get() + block.size };
+    // The range with more room left takes the next payloads.
     if (rest.left() >= mPayload.left()) mPayload = rest;
     mPayloadBytes += bytes;
     return { block.data.get(), bytes };
@@ -148,6 +149,7 @@ void CommandBuffer::rollBack(Mark const& mark) {
     mReserve = 0;
     if (mark.chunks == 0) return;
     const std::byte* const chunk = mChunks.back().data;
+    // Blocks that were taken since stay in use until the reset: payloads of kept commands may lie in them.
     const auto block = std::ranges::find_if(mUsed, [&](Block const& used) { return used.data.get() == chunk; });
     FILAMENT_ASSERT(block != mUsed.end(), "a mark belongs to the buffer that gave it, until its reset()");
     useForCommands(*block, mark.commands);
@@ -155,6 +157,7 @@ void CommandBuffer::rollBack(Mark const& mark) {
 }
 
 void CommandBuffer::reset() {
+    // Only what was not used since the last reset grows older: the blocks in use join the spare ones afterwards.
     std::erase_if(mSpare, [](Block& block) {
         ++block.idleFrames;
         return block.size > kKeptBytes || (block.size > kBlockBytes && block.idleFrames >= kIdleFrames);

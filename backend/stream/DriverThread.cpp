@@ -63,6 +63,7 @@ uint64_t frameNumber(CommandBuffer const& commands, uint64_t otherwise) {
 
 DriverThread::DriverThread(CommandStreamOptions const& options, ResultMailbox& mailbox)
         : mOptions(options), mMailbox(mailbox), mWatch(options.stallWarning),
+          // One more than may be ahead: the one that is being recorded.
           mSlots(std::max(1u, options.maxFramesAhead) + 1) {}
 
 DriverThread::~DriverThread() {
@@ -120,6 +121,7 @@ void DriverThread::guarded(const char* doing, F&& step) noexcept {
 
 void DriverThread::endDriver() {
     mWatch.beginEndingDriver();
+    // Answers that are still to come arrive before the mailbox goes.
     if (!mMailbox.deviceLost()) guarded("ending the driver", [&] { mDriver->waitIdle(); });
     mDriver.reset();
     mWatch.end();
@@ -182,8 +184,10 @@ void DriverThread::replaySlot(uint64_t submission) {
     if (mOptions.hashStreams) guarded("hashing a stream", [&] { timing.hash = hashStream(slot.commands.view()); });
     const bool reachesDevice = !mMailbox.deviceLost();
     if (reachesDevice) execute(slot, timing.frame);
+    // Before the slot counts as replayed: from then on acquire() may hand it out.
     slot.commands.reset();
     timing.replayEnd = now();
+    // Before the count, so that a thread that waits for this submission finds its timing.
     mMailbox.onReplayed(timing);
     const std::lock_guard lock(mMutex);
     if (reachesDevice && timing.isFrame) mLatency.add(timing);
@@ -203,6 +207,7 @@ void DriverThread::settle(uint64_t submission) {
         mWatch.beginSettling();
         guarded("waiting for the device", [&] { mDriver->waitIdle(); });
     }
+    // After the wait has delivered all answers: a ticket without one by now gets none, and its waiter is told so.
     mMailbox.onIdle(submission);
 }
 
@@ -244,6 +249,7 @@ void DriverThread::submit(CommandBuffer& commands) {
         slotOf(submission).submitted = now();
         mSubmitted = submission;
     }
+    // The lock is free again: the driver thread, once woken, need not wait for it.
     if (mOptions.ownThread) {
         mWork.notify_one();
     } else {

@@ -120,6 +120,7 @@ void ReplayWatch::beginReplay(CommandBuffer const& commands, uint64_t frame) {
 
 void ReplayWatch::end() {
     const std::lock_guard lock(mMutex);
+    // Once the stream is done. Within one that is still being replayed, PlaceFinder follows the names by itself.
     if (mActivity == Activity::Replaying && mChangesPipelines) {
         PipelineNameKeeper keeper{ mPipelineNames };
         replay(mCommands, keeper);
@@ -156,6 +157,7 @@ void ReplayWatch::check() {
             text = "is stuck";
         }
     }
+    // Without the lock: the sink of the log may call into the engine.
     log(Severity::Warning, "driver thread: {}; until it continues, nothing is drawn or answered", text);
 }
 

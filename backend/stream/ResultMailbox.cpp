@@ -21,6 +21,7 @@ std::string copyOf(std::string_view message) {
 } // namespace
 
 ResultMailbox::ResultMailbox() {
+    // Now, when a failure can still be reported: no later answer or error may need memory for its place.
     mTimers.reserve(kMaxTimers);
     mTimings.reserve(kMaxTimings);
     mErrors.reserve(kMaxErrors);
@@ -35,6 +36,8 @@ void ResultMailbox::onReadback(Ticket ticket, std::span<const std::byte> bytes) 
     }
     {
         const std::lock_guard lock(mMutex);
+        // Without memory for the pixels, too: the ticket must have an answer, or its waiter would wait for the
+        // time-out.
         mReadbacks.insert_or_assign(ticket, std::move(copy));
     }
     mAnswered.notify_all();

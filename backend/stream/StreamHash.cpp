@@ -34,6 +34,7 @@ private:
     }
 
     void add(Ticket ticket) {
+        // Tickets count up through the process: equal frames have different ones, in the same places.
         const auto found = std::ranges::find(mTickets, ticket);
         word(static_cast<uint64_t>(found - mTickets.begin()));
         if (found == mTickets.end()) mTickets.push_back(ticket);
