@@ -66,6 +66,7 @@ bool isPlain(engine::ToneTable const& table) {
 Texture Engine::Impl::dfgTable(uint32_t size) {
     FILAMENT_ASSERT(size >= 16 && size <= 256, "Quality::dfgTableSize is a number from 16 to 256");
     Texture& table = defaults.dfg[size];
+    // Made at the first use: most apps use one size.
     if (!table) table = createDfg(*this, size);
     return table;
 }

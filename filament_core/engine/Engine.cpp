@@ -53,6 +53,8 @@ DriverFactory driverFactory(EngineOptions const& options) {
                                                                                        : std::filesystem::path(),
                                                .selfTest = options.driverSelfTest,
                                                .selfTestNotes = cacheDirectory(options) };
+            // From the inside out: faults strike what the device would get; captures change a stream below the trace,
+            // which keeps what the app recorded; the validator stops a stream before any of them sees it.
             auto device = createDriver(options.backend, driverOptions, results);
             if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
             return device;
@@ -124,6 +126,7 @@ Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> c
 }
 
 Engine::Impl::~Impl() {
+    // First: what these objects use must not seem to be a leak of the app.
     destroyDefaultObjects(*this);
     scenes.clear(); // they show nothing without it
     aUseEnded = true;
@@ -144,6 +147,7 @@ Engine::Impl::~Impl() {
         flush();
     } catch (std::bad_alloc const&) { // the driver frees the rest when it ends
     }
+    // After the flush, whose errors nobody could take otherwise.
     collectErrors();
     for (std::string const& error : errors) log(Severity::Error, "{}", error);
 }
@@ -173,8 +177,10 @@ void Engine::Impl::recordCompilations(CommandBuffer& commands) {
 }
 
 void Engine::Impl::drainPending(CommandBuffer& commands) {
+    // What is pending creates the objects that later commands use, and may itself use objects that are released next.
     if (pending.commandCount() > 0) commands.append(std::move(pending));
     releaseRetired(commands);
+    // After the release, which takes dead instances off the list: no block is uploaded for them.
     for (MaterialInstance handle : dirtyInstances) updateInstance(instances.held(handle), commands);
     dirtyInstances.clear();
 }
@@ -183,6 +189,7 @@ void Engine::Impl::collectErrors() {
     std::vector<DriverError> taken;
     std::vector<std::string> refusals = pipelines.takeRefusals();
     try {
+        // Everything that may fail comes first, so that no error is lost halfway.
         taken = stream->takeErrors();
         errors.reserve(errors.size() + taken.size() + refusals.size() + 1);
         if (untoldErrors > 0) errors.push_back(fmt::format("out of memory, {} more times", untoldErrors));
@@ -215,6 +222,7 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 Result<Engine> Engine::create(EngineOptions const& options) {
     const ApiCall call("Engine::create(EngineOptions)");
     return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
+        // Before the driver starts, which takes far longer.
         if (Result<void> cores = checkCores(options); !cores) return cores.error();
         if (!options.exactShaders && !options.debug.plainMaterials)
             return fail(ErrorCode::Unsupported,

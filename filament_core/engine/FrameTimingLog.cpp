@@ -24,6 +24,7 @@ double milliseconds(FrameTimingLog::TimePoint from, FrameTimingLog::TimePoint to
 
 void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers) {
     collectTimers(); // the stream keeps answers only for a limited time
+    // Without memory the frame is drawn and its passes have no times.
     if (!makeRoom(timers.size())) timers = {};
     Record& record = mRecords[frame % mRecords.size()];
     record.frame = mNewest = frame;

@@ -33,6 +33,7 @@ bool LoadTask::enter(LoadStage stage, LoadStage expected) {
 }
 
 void LoadTask::run() noexcept {
+    // The stage changes by compare-and-swap: the app may cancel at the same time, and whichever comes first decides.
     if (enter(LoadStage::Decoding, LoadStage::Waiting)) {
         Result<void> worked;
         try {
@@ -48,11 +49,13 @@ void LoadTask::run() noexcept {
             endWith(worked.error());
     }
     const std::scoped_lock lock(mMutex);
+    // Even if the load was cancelled before it began: a waiting thread must wake.
     mHasEnded = true;
     mWorkEnded.notify_all();
 }
 
 void LoadTask::endWith(Error error) {
+    // Before the stage, by which the app's thread learns that there is an error to read.
     mError = std::move(error);
     enter(LoadStage::Failed, LoadStage::Decoding);
 }
@@ -99,6 +102,7 @@ void LoadTask::cancel() {
     LoadStage stage = mStage.load(std::memory_order_acquire);
     while (stage < LoadStage::Ready) {
         if (!mStage.compare_exchange_weak(stage, LoadStage::Cancelled, std::memory_order_acq_rel)) continue;
+        // After the stage: work that ends because of the request finds that it is cancelled, and reports no error.
         mCancellation.request();
         drop();
         return;

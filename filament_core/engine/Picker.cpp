@@ -29,6 +29,7 @@ PickHit nearestHit(std::vector<PickHit> const& candidates, std::span<const std::
     for (size_t i = 0; i < candidates.size() && (i + 1) * sizeof(float) <= texels.size(); ++i) {
         float depth = 0;
         std::memcpy(&depth, texels.data() + i * sizeof(float), sizeof depth);
+        // Depth is reversed: the nearest is the largest, and 0 means that nothing was drawn.
         if (!(depth > 0) || depth < nearestDepth * (1 - kEqual)) continue;
         nearestDepth = depth;
         nearest = candidates[i];
@@ -86,6 +87,7 @@ PickTicket Picker::ask(scene::SceneData const& scene, View const& view, prepare:
     mGraph.reset();
     const prepare::PreparedPick pick = prepare::preparePick(mEngine.jobs, mArena, scene, input, pixel, aim, last);
     const Ticket ticket = mEngine.stream->nextTicket();
+    // Noted before the commands are recorded: once they are, the answer will come, and needs its place.
     mPending[ticket.value] = describe(scene, view, pixel, pick.renderables);
     if (pick.renderables.empty()) return { ticket.value }; // nothing to draw
     try {

@@ -250,18 +250,21 @@ struct Renderer::Impl final : engine::Dependent {
         stamps = { .begin = clock() };
         const Effects effects = clamped(view.effects);
         const auto input = [&] { return inputFor(scene, view, effects, target.depth != nullptr); };
+        // Before the share is chosen: times of another view say nothing about this one.
         beginAnewWithAnother(scene, input());
         chooseShare(effects.resolution);
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext& context =
                 planFrame(scene, view, effects, outputOf(target), PipelineSource(engine.pipelines), transients);
         scene::MaterialInstance const* material = target.isSampled ? samplerOf(context.packet, target) : nullptr;
+        // After the plan, which knows what is drawn, and before anything is recorded: the frame can still be left out.
         if (material) return samplesTarget(*material, target);
         if (target.isSampled && isDirtOf(context, target)) return dirtIsTarget(target);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context, target);
         stamps.recorded = clock();
+        // Only after recording: a frame that was left out has drawn nothing that the next one could reuse.
         keepLast(scene, input(), context.packet);
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
@@ -296,8 +299,10 @@ struct Renderer::Impl final : engine::Dependent {
         backend::DeviceTextureDesc const& desc = target.color.desc;
         if (!target.color.handle) return engine::noImage(desc.width, desc.height);
         try {
+            // Outside of the frame: callbacks of finished compilations may compile and destroy materials.
             engine.compilations.collect(engine.stream->replayedSubmissions());
             if (Result<void> drawn = drawFrame(scene, view, target); !drawn) return drawn;
+            // Only once the frame is recorded: what failed has drawn nothing.
             target.color.hasContents = true;
             if (target.depth) target.depth->hasContents = true;
             return {};

@@ -60,6 +60,8 @@ public:
     Release(Engine::Impl& engine, backend::CommandBuffer& commands) : mEngine(engine), mCommands(commands) {}
 
     void run() {
+        // Searched from the scenes now and then instead of counted at each change: scenes change each frame, and
+        // objects end rarely.
         findUses();
         instances();
         materials();
@@ -90,6 +92,7 @@ private:
     void materials() {
         mEngine.materials.releaseRetired([](scene::Material const& material) { return material.instanceCount > 0; },
                                          [&](Material, scene::Material& material) {
+                                             // The queue first: it would still make pipelines of the material.
                                              mEngine.compilations.forget(material);
                                              mEngine.pipelines.forget(mCommands, material);
                                              mEngine.materialNumbers.giveBack(material.id); // every cache forgot it
@@ -110,6 +113,7 @@ private:
 
     void textures() {
         if (!mEngine.textures.hasRetired()) return;
+        // Only if a texture waits: this walks all instances. By now those that were released no longer count.
         addUsesOfTextures(mEngine, mEngine.uses);
         mEngine.morphTargets.forEachHeld(
                 [&](MorphTargets, MorphTargetsState& state) { mEngine.uses.add(state.targets.deltas); });
@@ -138,6 +142,7 @@ void Engine::Impl::releaseRetired(backend::CommandBuffer& commands) {
                             indexBuffers.hasRetired() || morphTargets.hasRetired() || textures.hasRetired();
     try {
         if (hasRetired) engine::Release(*this, commands).run();
+        // Only after the whole run: what memory did not suffice for is tried again in the next frame.
         aUseEnded = false;
     } catch (std::bad_alloc const&) { // what is left waits for the next frame
     }

@@ -39,6 +39,7 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     std::vector<Node> nodes;
     nodes.reserve(parts.nodes.size());
     const auto at = [&](uint32_t index) { return index == Model::Impl::kRoot ? root : nodes[index]; };
+    // Nodes, then skins, then renderables: each names those before. The nodes of a file stand behind their parents.
     for (Model::Impl::PartNode const& node : parts.nodes) {
         nodes.push_back(add(NodeDesc{ at(node.parent), node.parentFromNode, node.name }));
     }
@@ -64,6 +65,7 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     }
     engine::setPickRules(parts, *mImpl, nodes);
     mImpl->copies.add({ root, shared, std::move(nodes), std::move(renderables), std::move(lights) });
+    // After the copy has been added: what it hides is noted there.
     if (!parts.properties.empty() || !parts.levels.empty()) engine::hideAsInFile(parts, *mImpl, root);
     return root;
 }

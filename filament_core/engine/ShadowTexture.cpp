@@ -52,6 +52,7 @@ void ShadowTexture::forget(prepare::ShadowPacket const& shadows) {
 
 void ShadowTexture::keep(prepare::ShadowPacket const& shadows) {
     if (shadows.maps.empty()) {
+        // Not at once: shadows that are switched off and on again would allocate the atlas each time.
         if (mDepths && ++mIdleFrames == kIdleFrames) release();
         return;
     }

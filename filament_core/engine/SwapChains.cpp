@@ -80,6 +80,7 @@ void Engine::Impl::resize(engine::SwapChainState& state, uint2 size) {
     if (size == state.size) return;
     const uint2 before = std::exchange(state.size, size);
     try {
+        // The new images before the old ones go: without memory the swap chain stays as it was.
         std::vector<Texture> images = createImages(*this, state, static_cast<uint32_t>(state.images.size()));
         images.swap(state.images);
         for (Texture image : images) destroy(image);
@@ -94,6 +95,7 @@ void Engine::Impl::present(engine::SwapChainState& state) {
     engine::TextureState const& image = textures.get(state.images[state.current]);
     if (!state.surface || !image.hasContents) return;
     auto& [older, newer] = state.presents;
+    // Two presentations behind: the app stays close to what is shown, and the driver thread still has work.
     stream->waitReplayed(older);
     FrameCommands commands(*stream);
     drainPending(*commands);

@@ -143,6 +143,7 @@ Texture Engine::Impl::createTexture(filament_core::TextureDesc const& desc, engi
     backend::DeviceTextureDesc created = state.desc;
     created.debugName = state.name;
     NewHandle handle(*stream, stream->allocateTexture());
+    // A texture without its texels would show what the memory held before: both commands are recorded, or none.
     AllOrNothing all(pending);
     pending.record(CmdCreateTexture{ handle, created });
     if (!desc.pixels.empty()) uploadPixels(pending, handle, desc, holder);

@@ -80,6 +80,7 @@ void uploadLevelsMadeHere(CommandBuffer& commands, TextureHandle texture, Device
 void Engine::Impl::updateBuffer(BufferHandle buffer, uint64_t offset, std::span<const std::byte> data) {
     AllOrNothing all(pending);
     pending.record(CmdUpdateBuffer{ buffer, offset, data });
+    // Before the commands are complete, since it may fail.
     contentVersions.changed(buffer);
     all.complete();
     ++instanceChanges;
@@ -91,6 +92,7 @@ void Engine::Impl::update(engine::VertexBufferState& state, std::span<const std:
     requireInside(firstVertex, data.size() / stride, state.vertexCount, "vertices");
     updateBuffer(state.handle, firstVertex * stride, data);
     const scene::MinMax changed = scene::boundsOf(state.layout, data);
+    // After a change in part, bounds only grow: which vertex reached the old ones is not known.
     if (data.size() / stride == state.vertexCount) state.bounds = {};
     if (!changed.empty()) state.bounds.add(changed.min), state.bounds.add(changed.max);
     state.boundsVersion = ++boundsChanges;

@@ -58,6 +58,7 @@ MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material
             map, mEngine.device.device, mEngine.stream->info().limits.maxTextureUnits);
     }
     const Material parent = materialFor(settings);
+    // The entry before the object: without one nothing would destroy it.
     mModel.instances.push_back({});
     const MaterialInstance instance = mModel.instances.back() = mEngine.createInstance(parent, material.name);
     mEngine.instances.get(instance).raster.cullingDisabled = material.doubleSided;

@@ -75,6 +75,7 @@ void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, assets::GltfOptions 
     std::vector<assets::MeshData>& meshes = model.data.meshes;
     model.shapes.resize(meshes.size());
     const auto isCancelled = [&] { return options.cancellation && options.cancellation->isRequested(); };
+    // Simplifying a mesh takes far longer than the rest.
     const size_t meshesOfJob = options.simplifies ? 1 : 8;
     jobs::parallelFor<"shapes">(jobs, meshes.size(), meshesOfJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)

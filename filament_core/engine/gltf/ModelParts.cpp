@@ -186,6 +186,7 @@ void findBoxes(Model::Impl const& model, scene::SceneData const& scene, CopyOfMo
             grow(model.renderables[i].ofNode,
                  scene.renderables.bounds.at(scene.renderables.index.at(copy.renderables[i])));
     }
+    // From the last to the first: children stand behind their parents, so each box is complete before it is passed on.
     for (size_t i = model.nodes.size(); i-- > 0;) {
         grow(model.nodes[i].parent, boxes[i]);
         grow(model.nodes[i].visibleWith, boxes[i]);

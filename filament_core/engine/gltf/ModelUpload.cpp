@@ -42,6 +42,8 @@ public:
     }
 
     std::unique_ptr<Model::Impl> finish() {
+        // Before the nodes: placing a mesh makes instances of volumes, which must be noted as animated, too. Profiles
+        // as well, which lights of nodes name.
         keepAnimated();
         for (assets::LightProfileData const& profile : mData.profiles) {
             mModel->profiles.push_back({});

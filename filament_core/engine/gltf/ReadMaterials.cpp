@@ -59,6 +59,7 @@ private:
 };
 
 void read(OfPackage& package, GltfMaterialChoice const& choice) {
+    // Once for each package: unpacking takes far longer than the copies for its other materials.
     shader::MaterialPackage unpacked = required(engine::unpackMaterial(materialDesc(package.settings.front(), choice)));
     for (size_t i = 0; i < package.settings.size(); ++i) {
         const bool isLast = i + 1 == package.settings.size();

@@ -86,6 +86,7 @@ std::string faultOf(Words const& words, spv::ExecutionModel stage, backend::Prog
     tools.SetMessageConsumer([&](spv_message_level_t, const char*, spv_position_t const&, const char* text) {
         if (complaint.empty()) complaint = text;
     });
+    // First: the walk below relies on a valid module.
     if (!tools.Validate(words.data(), words.size())) return complaint.empty() ? "it is not valid" : complaint;
     const Module module(words);
     if (module.stage() != stage || !module.hasMain()) return "it has no 'main' of this stage";

@@ -82,6 +82,7 @@ void CompileQueue::takeFrom(Queue& queue, backend::CommandBuffer& commands, uint
 }
 
 void CompileQueue::collect(uint64_t replayedSubmissions) {
+    // A pipeline counts as made once the driver thread has replayed its creation: drivers compile there.
     if (mSlice.empty() || replayedSubmissions < mSliceSubmission) return;
     const std::vector<Recorded> finished = std::exchange(mSlice, {});
     for (Recorded const& recorded : finished) mProgress[recorded.id - 1].done += recorded.count;
@@ -94,6 +95,7 @@ void CompileQueue::forget(scene::Material const& material) {
     for (Queue& queue : mQueues) {
         for (Waiting const& waiting : queue) {
             if (waiting.job.material != &material) continue;
+            // What is no longer made counts as done, so that progress ends.
             mProgress[waiting.id - 1].done += static_cast<uint32_t>(waiting.job.requests.size() - waiting.next);
         }
         std::erase_if(queue, [&](Waiting const& waiting) { return waiting.job.material == &material; });

@@ -60,6 +60,7 @@ Result<shader::MaterialPackage> unpackMaterial(MaterialDesc const& desc) {
     if (!package) {
         return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
     }
+    // Part of this program: only packages from elsewhere can be damaged.
     if (shader::isEnginePackage(desc.package)) return package;
     if (Result<void> checked = checkSpirv(*package); !checked) {
         return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
@@ -76,6 +77,7 @@ Result<scene::Material> specialiseMaterial(shader::MaterialPackage package, Mate
     if (shader::isEnginePackage(desc.package) && material.package.name.starts_with("gltf_"))
         material.optionalAttributes = kOptionalInGltf;
     material.constants = std::move(*constants);
+    // After the constants are known: they decide which textures are used.
     shader::removeUnusedTextures(material.package, material.constants);
     material.description = describeMaterial(material);
     return material;

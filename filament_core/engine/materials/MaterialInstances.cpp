@@ -47,6 +47,7 @@ void Engine::Impl::useTextureFilter(TextureFilter filter) {
         markDirty(handle);
         instance.lacksGroups = true;
     });
+    // Last: if memory runs out on the way, the next frame marks the rest.
     isInUse = true;
 }
 
@@ -144,6 +145,7 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
     if (package.uniformBytes > 0 && instance.parametersDirty) {
         commands.record(CmdUpdateBuffer{ instance.buffer, 0, instance.parameters });
     }
+    // Groups are immutable: another texture needs another group.
     if (instance.texturesDirty) destroyGroups(instance, commands);
     makeGroups(instance, commands);
     instance.parametersDirty = instance.texturesDirty = instance.lacksGroups = false;

@@ -105,12 +105,14 @@ private:
 };
 
 void dropBeaten(std::vector<BudgetPoint>& points) {
+    // Options last, which makes the order total: the choice is the same on every machine.
     std::ranges::sort(points, [](BudgetPoint const& a, BudgetPoint const& b) {
         return std::tie(a.nanoseconds, a.error, a.changes, a.options) <
                std::tie(b.nanoseconds, b.error, b.changes, b.options);
     });
     size_t kept = 0;
     for (size_t i = 0; i < points.size(); ++i) {
+        // Sorted by time, a point is of use only if its error is below that of all cheaper ones.
         if (kept > 0 && points[i].error >= points[kept - 1].error) continue;
         if (kept != i) points[kept] = std::move(points[i]);
         ++kept;
