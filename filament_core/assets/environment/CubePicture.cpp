@@ -59,6 +59,7 @@ Result<CubePicture> decodeCubePicture(std::span<const std::byte> ktx2, std::stri
     if (texture->image.format != backend::Format::RGBA32F)
         return fail(ErrorCode::Unsupported, "'{}' has 8 bits a channel, too few for light; {}", name, kCubeCure);
     HdrImage pixels = stackedFaces(texture->image);
+    // Before the border is filled and before any mean is taken: one NaN would spread to all coarser levels.
     sanitise(pixels);
     const uint32_t size = pixels.width;
     CubePicture picture{ IblCubeLevel(size), pixels.repairs };
@@ -75,6 +76,8 @@ Result<CubePicture> decodeCubePicture(std::span<const std::byte> ktx2, std::stri
 
 IblCube cubeFromPicture(CubePicture const& picture, uint32_t size, jobs::JobSystem& jobs) {
     FILAMENT_ASSERT(std::has_single_bit(size), "the size of a cube face is a power of two");
+    // Magnified to a power of two first and then halved: means of four texels use every texel of the file, which
+    // sampling a smaller size would not.
     const uint32_t start = std::max(std::bit_ceil(picture.radiance.size()), size);
     IblCube cube;
     cube.push_back(start == picture.radiance.size() ? picture.radiance : resampledFaces(picture.radiance, start, jobs));

@@ -73,6 +73,8 @@ Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::Jo
     report(options, "project", 1, 1);
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     EnvironmentData data;
+    // The coefficients come from the finest level, because coarser ones replace the light of a texel by its mean, which
+    // moves the sun by up to half of its size.
     data.irradianceSh = irradianceSh(cube.front(), jobs);
     const std::vector<IblCubeLevel> levels = prefilterSpecular(
             cube, options.faceSize, options.samples, jobs,
@@ -81,6 +83,7 @@ Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::Jo
     data.mapping = options.mapping;
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     EncodedCube specular = encodeCube(levels, options.format, jobs);
+    // The cube is as fine as the finer of its two uses; the sky takes the level that has its own size.
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
     EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
     data.specular = std::move(specular.image);
@@ -131,6 +134,7 @@ Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::string_
 
 Result<EnvironmentData> loadThroughCache(std::span<const std::byte> picture, std::string_view name,
                                          jobs::JobSystem& jobs, EnvironmentOptions const& options) {
+    // Files that hold a baked environment are recognised first: nothing is computed for them, so they need no cache.
     if (isBakedEnvironment(picture)) return readBaked(picture, name);
     if (isKtx2(picture)) {
         const Result<Ktx2File> file = readKtx2(picture, name);
@@ -146,14 +150,18 @@ Result<EnvironmentData> loadThroughCache(std::span<const std::byte> picture, std
     Result<EnvironmentData> cached = readCached(file, key);
     if (cached) cached->mapping = options.mapping;
     if (cached) return cached;
+    // A missing file is the usual case and no reason for a warning.
     if (cached.error().code == ErrorCode::Corrupt) {
         log(Severity::Warning, "'{}': {}; baking again", file.string(), cached.error().message);
     }
     Result<EnvironmentData> baked = bakePicture(picture, name, jobs, options);
     if (!baked) return baked;
+    // An environment that cannot be cached is still complete: a full disk only costs the time of the next start.
     if (Result<void> written = replaceFile(file, encodeEnvironment(*baked, key)); !written) {
         log(Severity::Warning, "environment is not cached: {}", written.error().message);
     }
+    // A process that ended while it wrote has left a temporary file behind. Only a writer looks for those, because a
+    // reader should not pay for listing the directory.
     removeLeftovers(directory);
     return baked;
 }

@@ -117,6 +117,8 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     if (bytes.size() < sizeof(header)) return corrupt("is cut short");
     std::memcpy(&header, bytes.data(), sizeof(header));
     if (header.magic != kMagic || header.key != key) return corrupt("belongs to something else");
+    // The header is checked first, because sizes are computed from it; the size of the file before the checksum,
+    // because a file that is cut short needs no pass over its bytes; memory is requested only after both.
     if (!isPlausible(header)) return corrupt("has an impossible size");
     EnvironmentData data;
     data.specular = emptyImage(header.specular);
@@ -135,6 +137,7 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
         texels = texels.subspan(own.size());
     }
     std::memcpy(data.irradianceSh.data(), header.irradianceSh.data(), sizeof(header.irradianceSh));
+    // Follows from the cube, so it is not stored: a file cannot contradict itself there.
     data.levelOfRoughnessOne = static_cast<float>(data.specular.levels - 1);
     data.statistics = { header.sourceWidth,
                         header.sourceHeight,

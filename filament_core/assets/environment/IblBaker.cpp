@@ -129,6 +129,7 @@ std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSi
     const uint32_t count = specularLevelCount(faceSize);
     const auto last = static_cast<float>(count - 1);
     const IblTree tree(cube, jobs);
+    // Level 0 is the mirror: a lobe of roughness 0 has no width, so the environment itself is its answer.
     std::vector<IblCubeLevel> levels{ cube[std::bit_width(cube.front().size() / faceSize) - 1u] };
     for (uint32_t i = 1; i < count; ++i) {
         if (progress) progress(i, count);
@@ -171,6 +172,8 @@ IblCubeLevel irradianceCube(IblCubeLevel const& level, uint32_t faceSize, jobs::
                 light += source.light * weight;
                 weights += weight;
             }
+            // The sum of the weights is pi only up to the error of the quadrature. Dividing by it keeps a constant sky
+            // constant.
             irradiance.at(face, x, y) = Texel{ light.x, light.y, light.z, 0 } / splat(weights);
         }
     });
@@ -181,6 +184,8 @@ IblCubeLevel irradianceCube(IblCubeLevel const& level, uint32_t faceSize, jobs::
 std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& jobs) {
     const uint32_t size = level.size();
     const std::vector<float> solidAngles = texelSolidAngles(size);
+    // Every row has its own sums, which one thread adds up afterwards: the order of additions, and with it the last
+    // bits, must not depend on the number of workers.
     std::vector<ShSums> rows(size_t(6) * size);
     jobs::parallelFor<"project SH">(jobs, rows.size(), 4, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {
@@ -219,6 +224,7 @@ EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format for
         const std::vector<float> solidAngles = texelSolidAngles(levelSize);
         std::byte* const out = result.image.data.data() + result.image.levelOffset(i);
         const size_t rowBytes = size_t(levelSize) * backend::formatInfo(format).bytesPerBlock;
+        // As in irradianceSh(): sums by row, so that the statistics do not depend on the number of workers.
         std::vector<RowLoss> rows(size_t(6) * levelSize);
         jobs::parallelFor<"encode cube">(jobs, rows.size(), 2, [&](size_t begin, size_t end) {
             for (size_t row = begin; row < end; ++row) {

@@ -20,6 +20,8 @@ HdrImage widenedTowardsPoles(HdrImage const& image, jobs::JobSystem& jobs) {
     wide.pixels.resize(image.pixels.size());
     jobs::parallelFor<"environment rows">(jobs, image.height, kCubeRowsPerJob, [&](size_t begin, size_t end) {
         const auto width = static_cast<int>(image.width);
+        // A span may be as wide as a turn and begin at any column, so it reaches into the turn before and the turn
+        // after. Doubles, because a mean is the difference of two sums over all of the row.
         std::vector<double3> sums(static_cast<size_t>(width) * 3 + 1); // running sums of three turns
         for (size_t y = begin; y < end; ++y) {
             const float3* const row = &image.at(0, static_cast<uint32_t>(y));
@@ -109,6 +111,8 @@ void IblCubeLevel::fillBorder() {
             at(face, -1, i) = beyondEdge(face, -1, i);
             at(face, last + 1, i) = beyondEdge(face, last + 1, i);
         }
+        // Corners come after the edges, from which they are computed: three faces meet there, so there is no fourth
+        // texel.
         for (const int y : { -1, last + 1 }) {
             for (const int x : { -1, last + 1 }) {
                 const int inX = std::clamp(x, 0, last), inY = std::clamp(y, 0, last);
@@ -144,6 +148,8 @@ std::vector<float> texelSolidAngles(uint32_t size) {
     for (size_t y = 0; y < corners; ++y) {
         for (size_t x = 0; x < corners; ++x) {
             const double s = 2.0 * static_cast<double>(x) / size - 1.0, t = 2.0 * static_cast<double>(y) / size - 1.0;
+            // The corners of a texel are shared by four, so the solid angle from the centre of the face to a corner is
+            // computed once and differences follow.
             sums[y * corners + x] = cornerSolidAngle(s, t);
         }
     }
@@ -170,6 +176,8 @@ IblCubeLevel halved(IblCubeLevel const& level, jobs::JobSystem& jobs) {
                 float weightSum = 0;
                 for (uint32_t corner = 0; corner < 4; ++corner) {
                     const uint32_t fromX = 2 * x + (corner & 1), fromY = 2 * y + (corner >> 1);
+                    // Texels near the corners of a face cover less of the sphere. Plain means would make the light of a
+                    // level differ from that of the level before.
                     const float weight = weights[size_t(fromY) * level.size() + fromX];
                     sum += level.at(face, static_cast<int>(fromX), static_cast<int>(fromY)) * splat(weight);
                     weightSum += weight;

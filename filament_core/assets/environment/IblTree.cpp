@@ -111,10 +111,12 @@ IblTree::Level IblTree::parentsOf(Level const& children, jobs::JobSystem& jobs) 
 
 IblTree::IblTree(IblCube const& cube, jobs::JobSystem& jobs) {
     size_t leaf = 0;
+    // At 53 bytes a texel, leaves of 1024 texels a side would take 330 MB.
     while (cube[leaf].size() > kMaxLeafSize) ++leaf;
     FILAMENT_ASSERT(cube[leaf].size() >= kCoarsestSize, "an environment has 8 texels a face side or more");
     mLevels.push_back(leavesOf(cube[leaf], jobs));
     while (mLevels.back().size > kCoarsestSize) mLevels.push_back(parentsOf(mLevels.back(), jobs));
+    // Built from the leaves up, walked from the root down.
     std::reverse(mLevels.begin(), mLevels.end());
 }
 
@@ -123,6 +125,7 @@ void IblTree::addQuad(size_t levelIndex, size_t quadIndex, float3 axis, Lobe con
     Quad const& quad = level.quads[quadIndex];
     const Texel cosine = quad.x * splat(axis.x) + quad.y * splat(axis.y) + quad.z * splat(axis.z);
     const float size = 2.0f / static_cast<float>(level.size); // radians, at the largest texels of a face
+    // A node below the horizon by more than its size has no part above it.
     const Mask above = cosine > splat(-size);
     Mask whole = above;
     if (levelIndex + 1 < mLevels.size()) {
@@ -155,6 +158,8 @@ void IblTree::addQuad(size_t levelIndex, size_t quadIndex, float3 axis, Lobe con
 float3 IblTree::integrate(float3 axis, Lobe const& lobe) const {
     Sums sums;
     for (size_t quad = 0; quad < mLevels.front().quads.size(); ++quad) addQuad(0, quad, axis, lobe, sums);
+    // The same nodes are in both sums, so what the pieces miss of the lobe cancels, and a constant sky stays constant
+    // up to rounding.
     return float3(sumOf(sums.red), sumOf(sums.green), sumOf(sums.blue)) / sumOf(sums.weight);
 }
 

@@ -106,6 +106,7 @@ Result<void> computeNormals(Mesh& mesh) {
         const auto place = [&](size_t corner) { return double3(mesh.vertices[at(corner)].position); };
         const double3 area = glm::cross(place(1) - place(0), place(2) - place(0));
         const double twice = glm::length(area);
+        // A triangle without area has no direction; the form of the test also skips NaN.
         if (!(twice > 0)) continue;
         for (size_t c = 0; c < 3; ++c) sums[at(c)] += area / twice * cornerAngle(place(c), place(c + 1), place(c + 2));
     }

@@ -213,6 +213,8 @@ std::vector<SimplifiedLevel> simplifyMesh(MeshToSimplify const& mesh) {
     const Welded whole = welded(mesh);
     std::vector<uint32_t> finest = whole.indices;
     for (uint32_t& index : finest) index = whole.vertexOf[index];
+    // Errors are measured against the mesh itself. The error that meshoptimizer reports is one against its own input,
+    // which here is the level before.
     const LevelError measure(mesh, finest);
     std::vector<uint32_t> last = whole.indices;
     double error = 0;
@@ -220,8 +222,11 @@ std::vector<SimplifiedLevel> simplifyMesh(MeshToSimplify const& mesh) {
         std::vector<uint32_t> level = halved(whole.positions, last);
         if (level.empty() || level.size() * 4 > last.size() * 3) break;
         std::vector<uint32_t> indices = levelIndices(whole, level);
+        // Starts with the error of the level before: errors never fall from level to level, as the choice of a level
+        // expects.
         error = measure.of(indices, error);
         if (!(error <= static_cast<double>(size * kLargestError))) break;
+        // The next float above, because rounding to the nearest could state less than was measured.
         levels.push_back({ std::move(indices), std::nextafter(static_cast<float>(error), HUGE_VALF) });
         last = std::move(level);
     }

@@ -93,6 +93,7 @@ std::vector<uint32_t> findNeighbors(std::vector<uint32_t> const& vertices, std::
         const uint32_t a = vertices[c], b = vertices[nextCorner(c)];
         edges.push_back({ std::min(a, b), std::max(a, b), c });
     }
+    // With the corner as the last key the order is total: it must not depend on the standard library.
     std::sort(edges.begin(), edges.end(), [](Edge const& a, Edge const& b) {
         if (a.low != b.low) return a.low < b.low;
         return a.high != b.high ? a.high < b.high : a.corner < b.corner;
@@ -191,6 +192,7 @@ float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& gro
 void adoptDegenerateCorners(std::vector<uint32_t> const& vertices, Groups& groups) {
     std::vector<uint32_t> groupOfVertex(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1,
                                         kNone);
+    // Backwards, so that the group of a vertex's first corner is what remains.
     for (size_t c = vertices.size(); c-- > 0;) {
         if (groups.ofCorner[c] != kNone) groupOfVertex[vertices[c]] = groups.ofCorner[c];
     }
@@ -253,6 +255,7 @@ TangentOutput generateTangents(TangentInput const& input) {
     Groups groups = buildGroups(neighbors, triangles);
     std::vector<float4> tangents(groups.keepsOrientation.size());
     for (uint32_t g = 0; g < tangents.size(); ++g) tangents[g] = groupTangent(g, input, groups, vertices, triangles);
+    // After the tangents are known: a triangle without area contributes none, it only follows.
     adoptDegenerateCorners(vertices, groups);
     return splitVertices(input, groups, tangents);
 }

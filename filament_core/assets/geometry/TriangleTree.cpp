@@ -20,6 +20,8 @@ double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 } // namespace
 
 TrianglePoint nearestPoint(double3 const& point, double3 const& a, double3 const& b, double3 const& c) {
+    // Ericson 2004, "Real-Time Collision Detection", section 5.1.5: the regions of corners and edges in this order. A
+    // test relies on those before it, so it cannot be moved.
     const double3 ab = b - a, ac = c - a;
     const double3 ap = point - a, bp = point - b, cp = point - c;
     const double abA = glm::dot(ab, ap), acA = glm::dot(ac, ap);
@@ -83,8 +85,11 @@ uint32_t TriangleTree::build(uint32_t begin, uint32_t end) {
     std::nth_element(mTriangles.begin() + begin, mTriangles.begin() + middle, mTriangles.begin() + end,
                      [&](Triangle const& a, Triangle const& b) {
                          const float ofA = middleOf(a), ofB = middleOf(b);
+                         // Equal middles are ordered by their indices: std::nth_element() may place equal ones as it
+                         // likes, and the tree must be the same with every standard library.
                          return ofA != ofB ? ofA < ofB : a < b;
                      });
+    // The first child follows its parent directly, so a node stores only where the second one is.
     build(begin, middle);
     const uint32_t second = build(middle, end);
     mNodes[number].first = second;

@@ -86,6 +86,7 @@ std::vector<DetailLevel> addDetailLevels(PrimitiveData& primitive) {
     if (primitive.topology != backend::PrimitiveType::Triangles || primitive.splats) return levels;
     const bool isSmall = primitive.indexFormat == backend::IndexFormat::UInt16;
     std::vector<uint32_t> indices = scene::indicesOf(primitive.indexFormat, primitive.indices);
+    // Left-over corners form no triangle, and the simplifier takes whole ones.
     indices.resize(indices.size() / 3 * 3);
     const std::vector<float3> positions = scene::positionsOf(primitive.layout, primitive.vertices);
     if (positions.size() != primitive.vertexCount) return levels;
@@ -101,6 +102,7 @@ std::vector<DetailLevel> addDetailLevels(PrimitiveData& primitive) {
                                                                    .stride = primitive.layout.buffers[0].stride,
                                                                    .displacements = displacements,
                                                                    .influences = influences });
+    // All levels share the vertices of the primitive, so their indices follow in the same buffer, in its format.
     auto first = static_cast<uint32_t>(primitive.indices.size() / (isSmall ? 2 : 4));
     for (SimplifiedLevel const& level : simplified) {
         const auto count = static_cast<uint32_t>(level.indices.size());

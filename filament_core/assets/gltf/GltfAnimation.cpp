@@ -154,6 +154,7 @@ private:
             return std::nullopt;
         }
         sampler.isRotation = channel.path == AnimationPath::Rotation;
+        // The count is checked before keys are repaired: dropping a key drops its values, too.
         if (!hasItsValues(sampler, path)) return std::nullopt;
         const KeyRepairs repairs = mendKeys(sampler);
         if (sampler.times.empty()) {

@@ -65,6 +65,7 @@ void decompressViews(GltfDocument& document, std::vector<CompressedView>& compre
                                        fmt::format("bufferViews[{}]", item.view), item.diagnostics);
         }
     });
+    // On one thread and in the order of the views, for the same reports with any number of workers.
     for (CompressedView& item : compressed) {
         settle(std::move(item.diagnostics), document.use.has(GltfArray::Views, static_cast<uint32_t>(item.view)),
                diagnostics);

@@ -90,6 +90,7 @@ void applySkin(std::span<const float4x4> worldFromBind, std::string const& path,
     for (size_t i = 0; i < geometry.positions.size(); ++i) {
         const float4x4 matrix = blendJoints(worldFromBind, geometry, i, isInRange);
         const float3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
+        // normalMatrix() is the inverse transpose times the determinant, which is negative for a matrix that mirrors.
         const float mirror = glm::dot(x, glm::cross(y, z)) < 0 ? -1.0f : 1.0f;
         mirrored += mirror < 0;
         geometry.positions[i] = float3(matrix * float4(geometry.positions[i], 1.0f));
@@ -103,6 +104,7 @@ void applySkin(std::span<const float4x4> worldFromBind, std::string const& path,
         }
     }
     geometry.positionFormat = backend::VertexFormat::Float3;
+    // The winding belongs to triangles, mirroring to vertices: the majority decides for the whole primitive.
     if (mirrored * 2 > geometry.positions.size() && geometry.topology == backend::PrimitiveType::Triangles) {
         reverseTriangles(geometry);
     }

@@ -103,6 +103,8 @@ void keepSkin(size_t jointCount, std::string const& path, GltfGeometry& geometry
         diagnostics.warn("{}: is skinned but has no joints or weights, and is drawn as it is", path);
         return;
     }
+    // Scaled weights are not the integers that the file has, so they need floats. The format is chosen for the whole
+    // primitive, before the first vertex is repaired.
     if (!sumToOne(geometry)) geometry.weightFormat = backend::VertexFormat::Float4;
     for (size_t i = 0; i < geometry.positions.size(); ++i) {
         if (repairVertex(geometry, i, jointCount)) continue;

@@ -74,6 +74,8 @@ struct Content {
     }
 
     void mergeDiagnostics(Diagnostics& diagnostics) {
+        // Every job has its own diagnostics, merged here in the order of the file: which fault is reported must not
+        // depend on which worker was first.
         for (GltfPrimitiveJob& job : primitives) diagnostics.merge(std::move(job.diagnostics));
         for (GltfImageJob& job : textures.jobs) diagnostics.merge(std::move(job.diagnostics));
         for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
@@ -94,6 +96,7 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, Content& 
     Progress progress(options, GltfStage::Content, content.jobCount());
     makeLevels(document, content.environment);
     GltfTextures& textures = content.textures;
+    // The calling thread forks one job for each image, so it takes a deque of its own instead of the shared queue.
     const jobs::AdoptedThread seat(jobs);
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
@@ -139,6 +142,7 @@ void readImages(GltfDocument const& document, GltfFolder const& folder, Content&
     });
     if (!goesOn(options, diagnostics)) return;
     for (GltfImageSource* source : sources) diagnostics.merge(std::move(source->diagnostics));
+    // The headers tell the sizes, so files that need too much memory are refused before anything is decoded.
     if (diagnostics.ok()) checkImageBudget(content.textures, diagnostics);
     if (diagnostics.ok()) checkFaces(document, content.environment, diagnostics);
 }
@@ -191,6 +195,8 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     if (!goesOn(options, diagnostics)) return {};
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!goesOn(options, diagnostics)) return {};
+    // The plan of the scene depends on both: nodes that an animation shows are needed even if they are hidden at rest,
+    // and levels that are in no scene become siblings of their finest one.
     if (options.deformation == GltfDeformation::Kept) keepAnimated(document);
     if (options.levels == GltfLevels::All) adoptLevels(document);
     GltfScene scene = planScene(document, options.deformation, options.levels, diagnostics);
@@ -200,6 +206,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     structure.step();
 
     std::vector<uint32_t> newMaterial;
+    // After the list of meshes: only materials that the scene shows are resolved, and only their images decoded.
     content.textures =
             planTextures(document, folder, usedMaterials(document, scene), options.normals, newMaterial, diagnostics);
     content.environment = planEnvironment(document);
@@ -235,6 +242,8 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     model.skins = std::move(scene.skins);
     addProfiledLights(std::move(scene.profiledLights), std::move(profiles), document.lights, model);
     model.variants = std::move(document.variants);
+    // Last, because the value at rest of an animated property is read from the finished nodes, materials, lights and
+    // cameras.
     addAnimations(std::move(animations), newMaterial, model);
     model.warnings = diagnostics.takeWarnings();
     return model;

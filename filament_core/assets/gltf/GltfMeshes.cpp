@@ -44,21 +44,27 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     if (primitive.splats) return buildSplats(document, primitive, path, diagnostics);
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
+    // The list comes first, because everything below takes whole triangles, and it checks all indices. Morph targets
+    // come before the skin, whose matrices start from the morphed mesh, as in the shader.
     makeList(primitive, path, geometry, diagnostics);
     if (diagnostics.ok()) repairDirections(path, geometry, diagnostics);
     if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
     if (!diagnostics.ok() || geometry.indices.empty()) return {};
+    // Not before the morph targets: their accessors have an element for every vertex of the file.
     dropUnusedVertices(geometry);
     if (request.keepsSkin)
         keepSkin(request.worldFromBind.size(), path, geometry, diagnostics);
     else if (request.skin != kNone)
         applySkin(request.worldFromBind, path, geometry, diagnostics);
     if (!diagnostics.ok()) return {};
+    // After morphing and skinning, either of which can overflow.
     dropNonFinite(path, geometry, diagnostics);
     if (geometry.indices.empty()) return {};
+    // Normals come before tangents, which lie in their planes.
     addFlatNormals(geometry);
     std::optional<TangentBasis> basis = tangentBasis(document, primitive);
     if (basis) basis = addTangents(geometry, *basis);
+    // Before packing, which may round the positions and takes the geometry.
     std::vector<float3> atRest = positionsAtRest(geometry, request.weights, request.worldFromBind);
     const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
     PrimitiveData packed = packGeometry(std::move(geometry), storage);

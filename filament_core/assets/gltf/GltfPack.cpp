@@ -278,6 +278,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     const std::vector<float4> others = otherUvs(geometry);
     const uint16_t uv23 = add(!others.empty(), shader::kAttributeCustom0, VertexFormat::Float4);
     const SkinOffsets skin = geometry.isSkinned ? addJoints(geometry, interleaver) : SkinOffsets{};
+    // All attributes are added before the first write: every one changes the stride.
     interleaver.allocate();
     interleaver.write(geometry.positions, position, geometry.positionFormat);
     interleaver.write(framesOf(geometry, storage.tangents), frame, formatOf(storage.tangents));

@@ -172,6 +172,8 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
     NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
     std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
     if (source.skin != kNone) {
+        // Section 3.7.3.3: the node's own transform does not move a skinned mesh, so it gets a node without parents,
+        // which only its visibility ties to the original.
         if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // an index of the file; see collectSkins()
         own.visibleWith = at;
         meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
@@ -247,6 +249,7 @@ private:
         bool isAboveVisible;   // all nodes above
     };
     void push(std::vector<uint32_t> const& nodes, uint32_t parent, bool isVisible) {
+        // Backwards onto a stack, so that nodes come out in the order of the file and parents before their children.
         for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent, isVisible });
     }
 
@@ -329,6 +332,7 @@ void collectSkins(GltfDocument const& document, std::vector<double4x4> const& wo
                   GltfScene& scene, Diagnostics& diagnostics) {
     std::map<uint32_t, uint32_t> known; // index in the file -> index in the scene
     const std::vector<uint32_t> parents = parentsOf(document);
+    // The loop adds nodes that only serve as joints; they have no skins themselves.
     const size_t shown = scene.nodes.size();
     for (size_t i = 0; i < shown && diagnostics.ok(); ++i) {
         const uint32_t source = scene.nodes[i].skin;

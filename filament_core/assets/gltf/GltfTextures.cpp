@@ -110,6 +110,8 @@ private:
     bool haveOneSize(TextureRef const& a, TextureRef const& b) { return sizeOf(a.image) == sizeOf(b.image); }
     uint2 sizeOf(uint32_t image) {
         GltfImageSource& source = mTextures.sources[sourceFor(image)];
+        // Whether two images can be packed depends on their sizes, so these are read while planning. Others are read by
+        // all workers later.
         if (!source.isRead) readImage(mDocument, mFolder, source);
         return source.size;
     }
@@ -246,6 +248,7 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
         warnAboutTransfer(document, source, texture->isSrgb, job);
         if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);
         uint32_t uses = job.useCount();
+        // An image may be both a colour and data. The last use takes it; only the others copy.
         const auto take = [&] { return --uses == 0 ? std::move(*texture) : *texture; };
         if (job.colorTexture != kNone) job.color = withAllLevels(take(), true, maxSize);
         if (job.dataTexture != kNone) job.data = withAllLevels(take(), false, maxSize);

@@ -23,6 +23,7 @@ Indices listFromStrip(Indices const& strip) {
 
 Indices listFromFan(Indices const& fan) {
     Indices list;
+    // Section 3.7.2.1 gives this order of the corners: the centre is the last one.
     for (size_t i = 1; i + 1 < fan.size(); ++i) list.insert(list.end(), { fan[i], fan[i + 1], fan[0] });
     return list;
 }
@@ -100,6 +101,7 @@ void makeList(GltfPrimitive const& primitive, std::string const& path, GltfGeome
     Indices& indices = geometry.indices;
     if (indices.empty()) return;
     for (const uint32_t index : indices) {
+        // The only check of the indices: after it, no step tests them again.
         if (index < geometry.positions.size() || (primitive.restarts && index == kNone)) continue;
         diagnostics.refuse(ErrorCode::Corrupt, "{}.indices: {} is out of range, there are {} vertices", path, index,
                            geometry.positions.size());
@@ -134,7 +136,9 @@ void dropUnusedVertices(GltfGeometry& geometry) {
 
 void addFlatNormals(GltfGeometry& geometry) {
     if (geometry.topology != PrimitiveType::Triangles || !geometry.normals.empty()) return;
+    // Section 3.7.2.1: without normals, flat ones are used and the tangents of the file are ignored.
     geometry.tangents.clear();
+    // A vertex has one normal, so flat ones need a vertex for every corner.
     const Indices corners = std::move(geometry.indices);
     reorderVertices(geometry, corners);
     geometry.indices.resize(corners.size());

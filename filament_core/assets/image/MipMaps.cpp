@@ -116,6 +116,8 @@ void fillLevels(Image& image, uint32_t layer, Encoding const& encoding) {
         return &image.data[image.levelOffset(level) + layer * (image.levelBytes(level) / image.layers)];
     };
     if (image.levels == 1) return;
+    // Each level is computed from the 16-bit light of the one before, not from its 8-bit codes: the rounding of all
+    // levels would add up.
     Level level = halveCodes(layerOf(0), image.width, image.height, encoding);
     for (uint32_t i = 1; i < image.levels; ++i) {
         encodeLevel(level, encoding, layerOf(i));
@@ -174,6 +176,7 @@ Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize) {
                 level.texels.size(), [&](size_t at) { return shareOfDeepCode(level.texels[at]); },
                 &image.data[image.levelOffset(i)]);
     }
+    // Last, because the levels that stay are means of those that are dropped.
     dropLargeLevels(image, maxSize);
     return image;
 }

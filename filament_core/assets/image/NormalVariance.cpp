@@ -59,6 +59,8 @@ NormalMeans halveNormals(uint32_t sourceWidth, uint32_t sourceHeight, Row const&
                 double3 ofRow(0.0);
                 for (uint32_t j = 0; j < horizontal.count; ++j)
                     ofRow += horizontal.weight<double>(j) * rows[i][horizontal.first + j];
+                // Means stay as long as they are. The shorter one is, the more the normals below it differ, so the next
+                // level needs the length too.
                 mean += vertical.weight<double>(i) * ofRow;
             }
             level.means.push_back(mean);
@@ -112,6 +114,7 @@ Image withNormalVariance(Image image, uint32_t maxSize) {
     FILAMENT_ASSERT((image.format == backend::Format::RGBA8 || image.format == backend::Format::RGBA16F) &&
                             image.layers == 1 && image.levels == backend::fullMipCount(image.width, image.height),
                     "withNormalVariance takes an image of data with all levels");
+    // The first level has one normal a texel. Its variance is 0, whatever the alpha channel of the file holds.
     clearVariance(image);
     NormalMeans normals;
     for (uint32_t i = 1; i < image.levels; ++i) {
