@@ -29,6 +29,8 @@ void occludeAmbientLight(TracedScene const& scene, ReferenceSettings const& sett
     double open = 0;
     double3 mean(0.0);
     for (uint32_t i = 0; i < settings.occlusionRays; ++i) {
+        // Hammersley's points, the same for each sample, shifted on the torus by random numbers: Cranley and Patterson
+        // 1976, "Randomization of Number Theoretic Methods for Multiple Integration".
         const double2 even((i + 0.5) / settings.occlusionRays, sobol::unitFromBits(sobol::reversed(i)));
         const double3 local = cosineWeighted(onTorus(even + turn));
         const double3 direction = x * local.x + y * local.y + n * local.z;

@@ -173,9 +173,11 @@ BsdfSample Bsdf::sample(double2 u, double choice) const {
     while (part < kBase && choice >= mChances[part]) choice -= mChances[part++];
     const auto chosen = static_cast<Part>(part);
     if (chosen == kTransmission && mTransmission->isStraight()) return { double3(0.0), mChances[part], true };
+    // What is left of the number is uniform again, and serves the choice within the part.
     const double rest = std::clamp(choice / mChances[part], 1e-12, 1 - 1e-12);
     const std::optional<double3> direction = sampleOf(chosen, u, rest);
     if (!direction) return {};
+    // The density of all parts, not of the chosen one alone: any of them could have given this direction.
     return { *direction, pdf(*direction) };
 }
 

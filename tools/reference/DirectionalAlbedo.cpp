@@ -56,6 +56,7 @@ public:
         double inside = 0, outside = pi / 2;
         double above = reflection(inside, azimuth).nol, below = reflection(outside, azimuth).nol;
         if (below > 0) return outside;
+        // Dowell and Jarratt 1971, "A Modified Regula Falsi Method for Computing the Root of an Equation".
         for (int step = 0; step < 8; ++step) { // Illinois method: secant, halving the retained end
             const double middle = inside + (outside - inside) * above / (above - below);
             const double nol = reflection(middle, azimuth).nol;

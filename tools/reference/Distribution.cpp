@@ -27,6 +27,7 @@ Picked Distribution::pick(double u) const {
     const auto above = std::upper_bound(mCumulative.begin() + 1, mCumulative.end() - 1, u);
     const auto index = static_cast<uint32_t>(above - mCumulative.begin()) - 1;
     const double share = probability(index);
+    // The position within the item's share is uniform, too, and saves the caller a number.
     const double inside = share > 0 ? (u - mCumulative[index]) / share : 0;
     return { index, share, std::clamp(inside, 0.0, 1 - 0x1p-53) };
 }

@@ -101,6 +101,7 @@ EnvironmentSample EnvironmentLight::sample(double2 u) const {
     const Picked row = mRowChoice.pick(u.y);
     const Picked column = mColumnChoice[row.index].pick(u.x);
     const double cosTop = std::cos(pi * row.index / mRows), cosBottom = std::cos(pi * (row.index + 1) / mRows);
+    // Uniform in the cosine of the polar angle is uniform in solid angle.
     const double y = cosTop + (cosBottom - cosTop) * row.remainder;
     const double azimuth = (0.5 - (column.index + column.remainder) / mColumns) * 2 * pi;
     const double radius = std::sqrt(std::max(0.0, 1 - y * y));

@@ -133,6 +133,7 @@ Result<Intersector> Intersector::build(std::span<const Part> parts) {
     if (!device) return embreeFailure(rtcGetDeviceError(nullptr));
     Intersector intersector(rtcNewScene(device)); // keeps a reference to the device
     const auto scene = static_cast<RTCScene>(intersector.mScene.get());
+    // Else a ray could slip between two triangles along their common edge.
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     bool isComplete = true;

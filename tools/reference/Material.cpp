@@ -103,6 +103,7 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     }
     if (part.finish) part.finish(surface);
     TransmissionSample& below = surface.transmission;
+    // After the finish, which may make a surface transmit.
     below.isFromInside = side < 0 && !below.isThin && below.color != double3(0.0);
     if (surface.medium) surface.medium->isFromInside = side < 0;
     return surface;

@@ -150,6 +150,8 @@ void addMedium(MaterialPoint const& point, SurfaceSample& surface) {
 } // namespace
 
 void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, SurfaceSample& surface) {
+    // In this order: the coat keeps the f0 found here, the film lies under the coat, and diffuse transmission takes its
+    // share of what transmission leaves.
     weighReflectance(point, baseColor, surface);
     addAnisotropy(point, roughness, surface);
     addClearCoat(point, surface);

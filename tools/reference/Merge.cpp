@@ -125,7 +125,9 @@ Result<MergedPicture> mergeParts(std::vector<std::filesystem::path> const& files
         if (!header) return header.error();
         parts.push_back({ file, std::move(*header) });
     }
+    // The headers first: a missing part shows before gigabytes of pixels are read.
     if (const Result<void> checked = checkParts(parts); !checked) return checked.error();
+    // FilmMerger adds the nodes of a pixel in the order of their passes.
     std::ranges::stable_sort(parts, {}, [](FilmPart const& part) { return part.header.region.passes.first; });
     PictureSettings const& settings = parts.front().header.settings;
     FilmMerger merger(settings.size, settings.plan);

@@ -67,6 +67,7 @@ void meetPart(SurfaceSample& surface, double u) {
         scaleDielectric(surface, 1 / dielectric, 1 / dielectric);
         chooseSheet(surface, mixture.transmitted, (u - metallic) / dielectric);
     }
+    // The coat lies over the part that was met, not over the mixture.
     surface.coat.bareF0 = surface.f0;
 }
 

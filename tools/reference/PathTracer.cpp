@@ -70,6 +70,7 @@ PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settin
 double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const {
     Path path{ .ray = ray, .numbers = numbers, .rays = rays };
     const std::optional<SurfaceSample> first = nextSurface(path);
+    // Of the light that reaches the camera: blended surfaces in front may have let only a part through.
     const double3 share = path.throughput;
     const double distance = first ? path.hit.distance : std::numeric_limits<double>::infinity();
     const double3 light = follow(path, first);
@@ -102,11 +103,14 @@ double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) con
     for (; surface; surface = nextSurface(path)) {
         if (!crossMedium(path, surface)) return sum;
         if (!surface) break;
+        // Absorbed on the way here, whatever part of the surface is met: so before the choice of the part.
         if (surface->transmits()) enterSurface(path, *surface);
         if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
+        // The film changes the f0 of the part that was met.
         coverWithFilm(*surface);
         if (mSettings.occlusionRadius > 0 && surface->scatters && surface->opacity >= 1)
             occludeAmbientLight(mScene, mSettings, path.numbers, kOpenDirections, *surface, path.rays);
+        // Before the limit of bounces: what a surface emits is seen where a path ends, too.
         sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
         const Bsdf bsdf = bsdfAt(*surface);
@@ -120,6 +124,7 @@ double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) con
 bool PathTracer::crossMedium(Path& path, std::optional<SurfaceSample>& surface) const {
     const bool isInside = surface->medium && surface->medium->isFromInside;
     if (!isInside || mSettings.integrator == Integrator::Unoccluded) return true;
+    // That of the point of entry: maps may give the exit another colour.
     const MediumSample medium = path.medium.value_or(*surface->medium);
     while (surface) {
         const uint32_t dimension = kFlights + path.flights++ * kPairsOfFlight;
@@ -128,6 +133,7 @@ bool PathTracer::crossMedium(Path& path, std::optional<SurfaceSample>& surface) 
         if (!flight.scatters) return true;
         const double largest = std::max({ path.throughput.x, path.throughput.y, path.throughput.z }) * path.spread;
         if (!(largest > 0) || path.flights >= kMostFlights) return false;
+        // Dark paths only: roulette at each of the many flights in a bright medium would add noise.
         if (path.flights > kScatterRouletteFrom && largest < 0.5) {
             if (path.numbers.pair(dimension + 1).x >= 2 * largest) return false;
             path.throughput /= 2 * largest;
@@ -151,6 +157,7 @@ void PathTracer::enterSurface(Path& path, SurfaceSample& surface) const {
         if (mSettings.bsdf.solidTint == SolidTint::Once) below.color = double3(below.share);
     }
     if (!(below.dispersion > 0) || mSettings.integrator == Integrator::Unoccluded) return;
+    // One colour of three, with three times its weight. Once chosen it stays, because the three have parted.
     if (path.color < 0) {
         path.color = std::min(static_cast<int>(path.numbers.pair(kColor).x * 3), 2);
         double3 only(0.0);
@@ -181,6 +188,8 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
             return surface;
         }
         path.throughput *= (1 - surface.opacity) / (1 - chance);
+        // The ray continues at the same distance and leaves out what it has passed by name: an offset could skip
+        // another surface that lies right behind.
         path.passed.triangles[path.passed.count++] = { hit->part, hit->point.triangle };
         path.ray.passed = &path.passed;
         path.ray.nearest = hit->distance;
@@ -304,6 +313,8 @@ bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& b
     if (!(largest > 0)) return false;
     const bool entersOrLeaves = !surface.transmission.isThin && glm::dot(sample.direction, surface.geometricNormal) < 0;
     if (entersOrLeaves) path.spread = surface.transmission.isFromInside ? 1 : lib::sq(surface.transmission.ior);
+    // Roulette by what the path would carry outside: inside of glass radiance is scaled by the squared index, which
+    // says nothing of its worth (Pharr, Jakob, Humphreys 2023, sections 9.5.2 and 13.4).
     if (path.events >= kRouletteFrom && largest * path.spread < 1) {
         const double survival = std::min(largest * path.spread, 0.95);
         if (path.pair(kRoulette).x >= survival) return false;

@@ -42,6 +42,7 @@ double phaseHenyeyGreenstein(double cosine, double anisotropy) {
 double3 turned(double3 direction, double anisotropy, double2 u) {
     const double g = anisotropy;
     double cosine = 1 - 2 * u.x;
+    // The inverse of the cumulative distribution divides by g.
     if (std::abs(g) > 1e-3) {
         const double part = (1 - g * g) / (1 - g + 2 * g * (1 - u.x));
         cosine = std::clamp((1 + g * g - part * part) / (2 * g), -1.0, 1.0);

@@ -220,6 +220,7 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     Collector collected(scene, warnings);
     const double3 origin =
             collected.bounds.empty() ? double3(0.0) : (collected.bounds.min + collected.bounds.max) * 0.5;
+    // About the centre of the scene: Embree computes in floats.
     std::vector<Part> parts = makeParts(collected.placements, origin, jobs);
     Result<Intersector> intersector = Intersector::build(parts);
     if (!intersector) return intersector.error();
@@ -230,6 +231,7 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     traced->mEmissiveLights = EmissiveLights(traced->mParts);
     traced->mOrigin = origin;
     traced->mWarnings = std::move(warnings);
+    // Parts refer to materials and images of the models, which must live as long.
     for (ReferenceModel const& model : scene.models) traced->mModels.push_back(model.data);
     traced->mHasBlended = std::any_of(traced->mParts.begin(), traced->mParts.end(), [](Part const& part) {
         return part.material->alphaMode == assets::AlphaMode::Blend;
@@ -241,6 +243,7 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     if (scene.environment) traced->mEnvironmentLux = double(scene.environment->illuminance.value);
     traced->mSuns = collected.lights.suns;
     traced->mSkybox = scene.environment && scene.environment->skybox;
+    // After the parts, about whose origin the lights stand as well.
     moveLights(collected.lights, origin);
     traced->mDirectLights = DirectLights({ collected.lights.suns, collected.lights.points, collected.lights.spots,
                                            collected.lights.rects, collected.lights.discs, collected.lights.tubes,

@@ -93,6 +93,7 @@ double3 TransmissionLobe::evaluate(double3 light, LightSource source) const {
 std::optional<double3> TransmissionLobe::sample(double2 u) const {
     if (mKind == Kind::LookUp) {
         const auto color = std::min(static_cast<size_t>(u.y * 3), size_t(2));
+        // The rest of the number is uniform again.
         const double2 rest(u.x, u.y * 3 - static_cast<double>(color));
         return glm::normalize(mFrame.toWorld(mLookUpFrames[color].toWorld(mLookUpLobe->sample(rest))));
     }
