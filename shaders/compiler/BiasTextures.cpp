@@ -49,6 +49,7 @@ private:
             addLevels(operands);
         else
             scaleGradients(operands);
+        // A selection of two look-ups, not a branch, in which derivatives could be undefined.
         const SpirvId plain = mEditor.emit(at.op, at.type, at.operands);
         const SpirvId biased = mEditor.emit(at.op, at.type, operands);
         return mEditor.emit(spv::OpSelect, at.type, { call(mFunctions.isBiased), biased, plain });

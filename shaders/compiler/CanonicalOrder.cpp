@@ -68,6 +68,8 @@ public:
             else
                 (isAnnotation(at.op()) ? mAnnotations : mPreamble).push_back(&at);
         }
+        // Numbers follow the order in which the module is written: imports, then what functions need, then what they
+        // define.
         for (ParsedInstruction const* at : mPreamble) number(at->result);
         for (size_t i = functions; i < mModule.instructions.size(); ++i) need(mModule.instructions[i]);
         for (size_t i = functions; i < mModule.instructions.size(); ++i) number(mModule.instructions[i].result);
@@ -110,6 +112,7 @@ private:
     }
 
     std::vector<uint32_t> write(size_t functions) {
+        // Before sorting: annotations are ordered by the new numbers, since the old ones depend on removed code.
         for (ParsedInstruction& at : mModule.instructions) renumber(at);
         std::ranges::stable_sort(mAnnotations, {}, [](ParsedInstruction const* at) {
             const bool isName = at->op() == spv::OpName || at->op() == spv::OpMemberName;

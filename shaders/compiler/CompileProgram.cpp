@@ -33,8 +33,10 @@ Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& opt
 Result<std::vector<uint32_t>> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
                                          ProgramCompileOptions const& options) {
     Result<std::vector<uint32_t>> spirv = spirvFromGlsl(glsl, stage, name);
+    // Before inlining: the functions of texture_bias.glsl are found by their names.
     if (spirv && stage == backend::ShaderStage::Fragment) spirv = biasTextures(*spirv);
     if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
+    // Before the optimiser, for which a variable without a value may have another one at each use.
     if (spirv && options.exact) spirv = clampIndices(initializeVariables(*spirv));
     const Optimization goal = goalOf(stage, options);
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);

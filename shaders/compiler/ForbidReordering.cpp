@@ -39,6 +39,7 @@ std::vector<uint32_t> forbidReordering(std::span<const uint32_t> spirv) {
     }
     std::vector<uint32_t> out(spirv.begin(), spirv.begin() + static_cast<ptrdiff_t>(firstType));
     for (const uint32_t id : results) {
+        // A second decoration of the same kind would make the module invalid.
         if (decorated.contains(id)) continue;
         out.insert(out.end(), { 3u << 16 | spv::OpDecorate, id, spv::DecorationNoContraction });
     }

@@ -167,6 +167,7 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
     glslang::SpvOptions options;
     options.disableOptimizer = true; // optimizeSpirv() is a separate step
     glslang::GlslangToSpv(*program.getIntermediate(language), spirv, &options);
+    // Without lines first: they are needed for a message only, and cost time in every later pass.
     const bool isEndless = findEndlessLoop(spirv).has_value();
     if (!isEndless && !withLines) return spirv;
     std::vector<uint32_t> lined;

@@ -88,11 +88,13 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     usePlatformDefaults(options.platform, *definition);
     prepared.definition = std::move(*definition);
     defineMacros(options, prepared.definition);
+    // From the text alone, before anything is compiled: the probe of findTerms() is generated with it.
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();
     prepared.needs = std::move(*needs);
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
     if (!terms) return withVertexErrors(terms.error(), prepared);
+    // After findTerms(), which has shown that the code compiles.
     Result<void> conditions = checkTextureConditions(prepared.definition, prepared.needs, prepared.includes);
     if (!conditions) return withSuggestion(conditions.error(), prepared.definition);
     MaterialPackage& package = prepared.definition.package;
@@ -187,6 +189,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);
     }
+    // In the order of the stages, not of their jobs: the message is the same for any number of workers.
     std::vector<Error> errors;
     for (Stage const& stage : stages) {
         if (!*stage.compiled) errors.push_back(withSuggestion(stage.compiled->error(), prepared->definition));
@@ -199,6 +202,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     for (const uint16_t key : prepared->keys) {
         Stage const& vertex = stageOf(stages, *prepared, backend::ShaderStage::Vertex, key);
         Stage const& fragment = stageOf(stages, *prepared, backend::ShaderStage::Fragment, key);
+        // Joints are none of them: only renderables with a skin have them.
         if ((key & kVariantSkinning) == 0) package.requiredAttributes |= (*vertex.compiled)->vertexInputs;
         package.variants.push_back({ key, vertex.code, fragment.code });
     }

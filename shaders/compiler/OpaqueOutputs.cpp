@@ -75,6 +75,7 @@ public:
     explicit Knowledge(Definitions const& definitions) : mDefinitions(definitions) {}
 
     bool mayKnow(SpirvId value, uint32_t component) {
+        // A value that depends on itself through a loop is known if all that enters the loop is.
         const auto [known, isNew] = mKnown.try_emplace({ value, component }, true); // true: the start of a loop
         if (!isNew) return known->second;
         const bool result = decide(mDefinitions.of(value), component);

@@ -277,6 +277,7 @@ std::vector<uint32_t> SpirvEditor::rewrite(Replace const& replace) {
 
     std::vector<uint32_t> out(mModule.begin(), mModule.begin() + static_cast<ptrdiff_t>(mGlobals));
     const auto globals = mModule.subspan(mGlobals, mFunctions - mGlobals);
+    // Annotations end where types begin; new types and constants stand behind the module's own, which they refer to.
     out.insert(out.end(), mNewAnnotations.begin(), mNewAnnotations.end());
     out.insert(out.end(), globals.begin(), globals.end());
     out.insert(out.end(), mNewGlobals.begin(), mNewGlobals.end());
