@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ambient occlusion from the depths of the picture (docs/ambient-occlusion.md).
+/// Ambient occlusion from the depths of the image (docs/ambient-occlusion.md).
 ///   Draws   targets.ambientOcclusion, of the view's size: what samples or horizons hide at all pixels, half of them
 ///           or a quarter; then, as Quality says, a blur along each axis, and the step up to all pixels.
 ///   Reads   targets.prepassDepth.

@@ -33,7 +33,7 @@ float2 perTexel(FrameGraph const& graph, TextureId texture, uint8_t level) {
 /// n, if texels of the first level are 2^n pixels wide.
 int firstLevel(BloomResolution resolution) { return resolution == BloomResolution::Quarter ? 2 : 1; }
 
-/// `level` of `spread` from the one before it, or from the picture.
+/// `level` of `spread` from the one before it, or from the scene colour.
 void addDown(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId spread, uint8_t level) {
     const bool isFirst = level == 0;
     const TextureId from = isFirst ? color : spread;

@@ -20,8 +20,8 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 using prepare::DrawCall;
 
-/// What of the view a pass draws: all, or what is drawn before the first copy of the picture, between two, or after
-/// the last; and of the last of these what comes before, behind and after order-independent transparent objects.
+/// What of the view a pass draws: all, or what is drawn before the first copy of the scene colour, between two, or
+/// after the last; and of the last of these what comes before, behind and after order-independent transparent objects.
 struct ColorPart {
     bool isFirst = true, isLast = true; ///< the first draws opaque objects and the sky
     std::span<const DrawCall> blended;
@@ -83,7 +83,7 @@ uint32_t blendedSlot(PassContext& pass, FrameContext const& context, PipelineSou
     return pipelines.slot(slot);
 }
 
-/// The draws over the nth copy of the picture; 0: those before the first.
+/// The draws over the nth copy of the scene colour; 0: those before the first.
 ColorPart partOf(prepare::ViewPacket const& view, size_t nth) {
     const size_t first = nth == 0 ? 0 : view.pictures[nth - 1].firstDraw;
     const bool isLast = nth == view.pictures.size();
@@ -138,7 +138,7 @@ void recordScene(PassContext& pass, FrameContext const& context, Chosen const& c
 /// What the parts of the view are drawn to.
 struct ColorAttachments {
     TextureId color, samples, depth;
-    TextureId sceneDepth{};  ///< the depth with one sample a pixel, if the picture is copied
+    TextureId sceneDepth{};  ///< the depth with one sample a pixel, if the scene colour is copied
     bool hasDepth = false;   ///< the prepass left it
     bool isWeighted = false; ///< a pass of its own resolves the last samples
 };

@@ -11,7 +11,7 @@
 namespace filament_core::passes {
 
 /// Declares the pass; it writes every pixel of targets.color, which is single-sampled, and makes targets.depth. With
-/// settings().samples > 1 it draws into a multisampled picture and resolves that into targets.color (ResolvePass.h).
+/// settings().samples > 1 it draws into a multisampled image and resolves that into targets.color (ResolvePass.h).
 void addColorPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 } // namespace filament_core::passes

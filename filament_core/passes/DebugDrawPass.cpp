@@ -53,7 +53,7 @@ scene::GeometryLayout debugDrawLayout() {
 void addDebugDrawPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     if (context.debugDraw.quads.count() == 0) return;
     const PassBlock target = declareTarget(context, graph.texture(targets.output).desc);
-    // An enlarged picture has no depth of its own size: nothing is hidden then.
+    // An enlarged image has no depth of its own size: nothing is hidden then.
     const bool isTested =
             context.debugDraw.quads.tested > 0 && sizeOf(graph, targets.sceneDepth) == sizeOf(graph, targets.output);
     graph.addPass(

@@ -64,7 +64,7 @@ void addHistoryView(FrameGraph& graph, FrameContext const& context, FrameTargets
                         .target = targets.output });
 }
 
-/// One texel for four bins, in numbers that count any picture.
+/// One texel for four bins, in numbers that count any image.
 TextureId addHistogramSum(FrameGraph& graph, FrameContext const& context, TextureId histogram) {
     const TextureId sum = graph.createTexture({ .width = graph.texture(histogram).desc.width,
                                                 .height = 1,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// addDebugEffectPass: debug views in the place of the tone mapper: those of effects of the picture (circles of
+/// addDebugEffectPass: debug views in the place of the tone mapper: those of effects of the image (circles of
 /// confusion, the weight of the history, the histogram of auto exposure), of the image's numbers, and of what
 /// DebugSurfacePass.h has drawn.
-///   Reads   what these have put into FrameTargets. Nothing, where they do not run: black, or the picture alone.
+///   Reads   what these have put into FrameTargets. Nothing, where they do not run: black, or the image alone.
 ///   Draws   targets.output: what a display shows, or that as light, if `isSceneLinear`.
 ///   Thread  the app thread.
 #pragma once

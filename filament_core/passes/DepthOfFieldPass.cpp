@@ -126,7 +126,7 @@ private:
     FrameContext const& mContext;
     const TextureId mColor, mDepth;
     const uint2 mSize;
-    const int32_t mTile; ///< texels of a side, of the half picture
+    const int32_t mTile; ///< texels of a side, of the image of half size
 };
 
 } // namespace

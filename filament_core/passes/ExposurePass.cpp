@@ -25,9 +25,9 @@ constexpr FullScreenParameter kExposureValues[] = { { "shares", ParameterType::F
 constexpr FullScreenInterface kExposure{ .pass = "exposure", .inputs = kExposureInputs, .values = kExposureValues };
 
 // At most 14 400 samples, so 480 in a row of the histogram: a half float counts exactly up to 2048.
-constexpr uint2 kMostSamples(160, 90); // of the picture, each way
+constexpr uint2 kMostSamples(160, 90); // of the image, each way
 constexpr uint32_t kColumns = 16;      // of the histogram: four bins in each texel
-constexpr uint32_t kRows = 30;         // each counts a part of the picture
+constexpr uint32_t kRows = 30;         // each counts a part of the image
 
 uint2 samplesOf(uint2 view) {
     const uint2 block = (view + kMostSamples - 1u) / kMostSamples;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Auto exposure: how bright the picture is, and the exposure that follows from it.
-///   Reads   targets.color, at one pixel of each block of the picture.
+/// Auto exposure: how bright the image is, and the exposure that follows from it.
+///   Reads   targets.color, at one pixel of each block of the image.
 ///   Draws   targets.histogram, and targets.exposure: one texel: the correction in stops. The next frame finds it as
 ///           its history.
 ///   How     a histogram of the logarithm of luminance, of which the darkest and the brightest shares do not count; the

@@ -14,7 +14,7 @@
 
 namespace filament_core::passes {
 
-/// Pixels of a side that become one texel: a power of two. Pictures of any size have 90 to 180 rows of blocks, if they
+/// Pixels of a side that become one texel: a power of two. Images of any size have 90 to 180 rows of blocks, if they
 /// have so many pixels.
 uint32_t flareBlock(uint32_t height);
 
@@ -22,13 +22,13 @@ inline constexpr size_t kMostGhosts = 8;
 
 /// As flare.mat reads it.
 struct FlareGhost {
-    float scale = 0;  ///< the picture is read at so many times the distance of the pixel from its middle
+    float scale = 0;  ///< the image is read at so many times the distance of the pixel from its middle
     float radius = 0; ///< in pixels of what is read
     float level = 0;
     float share = 0; ///< of the light above the threshold; 0: there is no such ghost
 };
 
-/// For a picture `height` pixels high.
+/// For an image `height` pixels high.
 std::array<FlareGhost, kMostGhosts> flareGhosts(LensFlare const& flare, uint32_t height);
 /// Radius and half of the width in pixels, level, share.
 float4 flareHalo(LensFlare const& flare, uint32_t height);

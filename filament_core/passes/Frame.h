@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// describeFrame: the passes of a frame and their order, one line per pass. The table of contents of this room.
-///   In      the packet and the engine's resources, as a FrameContext; where the picture goes.
+///   In      the packet and the engine's resources, as a FrameContext; where the image goes.
 ///   Out     declarations in the graph. No GPU work: framegraph::record() draws them, framegraph::rehearse() only asks
 ///           them what they need.
 ///   Thread  the app thread.   Memory: the arena of the graph, and of the context.   Fails: std::bad_alloc.
@@ -11,7 +11,7 @@
 
 namespace filament_core::passes {
 
-/// The destination of the picture: a texture of the engine, one sample per pixel. `format`: its attachmentFormat().
+/// The destination of the image: a texture of the engine, one sample per pixel. `format`: its attachmentFormat().
 struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;

@@ -14,7 +14,7 @@
 
 namespace filament_core::passes {
 
-/// Of a picture of the graph.
+/// Of an image of the graph.
 inline uint2 sizeOf(framegraph::FrameGraph const& graph, framegraph::TextureId texture) {
     framegraph::GraphTextureDesc const& desc = graph.texture(texture).desc;
     return { desc.width, desc.height };
@@ -60,7 +60,7 @@ struct FrameContext {
     prepare::FrameSettings const& settings() const { return packet.settings; }
 };
 
-/// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
+/// Where the scene's surfaces are drawn / an image is drawn over the whole target.
 inline PassSlot slotOf(FrameContext const& context, backend::PassLayout const& layout, uint8_t subpass) {
     return { layout, subpass, context.shading, context.settings().quality.depthRange, context.precision };
 }

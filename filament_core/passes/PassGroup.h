@@ -17,7 +17,7 @@ namespace filament_core::passes {
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
                         uint8_t samples = 1);
 
-/// The same for a pass whose materials refract or reflect a picture.
+/// The same for a pass whose materials refract or reflect the scene colour.
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
                                      uint8_t samples, prepare::SceneColorCopy const& copy);
 

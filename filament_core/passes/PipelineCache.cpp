@@ -71,7 +71,7 @@ uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& 
     return isMerged && package.findVariant(shader::kVariantMerged) ? uint16_t{ shader::kVariantMerged } : uint16_t{ 0 };
 }
 
-// Skies have fog; what processes pictures has not.
+// Skies have fog; what processes images has not.
 ShadingKey fullscreenShading(PassSlot const& slot, shader::MaterialPackage const& package) {
     const bool isSurface = package.domain == shader::MaterialDomain::Surface && !slot.depthOnly;
     return isSurface ? withoutMipBias(ofUnlit(slot.shading)) : ShadingKey{ 0 };

@@ -88,7 +88,7 @@ void addToneMapPass(FrameGraph& graph, FrameContext const& context, PostProcessS
                         .target = target });
 }
 
-/// At the corners of the picture, red and blue lie `strength` of its height apart.
+/// At the corners of the image, red and blue lie `strength` of its height apart.
 float fringePerPixel(ChromaticAberration const& aberration, uint2 size) {
     return aberration.strength * static_cast<float>(size.y) / glm::length(float2(size));
 }
@@ -109,7 +109,7 @@ float3 dirtLevelsOf(FrameContext const& context, uint2 size) {
     return { context.settings().effects.bloom.dirtStrength, level, static_cast<float>(dirt.levels - 1) };
 }
 
-/// Threshold, the share of light that is taken, and the coordinates of the flare's texture by those of the picture.
+/// Threshold, the share of light that is taken, and the coordinates of the flare's texture by those of the image.
 float4 flareShareOf(FrameContext const& context, uint2 size) {
     LensFlare const& flare = context.settings().effects.lensFlare;
     const uint32_t block = flareBlock(size.y);
@@ -117,7 +117,7 @@ float4 flareShareOf(FrameContext const& context, uint2 size) {
     return { flare.threshold, flareShare(flare), float2(size) / covered };
 }
 
-/// Where the picture lies in what is drawn around it, by factor (xy) and offset (zw).
+/// Where the image lies in what is drawn around it, by factor (xy) and offset (zw).
 float4 placeInBand(prepare::FramePacket const& packet) {
     const float2 whole(packet.settings.size);
     return { float2(packet.settings.insideSize()) / whole, static_cast<float>(packet.settings.band) / whole };

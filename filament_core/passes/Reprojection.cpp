@@ -6,7 +6,7 @@
 namespace filament_core::passes {
 namespace {
 
-/// `end`: of the picture in the texture.
+/// `end`: of the image in the texture.
 double4x4 textureFromClip(double2 end) {
     double4x4 texture(1.0);
     texture[0][0] = texture[3][0] = end.x / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Resolution passes: a picture of fewer pixels becomes as large as the output; contrast between neighbours is raised.
+/// Resolution passes: an image of fewer pixels becomes as large as the output; contrast between neighbours is raised.
 ///   Reads   display values, or light if the output is light: it is compressed first, so that a lamp is not all there
 ///           is.
 ///   Draws   `target`; the last pass of a frame also the grain and the dither, whose pixels are those of the output.
@@ -18,7 +18,7 @@ struct PictureStep {
 
 /// What a pass does besides, as the last one of a frame.
 struct LastStep {
-    bool isSceneLinear = false; ///< the picture is light
+    bool isSceneLinear = false; ///< the image is linear light
     bool hasGrain = false, dithers = false;
 };
 

@@ -4,7 +4,7 @@
 ///   Reads   the colour pass's samples, one by one. NaN and infinite light stay in their pixel.
 ///   Draws   targets.color.
 ///   Skips   the pass, unless the frame needs Effect::MsaaResolve: the device then averages light, as it also does for
-///           the copies of the picture that are refracted.
+///           the copies of the scene colour that are refracted.
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"

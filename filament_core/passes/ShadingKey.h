@@ -26,11 +26,11 @@ struct ShadedLights {
     bool hasContactShadows = false;
 };
 
-/// What shading reads of the picture, and what lies between it and the camera.
+/// What shading reads of the scene colour, and what lies between it and the camera.
 struct ShadedScreen {
     bool hasOcclusion = false, hasBentNormals = false;
     bool hasRefraction = false, hasReflections = false;
-    bool showsLevels = false; ///< of the refracted picture, instead of it
+    bool showsLevels = false; ///< of the refracted scene colour, instead of it
     bool showsHits = false;   ///< how far mirrored rays go, instead of what they hit
     uint8_t fogTerms = 0;     ///< shader::FogTerms
     bool hasMipBias = false;  ///< Effect::MipBias
@@ -48,7 +48,7 @@ ShadingKey depthOfViewKey(ShadingKey key);
 ShadingKey withoutOcclusion(ShadingKey key);
 /// For objects that are not refractive, and for those drawn before the copy.
 ShadingKey withoutRefraction(ShadingKey key);
-/// For what does not mirror the picture.
+/// For what does not mirror the scene colour.
 ShadingKey withoutReflections(ShadingKey key);
 /// For order-independent transparency.
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Splats over the scene colour (<filament_core/Splats.h>). Those of one encoding of colours blend by themselves, as
-/// they are encoded; the result is decoded and drawn over the picture: specification of KHR_gaussian_splatting, "Color
-/// Space". ColorPass calls this between opaque and transparent objects.
+/// they are encoded; the result is decoded and drawn over the scene colour: specification of KHR_gaussian_splatting,
+/// "Color Space". ColorPass calls this between opaque and transparent objects.
 ///   In      FramePacket::splats: nothing runs for an encoding without any.
 ///   Bits    quads are computed by the CPU; the device interpolates and blends.
 ///   Memory  that of QuadBuffers.   Thread: the app thread, and the workers for vertices.   Fails: std::bad_alloc.
@@ -21,7 +21,7 @@ scene::GeometryLayout splatLayout();
 
 /// What is drawn so far.
 struct SplatTargets {
-    framegraph::TextureId color;   ///< the picture, one sample a pixel
+    framegraph::TextureId color;   ///< the scene colour, one sample a pixel
     framegraph::TextureId samples; ///< what is drawn to; `color` itself, if the view has one sample a pixel
     framegraph::TextureId depth;   ///< with one sample a pixel
 };

@@ -15,7 +15,7 @@
 namespace filament_core::passes {
 
 void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
-/// Whether the picture is as large as the output afterwards, and was not before.
+/// Whether the image is as large as the output afterwards, and was not before.
 bool isUpscaledOverFrames(FrameContext const& context);
 
 } // namespace filament_core::passes

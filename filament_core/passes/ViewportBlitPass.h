@@ -10,13 +10,13 @@
 
 namespace filament_core::passes {
 
-/// Imports what the user asked for, and makes the picture of the view if it has a place of its own.
+/// Imports what the user asked for, and makes the image of the view if it has a place of its own.
 void beginViewportBlit(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                        FrameTargets& targets);
 void addViewportBlitPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output,
                          FrameTargets const& targets);
 
-/// targets.color without the band of Effects::guardBand around it. What comes later works on the picture alone.
+/// targets.color without the band of Effects::guardBand around it. What comes later works on the image alone.
 void addGuardBandCutPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 /// What a render target asks for of depth: FrameTargets::sceneDepth as linear depth, in its place.

@@ -162,7 +162,7 @@ struct LastView {
     float4 alongView{ 0.0f };       ///< its product with a point of this frame's world, w = 1: metres along that view
     float4 time{ 0.0f };            ///< FrameUniforms::time
     bool isExposed = false;         ///< it left an exposure that this one follows
-    bool isReflected = false;       ///< it left a picture, of as many pixels, for the reflections of this one
+    bool isReflected = false;       ///< it left its scene colour, of as many pixels, for the reflections of this one
     float secondsSince = 0;         ///< of View::timeSeconds, >= 0
     bool isElsewhere = false;       ///< not as this frame is seen
 };
@@ -200,7 +200,7 @@ struct FramePacket {
     SplatPacket splats; ///< of the main view
     SceneDemand demand; ///< of the main view
 
-    /// Of the picture that the user asked for.
+    /// Of the view that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }
 };
 

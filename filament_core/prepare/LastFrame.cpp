@@ -9,14 +9,14 @@
 namespace filament_core::prepare {
 namespace {
 
-// How many frames are in the picture while something moves: enough to smooth edges, and few enough that what each
+// How many frames are in the image while something moves: enough to smooth edges, and few enough that what each
 // filtering of the history blurs, and each limit of its colours, is soon replaced.
 constexpr float kAccumulatedInMotion = 4;
 constexpr float kAccumulatedInTurn = 9; // of the camera alone
-constexpr float kMostAccumulated = 255; // of a still picture
+constexpr float kMostAccumulated = 255; // of a still image
 constexpr uint32_t kJitters = 1024;
 
-// A pixel of an enlarged picture is the mean of the samples in it in the end. Until there are some, the filter is as
+// A pixel of an enlarged image is the mean of the samples in it in the end. Until there are some, the filter is as
 // wide as two pixels.
 constexpr float kWidestRamp = 0.5f, kNarrowestRamp = 0.0625f;
 

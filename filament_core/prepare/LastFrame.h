@@ -69,7 +69,7 @@ private:
     uint32_t mJitters = 0;                ///< frames in a row that were accumulated
     float mAccumulated = 0;               ///< accumulated frames
     bool mIsExposed = false;              ///< by AutoExposure
-    bool mIsReflected = false;            ///< its picture was kept for reflections
+    bool mIsReflected = false;            ///< its scene colour was kept for reflections
     std::vector<DrawnLevel> mLevels;      // by position
     uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
     std::vector<Renderable> mRenderables; // parallel to mPlacements

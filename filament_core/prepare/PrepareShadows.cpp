@@ -27,7 +27,7 @@ constexpr uint32_t kMarginTexels = 16;   // of this many there is one around a m
 struct Caster {
     uint32_t record = 0; ///< of scene.lights
     uint32_t listed = 0; ///< of the lights of the main view, or kSunOfUniforms
-    float pixels = 0;    ///< of the picture that its reach covers, in one direction; of suns infinite
+    float pixels = 0;    ///< of the image that its reach covers, in one direction; of suns infinite
     uint32_t order = 0;  ///< among lights of equal reach
 };
 
@@ -42,7 +42,7 @@ struct Candidate {
 
 float3 relative(double3 const& world, ViewSpace const& space) { return float3(world - space.cameraWorld); }
 
-/// Pixels across a sphere of the picture; everything if the camera is inside; infinite for suns.
+/// Pixels across a sphere of the image; everything if the camera is inside; infinite for suns.
 float pixelsOf(LightRecord const& light, ViewSpace const& space, uint2 size) {
     if (light.type == LightRecord::Type::Sun) return INFINITY;
     const auto all = static_cast<float>(std::max(size.x, size.y));

@@ -21,7 +21,7 @@ constexpr size_t kSplatRange = 2048;
 constexpr float kMostColor = 64; // decoded, it still is a half float
 // These two as in the implementation of Kerbl et al. 2023, for which clouds are trained.
 constexpr float kLowPass = 0.3f;    // square pixels
-constexpr float kWidestLens = 1.3f; // the Jacobian is that of a point at most so far from the middle of the picture
+constexpr float kWidestLens = 1.3f; // the Jacobian is that of a point at most so far from the middle of the image
 
 /// A cloud in view.
 struct CloudView {

@@ -36,8 +36,8 @@ enum class Effect : uint8_t {
     Stencil,      ///< stencil values beside the depths
     DepthPrepass, ///< of opaque objects, before anything is shaded
     AmbientOcclusion,
-    Refraction,  ///< of the picture
-    Reflections, ///< of the picture
+    Refraction,  ///< of the scene colour
+    Reflections, ///< of the scene colour
     Motion,      ///< motion vectors of dynamic objects, for temporal effects
     ContactShadows,
     Fog,
@@ -57,8 +57,8 @@ enum class Effect : uint8_t {
     LensFlare,
     MsaaResolve, ///< by what is displayed
     MipBias,     ///< of materials' textures
-    GuardBand,   ///< pixels around the picture
-    DebugView,   ///< instead of the picture
+    GuardBand,   ///< pixels around the image
+    DebugView,   ///< instead of the image
     Count,       ///< no effect: how many there are
 };
 inline constexpr size_t kEffects = static_cast<size_t>(Effect::Count);

@@ -43,12 +43,12 @@ struct ViewInput {
     /// Camera::clipFromView(): row 0 of the image at y = -1, reversed depth.
     std::optional<float4x4> clipFromView{};
     uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
-    uint2 shownSize{ 0, 0 };  ///< of the picture that is made of them; 0: the same
-    uint32_t band = 0;        ///< of `size`, on each side, that the picture does not show
-    float2 jitterPixels{ 0 }; ///< the picture moves by so much, to the right and down
+    uint2 shownSize{ 0, 0 };  ///< of the image that is made of them; 0: the same
+    uint32_t band = 0;        ///< of `size`, on each side, that the image does not show
+    float2 jitterPixels{ 0 }; ///< the image moves by so much, to the right and down
     uint8_t samples = 1;      ///< a pixel
     bool occlusionCulling = true;
-    float lodPixels = 0; ///< View::lod, of the picture that is made; [0, 64]
+    float lodPixels = 0; ///< View::lod, of the image that is made; [0, 64]
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
@@ -60,7 +60,7 @@ struct ViewInput {
     Layers visibleLayers = kAllLayers; ///< of renderables
     uint64_t contents = 0;             ///< another number whenever the app changed the scene or a material
 
-    uint2 inside() const { return size - 2u * band; } ///< pixels of the picture that are drawn
+    uint2 inside() const { return size - 2u * band; } ///< pixels of the image that are drawn
     uint2 shown() const { return shownSize.x > 0 ? shownSize : inside(); }
 };
 
