@@ -63,11 +63,13 @@ void Deformations::removeSkin(Skin skin) {
 
 uint32_t Deformations::add(Deformation deformation) {
     if (mFree.empty()) {
+        // Room for all slots, so that remove() never needs memory.
         mFree.reserve(mDeformations.size() + 1);
         mDeformations.emplace_back();
         mFree.push_back(static_cast<uint32_t>(mDeformations.size() - 1));
     }
     const uint32_t slot = mFree.back();
+    // The last step that may run out of memory; only after it does the slot leave the free list.
     if (deformation.skin) skin(deformation.skin).deformations.push_back(slot);
     mFree.pop_back();
     mDeformations[slot] = std::move(deformation);

@@ -104,6 +104,7 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
 uint32_t Drawables::acquire(Drawable const& drawable, std::span<const GeometryLevel> levels) {
     Drawable finest = drawable;
     finest.coarser = kNoLevel;
+    // From the coarsest to the finest, because each level names the next coarser one.
     for (; !levels.empty(); levels = levels.first(levels.size() - 1)) {
         GeometryLevel const& coarsest = levels.back();
         Drawable level = finest;
@@ -133,6 +134,7 @@ uint32_t Drawables::acquireOne(Drawable const& drawable) {
         mDrawables[number] = drawable;
         setUse(number, useOf(drawable, 0));
         mLevels[number] = levelOf(drawable);
+        // A drawable keeps its occluder alive: the geometry has only a pointer to it.
         if (drawable.geometry.occluder) mOccluders[number] = drawable.geometry.occluder->shared_from_this();
     }
     ++mUses[number].users;

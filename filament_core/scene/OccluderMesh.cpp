@@ -35,6 +35,8 @@ std::vector<SizedTriangle> trianglesBySize(std::span<const float3> positions, st
     }
     std::ranges::partial_sort(sized, sized.begin() + static_cast<ptrdiff_t>(std::min<size_t>(sized.size(), most)),
                               [](SizedTriangle const& a, SizedTriangle const& b) {
+                                  // Equal areas in the order of the mesh, so that every standard library keeps the same
+                                  // triangles.
                                   return a.area != b.area ? a.area > b.area : a.first < b.first;
                               });
     return sized;

@@ -106,6 +106,8 @@ void changeDrawable(Renderables& renderables, uint32_t at, Change&& change) {
     Drawable changed = renderables.drawables[drawable];
     change(changed);
     const uint32_t before = drawable;
+    // The new one is acquired before the old one is released: levels of detail that both have stay, and without memory
+    // the renderable remains as it was.
     drawable = renderables.drawables.acquire(changed);
     renderables.drawables.release(before);
 }

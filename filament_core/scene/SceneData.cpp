@@ -10,6 +10,7 @@ namespace filament_core::scene {
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 
 Renderable addSplats(SceneData& scene, RenderableInput const& input, std::shared_ptr<const SplatData> data) {
+    // Reserved first: once the renderable is there, nothing may fail.
     scene.splats.reserve(scene.splats.size() + 1);
     const Renderable renderable = addRenderable(scene, input);
     scene.splats.push_back({ renderable, std::move(data) });
@@ -20,6 +21,8 @@ Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation defo
     const Skin skin = deformation.skin;
     input.deformation = scene.deformations.add(std::move(deformation));
     const Renderable renderable = addRenderable(scene, input);
+    // The renderable has the number of its deformation from the start, the deformation learns its renderable
+    // afterwards: handles exist only once something was added.
     scene.deformations.bind(input.deformation, renderable);
     if (skin) scene.deformations.markStale(skin); // the next update computes its bounds
     placeDeformed(scene, input.deformation);
@@ -28,6 +31,7 @@ Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation defo
 
 void removeRenderable(SceneData& scene, Renderable renderable) {
     const uint32_t deformation = deformationAt(scene.renderables, scene.renderables.index.at(renderable));
+    // The deformation was looked up before, because the last renderable takes the place of the one that is removed.
     remove(scene.renderables, renderable);
     if (deformation != kNotDeformed) scene.deformations.remove(deformation);
     std::erase_if(scene.splats, [&](SplatRecord const& record) { return record.renderable == renderable; });

@@ -111,6 +111,7 @@ std::vector<uint32_t> removeNode(SceneData& scene, Node node) {
         while (const Light light = scene.atNodes.lights.first(slot)) removeLight(scene, light);
     }
     for (const uint32_t slot : slots) {
+        // After all renderables of the subtree: a skin may move some that hang at other nodes of it.
         while (const Skin skin = scene.atNodes.skins.first(slot)) removeSkin(scene, skin);
     }
     return slots;

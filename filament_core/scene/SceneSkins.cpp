@@ -68,6 +68,7 @@ void updateSkin(SceneData& scene, SkinRecord& skin) {
         const Affine objectFromWorld =
                 skin.node ? inverse(transforms.worldAt(transforms.slotOf(skin.node))) : kIdentity;
         for (size_t i = 0; i < skin.joints.size(); ++i) {
+            // A joint that was removed leaves its bone where it was.
             if (!transforms.isAlive(skin.joints[i])) continue;
             const Affine objectFromJoint = compose(objectFromWorld, transforms.worldAt(skin.joints[i].index()));
             setBone(skin, i, compose(objectFromJoint, skin.jointFromBind[i]));
@@ -81,6 +82,7 @@ void placeDeformed(SceneData& scene, uint32_t slot) {
     SkinRecord const* const skin = deformation.skin ? &scene.deformations.skin(deformation.skin) : nullptr;
     Renderables& renderables = scene.renderables;
     const uint32_t at = renderables.index.at(deformation.renderable);
+    // Before place(), which carries the bounds into the world and compares the sides of bones and node.
     setObjectBounds(renderables, at, deformedBounds(deformation, skin), skin && bonesMirror(deformation, *skin));
     const uint32_t node = scene.atNodes.renderables.nodeOf(deformation.renderable);
     const bool isAttached = node != Attachments<RenderableObject>::kNone;

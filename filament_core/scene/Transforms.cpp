@@ -39,6 +39,7 @@ Node Transforms::add(Node parent, double4x4 const& parentFromNode, std::string n
 std::vector<uint32_t> Transforms::remove(Node node) {
     const uint32_t root = slotOf(node);
     std::vector<uint32_t> subtree;
+    // The whole subtree is listed first: the walk follows the links that removing clears.
     for (uint32_t slot = root; slot != kScene; slot = nextInSubtree(slot, root)) subtree.push_back(slot);
     unlink(root);
     for (const uint32_t slot : subtree) {
@@ -66,6 +67,7 @@ void Transforms::setParent(Node node, Node parent) {
 void Transforms::setParentKeepingWorld(Node node, Node parent) {
     const uint32_t slot = slotOf(node), above = slotOrScene(parent);
     const Affine world = currentWorld(slot);
+    // Both matrices are computed before the move, because currentWorld() follows the links.
     const Affine local = compose(inverse(currentWorld(above)), world);
     move(slot, above);
     mLocal[slot] = local;
@@ -75,6 +77,7 @@ void Transforms::setParentKeepingWorld(Node node, Node parent) {
 void Transforms::move(uint32_t slot, uint32_t parent) {
     uint32_t ancestor = parent;
     while (mLinks[ancestor].depth > mLinks[slot].depth) ancestor = mLinks[ancestor].parent;
+    // Before anything is unlinked: a cycle would make every later walk endless. Depths keep the search short.
     FILAMENT_ASSERT(ancestor != slot, "a node is never its own ancestor: the new parent is the node or hangs below it");
     unlink(slot);
     link(slot, parent);
@@ -176,6 +179,8 @@ Affine Transforms::currentWorld(uint32_t slot) const {
 }
 
 void Transforms::beginUpdate() {
+    // Workers append to the queue without a check. It never needs more places than there are nodes, because each is
+    // queued once.
     if (mQueue.size() < mLinks.size()) mQueue.resize(mLinks.size());
     listByDepth();
     mChanged.clear();
@@ -205,6 +210,8 @@ bool Transforms::nextLevel() {
     while (mNextListed < mByDepth.size() && !isWaiting(mByDepth[mNextListed])) ++mNextListed;
     if (mNextListed == mByDepth.size()) return mLevelBegin != mLevelEnd;
     const uint32_t depth = mLinks[mLevelBegin != mLevelEnd ? mQueue[mLevelBegin] : mByDepth[mNextListed]].depth;
+    // A node is computed from the finished matrix of its parent. A changed node therefore joins the level of its own
+    // depth, together with the children of the level before; one that such a parent has queued already is left out.
     for (; mNextListed < mByDepth.size() && mLinks[mByDepth[mNextListed]].depth <= depth; ++mNextListed) {
         const uint32_t slot = mByDepth[mNextListed];
         if (!isWaiting(slot)) continue;
@@ -229,6 +236,8 @@ std::span<const uint32_t> Transforms::recompute(uint32_t begin, uint32_t end) {
     const std::span<const uint32_t> slots(mQueue.data() + mLevelBegin + begin, end - begin);
     uint32_t children = 0;
     for (const uint32_t slot : slots) children += mLinks[slot].childCount;
+    // Relaxed: the addition only gives each job places of its own, and the end of a level's jobs orders the contents.
+    // The order in the queue depends on the workers, the matrices do not, since a node reads only its parent.
     uint32_t out = children ? mQueueEnd.fetch_add(children, std::memory_order_relaxed) : 0;
     for (size_t i = 0; i < slots.size(); ++i) {
         prefetch(slots[std::min(i + kPrefetchAhead, slots.size() - 1)]);
