@@ -82,6 +82,8 @@ Result<void> writeInto(fs::path const& path, std::span<const std::byte> bytes) {
 /// `mode`: permissions of the file that is replaced; 0: there is none.
 Result<void> writeBeside(fs::path const& path, std::span<const std::byte> bytes, mode_t mode) {
     static std::atomic<uint32_t> serial{ 0 }; // unique within the process; the id makes it unique among processes
+    // rename() replaces a file in one step, so a reader finds the old bytes or the new ones, never a part. It works
+    // within one file system, so the temporary file is made beside the other.
     const std::string temporary = fmt::format("{}.{}-{}", path.string(), ::getpid(), serial.fetch_add(1));
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) return unwritable(path, std::strerror(errno));
@@ -109,6 +111,7 @@ Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path) 
     if (!std::filesystem::exists(status)) {
         return fail(ErrorCode::NotFound, "no file '{}'; check the path", path.string());
     }
+    // Before the file is opened: opening a pipe would wait for its writer.
     if (!std::filesystem::is_regular_file(status)) return unreadable(path, "not a regular file");
     const uintmax_t size = std::filesystem::file_size(path, error);
     if (error) return unreadable(path, error.message().c_str());
@@ -139,11 +142,13 @@ Result<std::string> readText(std::filesystem::path const& path, size_t most) {
 
 Result<void> replaceFile(std::filesystem::path const& path, std::span<const std::byte> bytes) {
     std::error_code error;
+    // Links are followed first: renaming onto a link would replace the link and leave its file as it was.
     const fs::path file = linkedFile(path, error);
     if (error) return unwritable(path, error.message().c_str());
     struct stat status {};
     const bool exists = ::stat(file.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) return unwritable(path, "it is a directory");
+    // Devices and pipes are written to, because a rename would put a file in their place.
     if (file.native().starts_with("/proc/") || (exists && !S_ISREG(status.st_mode))) return writeInto(file, bytes);
     if (file.has_parent_path()) {
         fs::create_directories(file.parent_path(), error);

@@ -29,6 +29,8 @@ Result<std::filesystem::path> fileInside(std::filesystem::path const& folder, st
                     relative.substr(0, relative.find('\0')));
     const fs::path named(relative), shown = folder / named;
     if (from == FilesFrom::Anywhere) return shown;
+    // The text of the path is checked before the file system is used: otherwise the errors would tell which files exist
+    // outside of the folder.
     if (named.is_absolute()) return outside(relative, " (it is absolute)");
     const fs::path plain = named.lexically_normal();
     if (!plain.empty() && *plain.begin() == "..") return outside(relative, "");
@@ -38,6 +40,7 @@ Result<std::filesystem::path> fileInside(std::filesystem::path const& folder, st
     const fs::path file = fs::canonical(shown, error);
     if (error == std::errc::no_such_file_or_directory) return fail(ErrorCode::NotFound, "no file '{}'", shown.string());
     if (error) return fail(ErrorCode::Unreadable, "'{}': {}", shown.string(), error.message());
+    // Only canonical paths show where links lead.
     if (!isBelow(file, root)) return outside(relative, " (through a link)");
     return file;
 }

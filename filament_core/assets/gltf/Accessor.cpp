@@ -86,6 +86,7 @@ bool checkSparse(GltfDocument const& document, GltfAccessor const& accessor, std
         return false;
     }
     if (sparse.count == 0) return true;
+    // The indices are read only now that they are known to lie within their view.
     bool isInside = true;
     withComponentType(sparse.indicesType, [&]<class Index>(Index) {
         std::byte const* indices = document.viewBytes[sparse.indicesView].data() + sparse.indicesOffset;

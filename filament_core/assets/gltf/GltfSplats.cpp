@@ -101,6 +101,7 @@ void repairScales(SplatLists& lists, std::string const& path, Diagnostics& diagn
 }
 
 void repair(SplatLists& lists, std::string const& path, Diagnostics& diagnostics) {
+    // First, because an infinite scale of one splat must not decide whether those of all are logarithms.
     dropBroken(lists, path, diagnostics);
     repairScales(lists, path, diagnostics);
     size_t turned = 0, clamped = 0;

@@ -69,6 +69,7 @@ public:
     }
 
     uint32_t of(uint32_t material) {
+        // Path halving (Tarjan and van Leeuwen 1984, "Worst-case Analysis of Set Union Algorithms").
         while (mNext[material] != material) material = mNext[material] = mNext[mNext[material]];
         return material;
     }
@@ -100,6 +101,7 @@ Sets placesFor(std::vector<uint32_t> const& wanted) {
 /// By group: the places of the sets that its maps use.
 std::vector<Sets> choosePlaces(GltfDocument& document, Groups& groups) {
     std::vector<std::vector<uint32_t>> wanted(document.materials.size());
+    // Colours first, because only the first two places serve them; maps without a use take what is left.
     for (const MapUse now : { MapUse::Color, MapUse::Surface, MapUse::Nothing }) {
         for (uint32_t i = 0; i < document.materials.size(); ++i) {
             std::vector<uint32_t>& sets = wanted[groups.of(i)];

@@ -54,6 +54,7 @@ std::vector<size_t> orderOf(std::vector<float> const& times, std::vector<bool> c
     std::vector<size_t> order(times.size());
     std::iota(order.begin(), order.end(), size_t{ 0 });
     std::erase_if(order, [&](size_t key) { return !std::isfinite(times[key]) || !hasFiniteValues[key]; });
+    // Stable: of keys at one time, the last of the file holds from there on.
     std::ranges::stable_sort(order, {}, [&](size_t key) { return times[key]; });
     return order;
 }
@@ -85,6 +86,7 @@ KeyRepairs mendKeys(AnimationSampler& sampler) {
     KeyRepairs repairs = findFaults(sampler.times, hasFiniteValues);
     if (repairs.endless + repairs.broken + repairs.earlier > 0)
         reorder(sampler, orderOf(sampler.times, hasFiniteValues));
+    // Counted in the sorted list, where equal times are neighbours.
     repairs.repeated = countRepeated(sampler.times);
     return repairs;
 }

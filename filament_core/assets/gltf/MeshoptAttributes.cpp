@@ -201,6 +201,8 @@ void restoreChannel(std::array<Plane, 4> const& planes, size_t groups, Deltas de
     const auto four = [&](Words8 interleaved) {
         constexpr Dwords4 kZero{};
         Dwords4 v = deltas.decode(std::bit_cast<Dwords4>(interleaved));
+        // The running sum of four lanes in two steps (Hillis and Steele 1986, "Data Parallel Algorithms"). All three
+        // sums are associative and exact, so this equals the sum one by one.
         v = Deltas::sum(v, __builtin_shufflevector(v, kZero, 4, 0, 1, 2));
         v = Deltas::sum(v, __builtin_shufflevector(v, kZero, 4, 4, 0, 1));
         v = Deltas::sum(v, carry);
