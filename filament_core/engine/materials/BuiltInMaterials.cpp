@@ -24,13 +24,14 @@ constexpr std::array kBuiltIn{
     BuiltInMaterial{ "unlitTextured", "the colours of a texture, whatever the light" },
     BuiltInMaterial{ "litVertexColors", "lit, with a colour for each vertex" },
     BuiltInMaterial{ "vertexColors", "a colour for each vertex, whatever the light" },
+    BuiltInMaterial{ "shadowCatcher", "nothing but the shadows on it" },
     BuiltInMaterial{ "wireframe", "lines of any width: makeWireframe(), makeLineQuads()" },
 };
 
 /// The packages of kBuiltIn, in its order.
 constexpr std::array<std::string_view, kBuiltIn.size()> kPackages{
-    "built_in_lit",        "built_in_unlit",        "built_in_lit_textured", "built_in_unlit_textured",
-    "built_in_lit_colors", "built_in_unlit_colors", "built_in_wireframe",
+    "built_in_lit",        "built_in_unlit",        "built_in_lit_textured",   "built_in_unlit_textured",
+    "built_in_lit_colors", "built_in_unlit_colors", "built_in_shadow_catcher", "built_in_wireframe",
 };
 
 struct InitialValue {
@@ -41,7 +42,7 @@ struct InitialValue {
 /// Of every built-in material that has the parameter; the others are 0.
 const std::array kInitialValues{
     InitialValue{ "baseColor", float3(1) }, InitialValue{ "roughness", 0.5f }, InitialValue{ "reflectance", 0.5f },
-    InitialValue{ "lineWidth", 1.0f },      InitialValue{ "depthBias", 4.0f },
+    InitialValue{ "lineWidth", 1.0f },      InitialValue{ "depthBias", 4.0f }, InitialValue{ "strength", 0.6f },
 };
 
 void writeInitialValues(scene::Material& material) {
