@@ -85,12 +85,16 @@ std::shared_ptr<LightObject> addSpot(std::shared_ptr<SceneObject> const& self, p
 }
 
 void setEnvironment(SceneObject const& self, py::object const& source, double illuminance, double rotationDegrees,
-                    bool skybox) {
+                    bool skybox, double groundHeight, double groundLevel, double groundRadius) {
     const Owner::Call call(*self.owner());
     const double turn = numberIn(rotationDegrees, "rotation_degrees", -1e6, 1e6) * std::numbers::pi / 180;
     const EnvironmentSettings settings{ .illuminance = Lux{ quantityOf(illuminance, "illuminance") },
                                         .rotationRadians = static_cast<float>(turn),
-                                        .skybox = skybox };
+                                        .skybox = skybox,
+                                        .groundHeightMeters = quantityOf(groundHeight, "ground_height"),
+                                        .groundLevelMeters =
+                                                static_cast<float>(numberIn(groundLevel, "ground_level", -1e6, 1e6)),
+                                        .groundRadiusMeters = quantityOf(groundRadius, "ground_radius") };
     if (source.is_none()) {
         self->setIndirectLight({}, settings.illuminance);
         self->setSkybox({}, settings.illuminance);
@@ -188,8 +192,11 @@ void bindScene(py::module_& module) {
                  py::arg("name") = "", "Adds a mesh with a material instance; the transform is a 4 x 4 matrix.")
             .def("set_environment", &setEnvironment, py::arg("source"), py::kw_only(),
                  py::arg("illuminance") = 30'000.0, py::arg("rotation_degrees") = 0.0, py::arg("skybox") = true,
+                 py::arg("ground_height") = 0.0, py::arg("ground_level") = 0.0, py::arg("ground_radius") = 50.0,
                  "Lights the scene by an Environment, or by the one that a Model brings; None: not any more. "
-                 "`illuminance` is what radiance 1 of it stands for, in lux.")
+                 "`illuminance` is what radiance 1 of it stands for, in lux. With a ground_height in metres its "
+                 "background "
+                 "lies on the ground, so far below the panorama's camera.")
             .def_property_readonly(
                     "bounds",
                     [](SceneObject const& self) {

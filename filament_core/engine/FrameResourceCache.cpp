@@ -59,7 +59,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
         resources.splatLayout = mEngine.layouts.intern(passes::splatLayout());
     }
     if (prepare::showsEdges(view.debugView)) resources.edges = edges();
-    if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
+    if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm, environment.skyHasGround);
     if (!packet.discs.empty()) resources.sunDisc = sunDisc();
     const bool isDebugView = packet.demand.needs(prepare::Effect::DebugView);
     if (isDebugView && !prepare::isOfEffectPass(view.debugView))
@@ -88,9 +88,12 @@ passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare:
              .irradiance = orBlack(environment.irradiance) };
 }
 
-scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
-    scene::Material const*& known = mSkyboxes[isRgbm];
-    if (!known) known = &mEngine.materials.get(mEngine.engineMaterial("skybox", { { "isRgbm", isRgbm } }));
+scene::Material const* FrameResourceCache::skybox(bool isRgbm, bool hasGround) {
+    scene::Material const*& known = mSkyboxes[isRgbm + 2 * hasGround];
+    if (!known) {
+        known = &mEngine.materials.get(
+                mEngine.engineMaterial("skybox", { { "isRgbm", isRgbm }, { "hasGround", hasGround } }));
+    }
     return known;
 }
 

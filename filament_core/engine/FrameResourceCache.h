@@ -26,14 +26,14 @@ private:
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
     backend::TextureHandle toneTable(View const& view, prepare::FramePacket const& packet);
     passes::DirtTexture dirt(prepare::FramePacket const& packet);
-    scene::Material const* skybox(bool isRgbm);
+    scene::Material const* skybox(bool isRgbm, bool hasGround);
     scene::Material const* farDepth();
     scene::Material const* sunDisc();
     scene::Material const* edges();
     scene::Material const* debugView(DebugView debugView, bool isEncoded);
 
     Engine::Impl& mEngine;
-    std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
+    std::array<scene::Material const*, 4> mSkyboxes{}; // by isRgbm and hasGround
     scene::Material const* mFarDepth = nullptr;
     scene::Material const* mSunDisc = nullptr;
     scene::Material const* mEdges = nullptr;

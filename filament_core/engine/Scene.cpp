@@ -10,6 +10,7 @@
 
 #include <filament_core/Environment.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace filament_core {
@@ -200,6 +201,13 @@ void Scene::setEnvironment(Environment const& environment, EnvironmentSettings c
     const PublicCall call(mImpl, "Scene::setEnvironment(Environment, EnvironmentSettings)");
     setIndirectLight(environment.indirectLight(), settings.illuminance, settings.rotationRadians);
     setSkybox(settings.skybox ? environment.skybox() : Skybox{}, settings.illuminance, settings.rotationRadians);
+    if (settings.groundHeightMeters <= 0) return;
+    mImpl->changedUses().skybox.ground = {
+        .heightMeters = settings.groundHeightMeters,
+        .levelMeters = settings.groundLevelMeters,
+        // A dome that does not enclose the panorama's camera and the ground would have no inside.
+        .radiusMeters = std::max(settings.groundRadiusMeters, 1.001f * settings.groundHeightMeters)
+    };
 }
 
 void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians) {

@@ -145,6 +145,7 @@ struct EnvironmentPacket {
     backend::TextureHandle irradiance; ///< none: the coefficients of the uniforms only
     backend::TextureHandle sky;        ///< none: no skybox
     scene::EnvironmentStorage storage{};
+    bool skyHasGround = false; ///< FrameUniforms::skyGround
     bool skyIsRgbm = false;
 };
 

@@ -72,7 +72,8 @@ uint64_t hashPacket(FramePacket const& packet) {
                       packet.focus, packet.last.secondsSince);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
-                     environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);
+                     environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm,
+                     environment.skyHasGround);
 }
 
 } // namespace filament_core::prepare

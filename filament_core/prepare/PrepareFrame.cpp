@@ -23,6 +23,7 @@ EnvironmentPacket environmentOf(scene::SceneData const& scene) {
              .irradiance = scene.indirectLight.irradiance,
              .sky = scene.skybox.cube,
              .storage = scene.indirectLight.storage,
+             .skyHasGround = scene.skybox.ground.heightMeters > 0,
              .skyIsRgbm = scene.skybox.isRgbm };
 }
 

@@ -121,7 +121,9 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.viewFromWorld = space.viewFromWorld;
     frame.clipFromView = space.clipFromView;
     frame.cameraPosition = float4(float3(space.cameraWorld), view.quality.cameraRelative ? 0.0f : 1.0f);
-    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), 0,
+    scene::BackgroundGround const& ground = scene.skybox.ground;
+    frame.skyGround = float4(float3(space.cameraWorld - double3(0, ground.levelMeters, 0)), ground.heightMeters);
+    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), ground.radiusMeters,
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
     frame.time = shaderTime(view.timeSeconds);
     frame.jitter = float4(2.0f * view.jitterPixels / float2(view.size), 0, view.band);

@@ -87,12 +87,20 @@ struct IndirectLightRecord {
     float rotationRadians = 0;
 };
 
+/// Where the lower half of a background lies; EnvironmentSettings.
+struct BackgroundGround {
+    float heightMeters = 0; ///< 0: it is infinitely far away
+    float levelMeters = 0;
+    float radiusMeters = 0;
+};
+
 struct SkyboxRecord {
     backend::TextureHandle cube;
     bool isRgbm = false; ///< RGBA8 as RGBM
     float3x3 worldFromCube{ 1.0f };
     Lux illuminance{};
     float rotationRadians = 0;
+    BackgroundGround ground{};
 };
 
 /// A cloud of splats, placed as a renderable without geometry is.

@@ -48,7 +48,12 @@ std::span<const Option> optionsOf<EnvironmentSettings>() {
     static const std::vector<Option> kOptions{
         option("illuminance", &S::illuminance, { 0, 1e12, "lx" }, "Illuminance that radiance 1 stands for."),
         option("rotationRadians", &S::rotationRadians, { -1e6, 1e6, "radians" }, "Rotation about the vertical axis."),
-        option("skybox", &S::skybox, "Draws the environment as background.")
+        option("skybox", &S::skybox, "Draws the environment as background."),
+        option("groundHeightMeters", &S::groundHeightMeters, { 0, 1e4, "metres" },
+               "Height of the panorama's camera above the ground that the background lies on; 0: it is infinitely far "
+               "away."),
+        option("groundLevelMeters", &S::groundLevelMeters, { -1e6, 1e6, "metres" }, "World height of that ground."),
+        option("groundRadiusMeters", &S::groundRadiusMeters, { 0.01, 1e5, "metres" }, "Radius of the dome over it.")
     };
     return kOptions;
 }

@@ -78,7 +78,8 @@ struct FrameUniforms {
     float4x4 clipFromView;
     float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are
                                  ///< absolute, not relative to it
-    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: unused; w: depth of infinity
+    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: radius of the dome over
+                                 ///< skyGround; w: depth of infinity
     float4 time;                 ///< x: seconds; y: what a double has beyond x; z: its fraction, [0, 1); w: unused
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
@@ -105,6 +106,8 @@ struct FrameUniforms {
     float4 fogScattering;        ///< rgb: albedo / (4 pi), w: asymmetry of henyeyGreenstein()
     float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has
                                  ///< them
+    float4 skyGround;            ///< of a background that lies on the ground; xyz: the camera, from below the
+                                 ///< panorama's; w: height of that one. exposure.z: radius of the dome
     float4 jitter;               ///< xy: by which clipFromWorld moves the image, times w of clip coordinates; z:
                                  ///< metres from which on transparencyWeight() falls; w: pixels of the guard band
 };

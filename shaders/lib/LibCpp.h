@@ -41,6 +41,7 @@ namespace {
 #include "shaders/lib/fog.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/grading.glsl"
+#include "shaders/lib/ground.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/iridescence.glsl"
 #include "shaders/lib/light.glsl"

@@ -34,6 +34,14 @@ class FogPhaseEdit final : public FrameEdit {
     }
 };
 
+class SkyGroundEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, skyGround) + 3 * sizeof(float);
+        writeFloat(bytes, at, 1.03f * readFloat(bytes, at));
+    }
+};
+
 /// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.
 bool isBeforePicture(Bytes const& bytes, size_t at) {
     const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
@@ -180,6 +188,7 @@ constexpr Mutation kEffectMutations[] = {
     { "gatheredWeight", "frames count half as much in the accumulated image", make<AccumulationWeightEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
+    { "skyGround", "the camera of the panorama 3 % higher above its ground", make<SkyGroundEdit> },
     { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
 };
 

@@ -81,6 +81,10 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
         return invalidOption("--ibl-intensity", words.iblIntensity, "lux from 0 to 1e9");
     options.iblIntensity = Lux{ static_cast<float>(*lux) };
 
+    const auto ground = finiteNumber(words.ground);
+    if (!ground || *ground < 0 || *ground > 1e4) return invalidOption("--ground", words.ground, "metres from 0 to 1e4");
+    options.groundHeightMeters = static_cast<float>(*ground);
+
     if (words.sun.empty()) return {};
     std::array<double, 4> sun{};
     const auto isSun = [](std::array<double, 4> const& v) {
@@ -144,6 +148,9 @@ void declareSceneOptions(CommandLine& app, SceneWords& words, SceneOptions& opti
     app.option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
     app.option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels").words(4);
     app.option("--skybox", words.skybox, "on or off: the environment as background (on)");
+    app.option("--ground", words.ground,
+               "METRES: the background lies on the ground under the model, so far below the panorama's camera, and "
+               "shows its shadows (0: infinitely far away)");
     app.option("--tone-mapper", words.toneMapper, listed(enumNames<ToneMapper>()) + " (aces)");
     app.option("--look", words.look, "FILE.cube: a table of display values after the tone mapper");
     app.option("--dither", words.dither, "on or off (off)");

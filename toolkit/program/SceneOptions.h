@@ -34,6 +34,7 @@ struct SceneOptions {
     Lux iblIntensity{ 30'000 };
     std::optional<SunLight> sun;
     bool skybox = true;                          ///< if there is an environment
+    float groundHeightMeters = 0;                ///< EnvironmentSettings, at the lowest point of the model
     std::filesystem::path lookFile{};            ///< that view.display.look was read from; empty: none
     std::filesystem::path dirt;                  ///< --set bloom.dirt=FILE.png: of the lens; empty: none
     bool exactShaders = true;                    ///< --set exact=off
@@ -44,8 +45,8 @@ struct SceneOptions {
 
 /// The words of those options as given.
 struct SceneWords {
-    std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
-                                    look, dither, out = "out";
+    std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, ground = "0",
+                                    toneMapper = "aces", look, dither, out = "out";
     std::vector<std::string> eye, at, exposure, sun;
     std::string preset, quality;
     std::vector<std::string> set; ///< name=value

@@ -64,7 +64,11 @@ void readEnvironment(JsonReader& reader, SceneSpec& spec) {
     double degrees = 0;
     reader.read("degrees", degrees, -360, 360);
     spec.environmentSettings.rotationRadians = static_cast<float>(glm::radians(degrees));
-    reader.read("skybox", spec.environmentSettings.skybox);
+    EnvironmentSettings& settings = spec.environmentSettings;
+    reader.read("skybox", settings.skybox);
+    reader.read("groundHeightMeters", settings.groundHeightMeters, 0, 1e4);
+    reader.read("groundLevelMeters", settings.groundLevelMeters, -1e6, 1e6);
+    reader.read("groundRadiusMeters", settings.groundRadiusMeters, 0.01, 1e5);
     readOptions(reader, spec.environmentOptions);
 }
 

@@ -10,9 +10,11 @@
 #include "tools/filament-render/HeapCounter.h"
 
 #include <filament_core/Animator.h>
+#include <filament_core/BuiltInMaterials.h>
 #include <filament_core/Environment.h>
 #include <filament_core/Gltf.h>
 #include <filament_core/ModelCopy.h>
+#include <filament_core/Primitives.h>
 #include <filament_core/Scene.h>
 
 #include <algorithm>
@@ -126,11 +128,16 @@ private:
     Result<void> loadModel(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadSky(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadDirt();
+    Result<void> addGround(double level);
 
     std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
     std::vector<Node> mCopies; ///< of it
     std::optional<Environment> mEnvironment;
+    Owned<Material> mCatcher;
+    Owned<MaterialInstance> mShadows;
+    Owned<VertexBuffer> mGroundVertices;
+    Owned<IndexBuffer> mGroundIndices;
     Owned<Texture> mPixels, mDirt;
     Owned<RenderTarget> mTarget;
     Scene mScene;
@@ -172,8 +179,40 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     return {};
 }
 
+/// Takes the shadows of what stands on it.
+Result<void> Stage::addGround(double level) {
+    const Box around = mScene.bounds();
+    const double3 size = around.max - around.min;
+    const auto side = static_cast<float>(8 * std::max({ size.x, size.y, size.z }));
+    const Result<Mesh> plane = makePlane({ .width = side, .depth = side });
+    if (!plane) return plane.error();
+    Result<Material> catcher = createBuiltInMaterial(mEngine, "shadowCatcher");
+    if (!catcher) return catcher.error();
+    mCatcher = mEngine.own(*catcher);
+    mShadows = mEngine.own(mEngine.createInstance(mCatcher));
+    mGroundVertices = mEngine.own(mEngine.create(plane->vertexBuffer()));
+    mGroundIndices = mEngine.own(mEngine.create(plane->indexBuffer()));
+    const double3 middle = (around.min + around.max) * 0.5;
+    double4x4 world(1.0);
+    world[3] = double4(middle.x, level, middle.z, 1);
+    mScene.add(RenderableDesc{ .vertices = mGroundVertices,
+                               .indices = mGroundIndices,
+                               .material = mShadows,
+                               .bounds = plane->bounds(),
+                               .worldFromObject = world,
+                               .castsShadows = false });
+    return {};
+}
+
 Result<void> Stage::loadSky(BackendRun& run, std::filesystem::path const& path) {
-    const EnvironmentSettings settings{ .illuminance = mOptions.iblIntensity, .skybox = mOptions.skybox };
+    const double level = mScene.bounds().min.y;
+    const EnvironmentSettings settings{ .illuminance = mOptions.iblIntensity,
+                                        .skybox = mOptions.skybox,
+                                        .groundHeightMeters = mOptions.groundHeightMeters,
+                                        .groundLevelMeters = static_cast<float>(level) };
+    if (settings.groundHeightMeters > 0) {
+        if (const Result<void> added = addGround(level); !added) return added;
+    }
     Environment const* own = mModel ? mModel->environment() : nullptr;
     run.usesModelEnvironment = own && mOptions.environment.empty();
     if (run.usesModelEnvironment) {

@@ -52,6 +52,11 @@ struct EnvironmentSettings {
     Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the environment stands for
     float rotationRadians = 0; ///< around +Y
     bool skybox = true;        ///< draw the environment as background
+    /// The lower half of the background lies on the ground, under a dome, so that things stand on it: height of the
+    /// panorama's camera above the ground, below which it is at x = z = 0; [0, 1e4] m. 0: infinitely far away.
+    float groundHeightMeters = 0;
+    float groundLevelMeters = 0;   ///< world height of the ground, [-1e6, 1e6] m
+    float groundRadiusMeters = 50; ///< of the dome, (height, 1e5] m; from outside it shows what lies straight on
 };
 
 } // namespace filament_core

@@ -104,6 +104,7 @@ TEST_F(Interface, FrameUniformsAgree) {
                           MEMBER(FrameUniforms, fogGrid),
                           MEMBER(FrameUniforms, fogScattering),
                           MEMBER(FrameUniforms, contactShadows),
+                          MEMBER(FrameUniforms, skyGround),
                           MEMBER(FrameUniforms, jitter) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }

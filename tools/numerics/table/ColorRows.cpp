@@ -23,6 +23,18 @@ Row toneMapRow(std::string_view part, Call call) {
              .fp32Only = kSceneReferred };
 }
 
+std::vector<Row> groundRows() {
+    return { { .file = "ground",
+               .function = "directionOverGround(vec3, vec3, float, float)",
+               .call = NUMERICS_CALL(directionOverGround(v * s.x, u, s.y, s.z)),
+               .s = { number("away", 1e-3, 1e3), number("height", 0.1, 10), number("radius", 11, 1e4) },
+               .u = direction("direction"),
+               .v = direction("from"),
+               .range = { -2e4, 2e4 },
+               .noError = "where a ray is level with the ground, its point is any distance away",
+               .fp32Only = "squares of metres exceed 16 bits" } };
+}
+
 std::vector<Row> fogRows() {
     constexpr std::string_view kMeters = "metres and optical depths exceed 16 bits";
     return {
@@ -300,7 +312,7 @@ std::vector<Row> colorRows() {
           .fp32Only = "squares of warped depths reach e^80",
           .openOutside = "depths lie in [-1, 1]: momentDepth() clamps them" },
     };
-    for (std::vector<Row> const& more : { toneMapRows(), toneTableRows(), transferRows(), fogRows() })
+    for (std::vector<Row> const& more : { toneMapRows(), toneTableRows(), transferRows(), fogRows(), groundRows() })
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

@@ -136,7 +136,10 @@ template <> struct Fields<EnvironmentLoadOptions> {
 template <> struct Fields<EnvironmentSettings> {
     static constexpr auto list = std::tuple{ field("illuminance", &EnvironmentSettings::illuminance),
                                              field("rotationRadians", &EnvironmentSettings::rotationRadians),
-                                             field("skybox", &EnvironmentSettings::skybox) };
+                                             field("skybox", &EnvironmentSettings::skybox),
+                                             field("groundHeightMeters", &EnvironmentSettings::groundHeightMeters),
+                                             field("groundLevelMeters", &EnvironmentSettings::groundLevelMeters),
+                                             field("groundRadiusMeters", &EnvironmentSettings::groundRadiusMeters) };
     static constexpr size_t others = 0;
 };
 template <> struct Fields<SunLight> {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The budget's choice compared with all combinations, its rules for ties and limits, and compared with presets. No
 // device.
+#include <filament_core/Options.h>
 #include <filament_core/QualityBudget.h>
 
 #include <gtest/gtest.h>
