@@ -63,15 +63,33 @@ Result<CubePicture> decodeCubePicture(std::span<const std::byte> ktx2, std::stri
     sanitise(pixels);
     const uint32_t size = pixels.width;
     CubePicture picture{ IblCubeLevel(size), pixels.repairs };
-    for (uint32_t row = 0; row < pixels.height; ++row) {
+    setImage(picture, pixels);
+    return picture;
+}
+
+HdrImage imageFromPicture(CubePicture const& picture) {
+    const uint32_t size = picture.radiance.size();
+    HdrImage faces{ .width = size, .height = 6 * size, .pixels = {}, .repairs = {} };
+    faces.pixels.reserve(size_t{ size } * faces.height);
+    for (uint32_t row = 0; row < faces.height; ++row) {
+        for (uint32_t x = 0; x < size; ++x)
+            faces.pixels.push_back(
+                    picture.radiance.radiance(row / size, static_cast<int>(x), static_cast<int>(row % size)));
+    }
+    return faces;
+}
+
+void setImage(CubePicture& picture, HdrImage const& faces) {
+    const uint32_t size = picture.radiance.size();
+    FILAMENT_ASSERT(faces.width == size && faces.height == 6 * size, "a cube has six faces of its size");
+    for (uint32_t row = 0; row < faces.height; ++row) {
         for (uint32_t x = 0; x < size; ++x) {
-            const float3 pixel = pixels.at(x, row);
+            const float3 pixel = faces.at(x, row);
             picture.radiance.at(row / size, static_cast<int>(x), static_cast<int>(row % size)) =
                     Texel{ pixel.x, pixel.y, pixel.z, 0 };
         }
     }
     picture.radiance.fillBorder();
-    return picture;
 }
 
 IblCube cubeFromPicture(CubePicture const& picture, uint32_t size, jobs::JobSystem& jobs) {

@@ -27,6 +27,10 @@ struct CubePicture {
 
 Result<CubePicture> decodeCubePicture(std::span<const std::byte> ktx2, std::string_view name);
 
+/// The faces one below the other, and back.
+HdrImage imageFromPicture(CubePicture const& picture);
+void setImage(CubePicture& picture, HdrImage const& faces);
+
 /// `size` is a power of two.
 IblCube cubeFromPicture(CubePicture const& picture, uint32_t size, jobs::JobSystem& jobs);
 

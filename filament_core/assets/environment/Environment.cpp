@@ -6,13 +6,17 @@
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/environment/EnvironmentPackage.h"
 #include "filament_core/assets/environment/Panorama.h"
+#include "filament_core/assets/environment/SkyLights.h"
 #include "filament_core/assets/files/FileBytes.h"
+
+#include <filament_core/LoadOptions.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 namespace filament_core::assets {
 namespace {
@@ -24,6 +28,10 @@ Result<void> checkOptions(EnvironmentOptions const& options) {
     }
     if (options.samples < 1 || options.samples > 65536) {
         return fail(ErrorCode::InvalidArgument, "{} environment samples are not in [1, 65536]", options.samples);
+    }
+    if (options.lights < 1 || options.lights > EnvironmentLights::kMost) {
+        return fail(ErrorCode::InvalidArgument, "{} lights of an environment are not in [1, {}]", options.lights,
+                    EnvironmentLights::kMost);
     }
     if (!isEnvironmentFormat(options.format)) {
         return fail(ErrorCode::InvalidArgument,
@@ -50,6 +58,15 @@ void warnAboutRepairs(std::string_view name, HdrRepairs const& repairs) {
         repairs.notANumber, repairs.infinite, repairs.negative);
 }
 
+/// Of a package, the lights that it was baked with.
+void noteLights(std::string_view name, EnvironmentOptions const& options, EnvironmentLights& lights) {
+    if (options.sun == EnvironmentSun::Keep) return;
+    if (lights.search == SunSearch::Off) lights.search = SunSearch::Baked;
+    if (lights.count > 0) return;
+    const std::string text = explain(lights, {});
+    log(Severity::Warning, "'{}': {}", name, text.substr(0, text.find('\n')));
+}
+
 std::filesystem::path cacheFile(std::filesystem::path const& directory, uint64_t key) {
     return directory / fmt::format("environment-{:016x}.bin", key);
 }
@@ -68,8 +85,9 @@ Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
 }
 
 /// What of the cube is needed once it is there: its first level has at least `skySize` and options.faceSize texels.
-Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::JobSystem& jobs,
-                                 EnvironmentOptions const& options) {
+/// `background`: of skySize texels; null: that of the cube.
+Result<EnvironmentData> bakeCube(IblCube const& cube, IblCubeLevel const* background, uint32_t skySize,
+                                 jobs::JobSystem& jobs, EnvironmentOptions const& options) {
     report(options, "project", 1, 1);
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
     EnvironmentData data;
@@ -85,7 +103,8 @@ Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::Jo
     EncodedCube specular = encodeCube(levels, options.format, jobs);
     // The cube is as fine as the finer of its two uses; the sky takes the level that has its own size.
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
-    EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
+    IblCubeLevel const& shown = background ? *background : cube[skyLevel];
+    EncodedCube sky = encodeCube(std::span(&shown, 1), options.format, jobs);
     data.specular = std::move(specular.image);
     data.sky = std::move(sky.image);
     data.irradiance = irradianceOf(cube, jobs);
@@ -94,16 +113,32 @@ Result<EnvironmentData> bakeCube(IblCube const& cube, uint32_t skySize, jobs::Jo
     return data;
 }
 
+IblCubeLevel levelOfSize(IblCube const& cube, uint32_t size) {
+    return cube[std::bit_width(cube.front().size() / size) - 1u];
+}
+
 Result<EnvironmentData> bakeCubePicture(std::span<const std::byte> ktx2, std::string_view name, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options) {
-    const Result<CubePicture> picture = decodeCubePicture(ktx2, name);
+    Result<CubePicture> picture = decodeCubePicture(ktx2, name);
     if (!picture) return picture.error();
     report(options, "decode", 1, 1);
     const uint32_t face = picture->radiance.size(), skySize = skyFaceSize(4 * face);
     report(options, "project", 0, 1);
-    const IblCube cube = cubeFromPicture(*picture, std::max(skySize, options.faceSize), jobs);
-    Result<EnvironmentData> data = bakeCube(cube, skySize, jobs, options);
+    const uint32_t size = std::max(skySize, options.faceSize);
+    std::optional<IblCubeLevel> background;
+    EnvironmentLights lights;
+    if (options.sun != EnvironmentSun::Keep) {
+        HdrImage sky = imageFromPicture(*picture);
+        lights = takeLights(sky, SkyLayout::Cube, options.sun, options.lights, jobs);
+        if (lights.count > 0) {
+            background = levelOfSize(cubeFromPicture(*picture, size, jobs), skySize);
+            setImage(*picture, sky);
+        }
+    }
+    const IblCube cube = cubeFromPicture(*picture, size, jobs);
+    Result<EnvironmentData> data = bakeCube(cube, background ? &*background : nullptr, skySize, jobs, options);
     if (!data) return data;
+    data->lights = lights;
     data->statistics.sourceWidth = data->statistics.sourceHeight = face;
     data->statistics.repairs = picture->repairs;
     return data;
@@ -200,9 +235,18 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     const uint32_t skySize = skyFaceSize(image.width);
     report(options, "project", 0, 1);
     if (const Result<void> wanted = goesOn(options); !wanted) return wanted.error();
-    const IblCube cube = cubeFromEquirect(image, std::max(skySize, options.faceSize), jobs);
-    Result<EnvironmentData> data = bakeCube(cube, skySize, jobs, options);
+    std::optional<IblCubeLevel> background;
+    std::optional<HdrImage> rest; // without the lights
+    EnvironmentLights lights;
+    if (options.sun != EnvironmentSun::Keep) {
+        rest = image;
+        lights = takeLights(*rest, SkyLayout::Panorama, options.sun, options.lights, jobs);
+        if (lights.count > 0) background = faceLevelFromEquirect(image, skySize, jobs);
+    }
+    const IblCube cube = cubeFromEquirect(rest ? *rest : image, std::max(skySize, options.faceSize), jobs);
+    Result<EnvironmentData> data = bakeCube(cube, background ? &*background : nullptr, skySize, jobs, options);
     if (!data) return data;
+    data->lights = lights;
     data->statistics.sourceWidth = image.width;
     data->statistics.sourceHeight = image.height;
     data->statistics.repairs = image.repairs;
@@ -228,6 +272,7 @@ Result<EnvironmentData> loadEnvironmentFromMemory(std::span<const std::byte> fil
     Result<EnvironmentData> data = loadThroughCache(file, name, jobs, options);
     if (!data) return data;
     warnAboutRepairs(name, data->statistics.repairs);
+    noteLights(name, options, data->lights);
     warnAboutPanorama(file, name);
     return data;
 } catch (std::bad_alloc const&) {

@@ -18,6 +18,8 @@
 #include "filament_core/assets/environment/IblBaker.h"
 #include "jobsystem/Cancellation.h"
 
+#include <filament_core/EnvironmentLights.h>
+
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -37,6 +39,8 @@ struct EnvironmentOptions {
     uint32_t samples = 512;  ///< approximate number of pieces of the sky per texel; [1, 65536]
     backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8: RGBM
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
+    EnvironmentSun sun = EnvironmentSun::Keep; ///< what is not kept leaves `specular` and the irradiance, not `sky`
+    uint32_t lights = 1;                       ///< at most, of EnvironmentSun::Fit; [1, 4]
     EnvironmentProgress progress{};
     /// Requested from any thread: the load ends before its next step, with Cancelled. Must outlive it.
     jobs::Cancellation const* cancellation = nullptr;
@@ -63,6 +67,7 @@ struct EnvironmentData {
     RoughnessMapping mapping = RoughnessMapping::Quadratic; ///< the roughness of each level of `specular`
     float3x3 worldFromCube{ 1.0f };                         ///< of a panorama: the identity
     EnvironmentStatistics statistics;
+    EnvironmentLights lights{}; ///< what was taken out
 };
 
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,

@@ -2,12 +2,14 @@
 #include "filament_core/assets/environment/EnvironmentCache.h"
 
 #include "base/Hash.h"
+#include "filament_core/assets/environment/LightNumbers.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 
 namespace filament_core::assets {
@@ -18,6 +20,8 @@ static_assert(std::endian::native == std::endian::little, "cached environments a
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
 /// Incremented whenever the baker's results or this layout change.
 constexpr uint32_t kBakerVersion = 6;
+/// The same for takeLights().
+constexpr uint32_t kFinderVersion = 1;
 constexpr uint32_t kMaxFaceSize = 2048;
 
 struct CubeHeader {
@@ -75,7 +79,10 @@ uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions c
     const std::array<uint32_t, 5> choices{ kBakerVersion, options.faceSize, options.samples,
                                            static_cast<uint32_t>(options.format),
                                            static_cast<uint32_t>(options.mapping) };
-    return hashCombine(hashBytes(picture), hashValue(choices));
+    const uint64_t key = hashCombine(hashBytes(picture), hashValue(choices));
+    if (options.sun == EnvironmentSun::Keep) return key;
+    const uint32_t lights = options.sun == EnvironmentSun::Fit ? options.lights : 0;
+    return hashCombine(key, hashValue(std::array<uint32_t, 3>{ kFinderVersion, uint32_t(options.sun), lights }));
 }
 
 uint64_t bakedEnvironmentKey(RoughnessMapping mapping) { return environmentKey({}, { .mapping = mapping }); }
@@ -107,6 +114,11 @@ std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t k
     std::memcpy(bytes.data(), &header, sizeof(header));
     for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
         bytes.insert(bytes.end(), image->data.begin(), image->data.end());
+    if (data.lights.search != SunSearch::Off) { // files without lights end with the texels
+        const LightNumbers numbers = numbersOf(data.lights);
+        const auto own = std::as_bytes(std::span(numbers));
+        bytes.insert(bytes.end(), own.begin(), own.end());
+    }
     const uint64_t checksum = hashBytes(std::span(bytes).subspan(kChecksummedFrom));
     std::memcpy(bytes.data() + offsetof(FileHeader, checksum), &checksum, sizeof(checksum));
     return bytes;
@@ -127,7 +139,8 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     uint64_t texelBytes = 0;
     for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
         texelBytes += image->levelOffset(image->levels);
-    if (bytes.size() != sizeof(header) + texelBytes) return corrupt("is cut short");
+    const bool hasLights = bytes.size() == sizeof(header) + texelBytes + sizeof(LightNumbers);
+    if (bytes.size() != sizeof(header) + texelBytes && !hasLights) return corrupt("is cut short");
     if (hashBytes(bytes.subspan(kChecksummedFrom)) != header.checksum) return corrupt("does not match its checksum");
 
     auto texels = bytes.subspan(sizeof(header));
@@ -135,6 +148,13 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
         const auto own = texels.first(image->levelOffset(image->levels));
         image->data.assign(own.begin(), own.end());
         texels = texels.subspan(own.size());
+    }
+    if (hasLights) {
+        LightNumbers numbers{};
+        std::memcpy(numbers.data(), texels.data(), sizeof(numbers));
+        const std::optional<EnvironmentLights> lights = lightsFrom(numbers);
+        if (!lights) return corrupt("has impossible lights");
+        data.lights = *lights;
     }
     std::memcpy(data.irradianceSh.data(), header.irradianceSh.data(), sizeof(header.irradianceSh));
     // Follows from the cube, so it is not stored: a file cannot contradict itself there.

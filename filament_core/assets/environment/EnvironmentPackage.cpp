@@ -2,6 +2,7 @@
 #include "filament_core/assets/environment/EnvironmentPackage.h"
 
 #include "base/Assert.h"
+#include "filament_core/assets/environment/LightNumbers.h"
 #include "filament_core/assets/image/Ktx2Encoder.h"
 #include "filament_core/assets/image/Ktx2Inflate.h"
 
@@ -17,10 +18,12 @@
 namespace filament_core::assets {
 namespace {
 
-constexpr const char* kLayoutVersion = "1";
+/// With lights, which earlier programs would lose, another one.
+constexpr const char *kLayoutVersion = "1", *kLayoutWithLights = "2";
 constexpr std::string_view kLayoutKey = "filament.environment", kMappingKey = "filament.roughnessMapping",
                            kShKey = "filament.irradianceSh", kIrradianceKey = "filament.irradiance",
-                           kSkyboxKey = "filament.skybox", kPictureKey = "filament.picture";
+                           kSkyboxKey = "filament.skybox", kPictureKey = "filament.picture",
+                           kLightsKey = "filament.lights";
 constexpr uint32_t kMaxPackageFace = 2048;
 
 constexpr std::array<std::pair<RoughnessMapping, const char*>, 3> kMappingNames{ {
@@ -58,6 +61,12 @@ std::string pictureText(EnvironmentStatistics const& s) {
     return fmt::format("{} {} {} {} {} {} {} {} {}", s.sourceWidth, s.sourceHeight, s.repairs.notANumber,
                        s.repairs.infinite, s.repairs.negative, s.specularLoss.clippedTexels, s.skyLoss.clippedTexels,
                        s.specularLoss.lostEnergy, s.skyLoss.lostEnergy);
+}
+
+std::string lightsText(EnvironmentLights const& lights) {
+    std::string text;
+    for (const float number : numbersOf(lights)) text += fmt::format("{} ", number);
+    return text;
 }
 
 std::optional<EnvironmentStatistics> statisticsOf(std::string_view text) {
@@ -103,11 +112,11 @@ public:
     PackageReader(Ktx2File const& file, std::string_view name) : mFile(file), mName(name) {}
 
     Result<EnvironmentData> read() {
-        if (text(kLayoutKey) != kLayoutVersion)
+        if (text(kLayoutKey) != kLayoutVersion && text(kLayoutKey) != kLayoutWithLights)
             return fail(ErrorCode::Unsupported,
-                        "'{}' is an environment package of another layout than {}, which this version reads; bake it "
-                        "again with cmgen",
-                        mName, kLayoutVersion);
+                        "'{}' is an environment package of another layout than {} and {}, which this version reads; "
+                        "bake it again with cmgen",
+                        mName, kLayoutVersion, kLayoutWithLights);
         if (!readTexts()) return damaged(mReason);
         for (const auto& [key, cube] : { std::pair(std::string_view(), &mData.specular),
                                          { kSkyboxKey, &mData.sky },
@@ -143,7 +152,18 @@ private:
         const std::optional<EnvironmentStatistics> statistics = statisticsOf(text(kPictureKey));
         mReason = "its filament.picture is not nine numbers";
         if (statistics) mData.statistics = *statistics;
-        return statistics.has_value();
+        return statistics && readLights();
+    }
+
+    bool readLights() {
+        const std::string_view lights = text(kLightsKey);
+        if (text(kLayoutKey) == kLayoutVersion) return true;
+        LightNumbers numbers{};
+        mReason = "its filament.lights is not 42 numbers of lights";
+        if (!numbersIn(lights, numbers)) return false;
+        const std::optional<EnvironmentLights> read = lightsFrom(numbers);
+        if (read) mData.lights = *read;
+        return read && read->search != SunSearch::Off;
     }
 
     /// The file itself, or the one in a value.
@@ -202,9 +222,15 @@ std::vector<std::byte> encodeEnvironmentPackage(EnvironmentData const& data) {
     const auto mapping = std::ranges::find(kMappingNames, data.mapping, [](auto const& pair) { return pair.first; });
     FILAMENT_ASSERT(mapping != kMappingNames.end(), "an environment has one of the known mappings");
     const std::vector<std::byte> skybox = encodeKtx2(data.sky);
-    std::vector<Ktx2Value> values{ ktx2Text("KTXwriter", "filament_core cmgen"), ktx2Text(kLayoutKey, kLayoutVersion),
-                                   ktx2Text(kMappingKey, mapping->second),       ktx2Text(kShKey, sh.c_str()),
-                                   ktx2Text(kPictureKey, picture.c_str()),       { kSkyboxKey, skybox } };
+    const bool hasLights = data.lights.search != SunSearch::Off;
+    const std::string lights = lightsText(data.lights);
+    std::vector<Ktx2Value> values{ ktx2Text("KTXwriter", "filament_core cmgen"),
+                                   ktx2Text(kLayoutKey, hasLights ? kLayoutWithLights : kLayoutVersion),
+                                   ktx2Text(kMappingKey, mapping->second),
+                                   ktx2Text(kShKey, sh.c_str()),
+                                   ktx2Text(kPictureKey, picture.c_str()),
+                                   { kSkyboxKey, skybox } };
+    if (hasLights) values.push_back(ktx2Text(kLightsKey, lights.c_str()));
     std::vector<std::byte> irradiance;
     if (!data.irradiance.data.empty()) {
         irradiance = encodeKtx2(data.irradiance);

@@ -2,12 +2,13 @@
 /// Environment packages: all that lights a scene, already baked, in one KTX 2.0 file. Any KTX 2.0 program can show its
 /// texture, and zlib or Zstandard may compress it. Private to this folder; docs/environments.md describes the layout.
 ///   texture                     EnvironmentData::specular, with one level for each roughness
-///   filament.environment        the version of this layout, "1"
+///   filament.environment        the version of this layout: "1"; "2" with lights
 ///   filament.roughnessMapping   "quadratic", "logarithmic" or "linear"
 ///   filament.irradianceSh       27 numbers: nine coefficients of red, green and blue (shaders/lib/ibl.glsl)
 ///   filament.irradiance         a KTX 2.0 file: the irradiance cube; may be missing
 ///   filament.skybox             a KTX 2.0 file: the background
 ///   filament.picture            EnvironmentStatistics of the panorama: nine numbers
+///   filament.lights             42 numbers (LightNumbers.h): what was taken out of the light; with layout "2"
 ///   Formats RGBA16F, R11G11B10F, RGB9E5 and RGBA8, which means RGBM; irradiance is RGBA16F. Texts are ASCII.
 ///   Thread  pure functions.
 ///   Limits  2048 texels per side of a face, a power of two.

@@ -15,6 +15,8 @@
 #include <filament_core/Engine.h>
 #include <filament_core/EnumNames.h>
 #include <filament_core/Environment.h>
+#include <filament_core/EnvironmentFormat.h>
+#include <filament_core/EnvironmentLights.h>
 #include <filament_core/Gltf.h>
 #include <filament_core/Image.h>
 #include <filament_core/JobTimeline.h>

@@ -9,6 +9,8 @@
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/environment/EnvironmentPackage.h"
 
+#include <filament_core/LoadOptions.h>
+
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -35,6 +37,12 @@ inline void checkEnvironment(EnvironmentData const& data) {
                         "a cube has no level below one texel");
         FILAMENT_ASSERT(cube->data.size() == cube->levelOffset(cube->levels), "every texel is there");
         FILAMENT_ASSERT(isEnvironmentFormat(cube->format), "the format is one of environments");
+    }
+    for (ExtractedLight const& light : data.lights.found()) {
+        const SunLight sun = sunLightOf(light, {});
+        FILAMENT_ASSERT(sun.illuminance.value >= 0 && sun.illuminance.value <= 1e12f, "lights are suns");
+        FILAMENT_ASSERT(glm::length(sun.directionWorld) > 0.9f, "lights have a direction");
+        for (int i = 0; i < 3; ++i) FILAMENT_ASSERT(sun.color[i] >= 0 && sun.color[i] <= 1e9f, "lights have a colour");
     }
     for (float4 const& coefficient : data.irradianceSh) {
         for (int i = 0; i < 4; ++i) FILAMENT_ASSERT(std::isfinite(coefficient[i]), "coefficients are finite");

@@ -122,7 +122,15 @@ void replaceValue(std::vector<Ktx2Value>& values, std::string_view key, const ch
 
 const BrokenPackage kBrokenPackages[] = {
     { "version", "another layout than 1",
-      [](auto& values, auto&) { replaceValue(values, "filament.environment", "2"); } },
+      [](auto& values, auto&) { replaceValue(values, "filament.environment", "3"); } },
+    { "no lights", "42 numbers of lights", [](auto& v, auto&) { replaceValue(v, "filament.environment", "2"); } },
+    { "lights that are none", "42 numbers of lights",
+      [](auto& v, auto&) {
+          static std::string zeros; // 42, and no direction
+          for (int i = zeros.empty() ? 0 : 42; i < 42; ++i) zeros += "0 ";
+          replaceValue(v, "filament.environment", "2");
+          v.push_back(ktx2Text("filament.lights", zeros.c_str()));
+      } },
     { "mapping", "roughnessMapping", [](auto& v, auto&) { replaceValue(v, "filament.roughnessMapping", "square"); } },
     { "short harmonics", "27 finite", [](auto& v, auto&) { replaceValue(v, "filament.irradianceSh", "1 2 3"); } },
     { "harmonics that are no numbers", "27 finite",
