@@ -22,6 +22,7 @@ struct Environment::Impl {
     Texture irradiance{}; ///< none: only coefficients are known
     IndirectLight indirectLight{};
     Skybox skybox{};
+    EnvironmentLights lights{};
 
     ~Impl();
 };

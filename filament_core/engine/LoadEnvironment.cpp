@@ -68,6 +68,7 @@ Environment EnvironmentUpload::finish() {
                                                                         .name = mName }));
     mParts->skybox = orBadAlloc(
             engine.create(SkyboxDesc{ .cube = mParts->sky, .worldFromCube = mData.worldFromCube, .name = mName }));
+    mParts->lights = mData.lights;
     return Environment(std::move(mParts));
 }
 
@@ -98,6 +99,8 @@ assets::EnvironmentOptions environmentOptions(Engine::Impl const& engine, Enviro
              .samples = options.samples,
              .format = textureFormat(options.format),
              .mapping = options.roughnessMapping,
+             .sun = options.sun,
+             .lights = options.lights,
              .progress = options.progress };
 }
 
@@ -110,6 +113,10 @@ IndirectLight Environment::indirectLight() const {
 Skybox Environment::skybox() const {
     const PublicCall call(mImpl, "Environment::skybox()");
     return mImpl->skybox;
+}
+EnvironmentLights const& Environment::lights() const {
+    const PublicCall call(mImpl, "Environment::lights()");
+    return mImpl->lights;
 }
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,

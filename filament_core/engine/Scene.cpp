@@ -12,6 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace filament_core {
 namespace {
@@ -53,6 +56,13 @@ Renderable addSplatsTo(Scene::Impl& scene, RenderableDesc const& desc) {
                                         .castsShadows = false,
                                         .layers = desc.layers };
     return scene::addSplats(scene.changed(), input, desc.splats.data());
+}
+
+/// A dome that does not enclose the panorama's camera and the ground would have no inside.
+scene::BackgroundGround groundOf(EnvironmentSettings const& settings) {
+    return { .heightMeters = std::max(settings.groundHeightMeters, 0.0f),
+             .levelMeters = settings.groundLevelMeters,
+             .radiusMeters = std::max(settings.groundRadiusMeters, 1.001f * settings.groundHeightMeters) };
 }
 
 } // namespace
@@ -199,19 +209,23 @@ void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject
 
 void Scene::setEnvironment(Environment const& environment, EnvironmentSettings const& settings) {
     const PublicCall call(mImpl, "Scene::setEnvironment(Environment, EnvironmentSettings)");
+    const std::span<const ExtractedLight> suns = environment.lights().found();
+    if (suns.size() != mImpl->environmentLights.size()) mImpl->removeEnvironmentLights();
+    const std::vector<Light> kept = std::exchange(mImpl->environmentLights, {}); // setIndirectLight() would remove them
     setIndirectLight(environment.indirectLight(), settings.illuminance, settings.rotationRadians);
     setSkybox(settings.skybox ? environment.skybox() : Skybox{}, settings.illuminance, settings.rotationRadians);
-    if (settings.groundHeightMeters <= 0) return;
-    mImpl->changedUses().skybox.ground = {
-        .heightMeters = settings.groundHeightMeters,
-        .levelMeters = settings.groundLevelMeters,
-        // A dome that does not enclose the panorama's camera and the ground would have no inside.
-        .radiusMeters = std::max(settings.groundRadiusMeters, 1.001f * settings.groundHeightMeters)
-    };
+    mImpl->changedUses().skybox.ground = groundOf(settings);
+    mImpl->environmentLights = kept;
+    for (size_t i = 0; i < suns.size(); ++i) {
+        const SunLight sun = sunLightOf(suns[i], settings);
+        if (i < kept.size()) set(kept[i], sun);
+        if (i >= kept.size()) mImpl->environmentLights.push_back(add(sun));
+    }
 }
 
 void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians) {
     const PublicCall call(mImpl, "Scene::setIndirectLight(IndirectLight, Lux, float)");
+    mImpl->removeEnvironmentLights();
     scene::IndirectLightRecord state;
     if (light) state = mImpl->engine.indirectLights.get(light).light;
     state.illuminance = illuminance;

@@ -9,6 +9,7 @@
 #include <filament_core/Scene.h>
 
 #include <utility>
+#include <vector>
 
 namespace filament_core {
 
@@ -51,6 +52,11 @@ struct Scene::Impl {
         return changed();
     }
 
+    /// Those that setEnvironment() added.
+    void removeEnvironmentLights() {
+        for (const Light light : std::exchange(environmentLights, {})) scene::removeLight(changedUses(), light);
+    }
+
     /// Ends the process if it lacks what the material reads, or its indices are not in the index buffer.
     scene::Geometry geometryOf(GeometryDesc const& desc, scene::Material const& material) const;
     /// Those that it names; otherwise those of its vertices, or of the origin if they have no positions.
@@ -68,6 +74,7 @@ struct Scene::Impl {
     mutable uint64_t boundsChanges = 0;   ///< of the engine, that `followed` have seen
     uint64_t changes = 0;                 ///< by the app
     engine::CopiesOfModels copies;
+    std::vector<Light> environmentLights; ///< that setEnvironment() added
 };
 
 } // namespace filament_core

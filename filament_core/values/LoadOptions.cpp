@@ -31,13 +31,17 @@ std::span<const Option> optionsOf<EnvironmentLoadOptions>() {
     static constexpr std::array<std::string_view, 8> kFaceSizes{
         "16", "32", "64", "128", "256", "512", "1024", "2048"
     };
+    static constexpr std::array<std::string_view, 4> kLights{ "1", "2", "3", "4" };
     static constexpr std::array<std::string_view, 6> kSamples{ "16", "64", "256", "512", "1024", "4096" };
     using O = EnvironmentLoadOptions;
     static const std::vector<Option> kOptions{
         option("faceSize", &O::faceSize, { 16, 2048, {}, kFaceSizes, true }, "Texels per side of a cube face."),
         option("format", &O::format, "Storage of light: [quality](quality.md)."),
         option("roughnessMapping", &O::roughnessMapping, "Roughness of each mip level."),
-        option("samples", &O::samples, { 1, 65536, {}, kSamples }, "Pieces of the sky that each texel integrates.")
+        option("samples", &O::samples, { 1, 65536, {}, kSamples }, "Pieces of the sky that each texel integrates."),
+        option("sun", &O::sun, "Makes [the sun](environments.md#the-sun) a light that casts shadows."),
+        option("lights", &O::lights, { 1, EnvironmentLights::kMost, {}, kLights },
+               "Lights that `sun=fit` makes at most.")
     };
     return kOptions;
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <filament_core/Engine.h>
+#include <filament_core/EnvironmentLights.h>
 #include <filament_core/LoadOptions.h>
 
 #include <filesystem>
@@ -26,6 +27,9 @@ public:
 
     IndirectLight indirectLight() const;
     Skybox skybox() const;
+    /// What EnvironmentLoadOptions::sun took out of indirectLight(). Scene::setEnvironment() adds it as SunLights;
+    /// after setIndirectLight() and setSkybox() a program adds sunLightOf() each.
+    EnvironmentLights const& lights() const;
 
     struct Impl;
     explicit Environment(std::shared_ptr<Impl> impl) : mImpl(std::move(impl)) {}
@@ -35,7 +39,7 @@ private:
 };
 
 /// `path`: an equirectangular .hdr or .exr, a cube map of floats in a .ktx2, or a package (.ktx2 or .fenv) that cmgen
-/// baked from one of them; sizes, format and mapping are then those of the package.
+/// baked from one of them; sizes, format, mapping and lights are then those of the package.
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options = {});
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filament_core/EnvironmentFormat.h>
+#include <filament_core/EnvironmentLights.h>
 #include <filament_core/Quality.h>
 #include <filament_core/Units.h>
 
@@ -45,6 +46,10 @@ struct EnvironmentLoadOptions {
     EnvironmentFormat format = EnvironmentFormat::Rgba16F; ///< the others take half the memory
     RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
     uint32_t samples = 512; ///< pieces of the sky that each texel integrates, about, [1, 65536]
+    /// Light that Scene::setEnvironment() adds as suns, which cast shadows. It is taken out of the light of the
+    /// environment, not out of its background.
+    EnvironmentSun sun = EnvironmentSun::Keep;
+    uint32_t lights = 1; ///< at most, with EnvironmentSun::Fit, [1, 4]
     LoadProgress progress{};
 };
 

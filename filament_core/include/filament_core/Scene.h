@@ -192,9 +192,11 @@ public:
     /// The first node with this name at or below `root` ({}: in the whole scene), parents first; none if there is none.
     Node findNode(std::string_view name, Node root = {}) const;
 
+    /// Its light, background and Environment::lights(), in place of those of the environment before.
     void setEnvironment(Environment const& environment, EnvironmentSettings const& settings = {});
-    void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0); ///< {}: none
-    void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
+    /// {}: none. The lights that setEnvironment() added leave.
+    void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0);
+    void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0); ///< {}: none
 
     Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
     Box bounds(Renderable renderable) const; ///< in world space; conservative, like bounds()

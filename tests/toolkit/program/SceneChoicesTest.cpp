@@ -18,10 +18,11 @@ SceneOptions sunny() {
 
 /// What the choices change, as one text.
 std::string stateOf(SceneOptions const& o) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows,
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", o.sun->showsDisc, o.sun->contactShadows,
                        o.sun->angularRadiusDegrees, o.sun->haloSize, o.sun->haloFalloff, o.exactShaders,
                        static_cast<int>(o.environmentOptions.format),
                        static_cast<int>(o.environmentOptions.roughnessMapping),
+                       static_cast<int>(o.environmentOptions.sun), o.environmentOptions.lights,
                        static_cast<int>(o.modelOptions.positions), static_cast<int>(o.modelOptions.tangents),
                        o.modelOptions.filesFromAnywhere, o.modelOptions.allLevels, o.modelOptions.normalMapRoughness);
 }
@@ -36,6 +37,8 @@ TEST(SceneChoices, ChangeWhatTheyName) {
         { "exact", "off" },
         { "environment.format", "RGBM" },
         { "environment.roughnessMapping", "linear" },
+        { "environment.sun", "extract" },
+        { "environment.lights", "3" },
         { "model.positions", "half" },
         { "model.tangents", "float" },
         { "model.filesFromAnywhere", "on" },

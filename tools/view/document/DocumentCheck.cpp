@@ -139,6 +139,7 @@ void Checker::rules(std::string const& place, View const& view) {
 
 void Checker::rules(std::string const& place, EnvironmentLoadOptions const& options) {
     expect(std::has_single_bit(options.faceSize), place + ".faceSize", "expected a power of two from 16 to 2048");
+    expect(nameOf(options.sun), place + ".sun", std::string("expected ") + validNames(options.sun));
     expect(nameOf(options.format), place + ".format", std::string("expected ") + validNames(options.format));
 }
 

@@ -130,7 +130,9 @@ template <> struct Fields<EnvironmentLoadOptions> {
     static constexpr auto list = std::tuple{ field("faceSize", &EnvironmentLoadOptions::faceSize),
                                              field("format", &EnvironmentLoadOptions::format),
                                              field("roughnessMapping", &EnvironmentLoadOptions::roughnessMapping),
-                                             field("samples", &EnvironmentLoadOptions::samples) };
+                                             field("samples", &EnvironmentLoadOptions::samples),
+                                             field("sun", &EnvironmentLoadOptions::sun),
+                                             field("lights", &EnvironmentLoadOptions::lights) };
     static constexpr size_t others = 1; // progress
 };
 template <> struct Fields<EnvironmentSettings> {
