@@ -223,6 +223,7 @@ Result<void> Stage::loadSky(BackendRun& run, std::filesystem::path const& path) 
         Result<Environment> sky = loadEnvironment(mEngine, path, environmentOptions);
         if (!sky) return sky.error();
         mEnvironment.emplace(std::move(*sky));
+        run.lights = mEnvironment->lights();
         mScene.setEnvironment(*mEnvironment, settings);
     }
     return {};

@@ -11,6 +11,7 @@
 #include "base/Result.h"
 #include "tools/filament-render/Options.h"
 
+#include <filament_core/EnvironmentLights.h>
 #include <filament_core/QualityBudget.h>
 #include <filament_core/Renderer.h>
 
@@ -39,6 +40,7 @@ struct BackendRun {
     Image image{};
     std::string modelName;
     bool usesModelEnvironment = false; ///< the model's own, instead of a file
+    EnvironmentLights lights{};        ///< of the environment
     std::vector<std::string> warnings; ///< of the model
     std::vector<std::string> errors;   ///< of the device, one line each
     StartTimes start{};

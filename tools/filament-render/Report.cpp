@@ -165,6 +165,20 @@ Json runJson(BackendRun const& run) {
              { "warnings", run.warnings },        { "errors", run.errors } };
 }
 
+/// Of the environment, as SunLights.
+Json lightsJson(BackendRun const& run, Lux illuminance) {
+    Json lights = Json::array();
+    for (ExtractedLight const& light : run.lights.found()) {
+        const SunLight sun = sunLightOf(light, { .illuminance = illuminance });
+        lights.push_back({ { "direction", { sun.directionWorld.x, sun.directionWorld.y, sun.directionWorld.z } },
+                           { "lux", sun.illuminance.value },
+                           { "color", { sun.color.x, sun.color.y, sun.color.z } },
+                           { "angularRadiusDegrees", sun.angularRadiusDegrees },
+                           { "share", light.share } });
+    }
+    return lights;
+}
+
 /// The file that lit the images.
 std::string environmentOf(ReportInput const& input) {
     const bool isOwn = std::ranges::any_of(input.runs, &BackendRun::usesModelEnvironment);
@@ -179,6 +193,8 @@ Result<void> writeReport(std::filesystem::path const& path, ReportInput const& i
                  { "size", { input.options.view.size.x, input.options.view.size.y } },
                  { "frames", input.options.frames },
                  { "toneMapper", toString(input.options.view.display.toneMapper) } };
+    if (!input.runs.empty() && input.runs.front().lights.search != SunSearch::Off)
+        report["environmentLights"] = lightsJson(input.runs.front(), input.options.iblIntensity);
     for (BackendRun const& run : input.runs) report["backends"][fileStem(run.backend)] = runJson(run);
     if (input.comparison) {
         report["comparison"] = { { "pixels", input.comparison->pixels },

@@ -117,6 +117,8 @@ int render(Options const& options) {
     }
     std::vector<std::string> errors;
     const std::vector<BackendRun> runs = drawAll(options, *files, errors);
+    if (!runs.empty())
+        std::fputs(explain(runs.front().lights, { .illuminance = options.iblIntensity }).c_str(), stdout);
     std::optional<ImageComparison> comparison;
     if (runs.size() == 2) {
         const DeviceDescription devices[] = { runs[0].device, runs[1].device };
