@@ -13,6 +13,8 @@
 #include "toolkit/program/CommandLine.h"
 #include "toolkit/program/Program.h"
 
+#include <filament_core/LoadOptions.h>
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -36,6 +38,8 @@ struct Arguments {
     int workers = -1;
     backend::Format format = backend::Format::RGBA16F;
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
+    EnvironmentSun sun = EnvironmentSun::Keep;
+    uint32_t lights = 1;
     bool previews = false; // .png beside .exr
     float exposure = 1;
 };
@@ -159,6 +163,8 @@ Result<void> bake(Arguments const& arguments) {
                                       .samples = arguments.samples,
                                       .format = arguments.format,
                                       .mapping = arguments.mapping,
+                                      .sun = arguments.sun,
+                                      .lights = arguments.lights,
                                       .progress = printProgress };
     const auto start = std::chrono::steady_clock::now();
     const Result<EnvironmentData> data = loadEnvironment(arguments.environment, jobs, options);
@@ -178,6 +184,7 @@ Result<void> bake(Arguments const& arguments) {
     std::printf("%u x %u -> %u levels from %u texels a face, %s in %.0f ms\n", data->statistics.sourceWidth,
                 data->statistics.sourceHeight, data->specular.levels, data->specular.width,
                 data->statistics.fromCache ? "read" : "baked", elapsed.count());
+    std::fputs(explain(data->lights, { .illuminance = Lux{ 1 } }).c_str(), stdout);
     printLoss("specular", data->statistics.specularLoss);
     printLoss("sky", data->statistics.skyLoss);
     return {};
@@ -206,6 +213,12 @@ Result<std::optional<Arguments>> parse(int argc, const char* const* argv) {
                { { "quadratic", RoughnessMapping::Quadratic },
                  { "logarithmic", RoughnessMapping::Logarithmic },
                  { "linear", RoughnessMapping::Linear } });
+    app.choice("--sun", arguments.sun,
+               "keep, extract or fit: lights that cast shadows instead of the brightest regions",
+               { { "keep", EnvironmentSun::Keep },
+                 { "extract", EnvironmentSun::Extract },
+                 { "fit", EnvironmentSun::Fit } });
+    app.option("--lights", arguments.lights, "of --sun fit, at most").inRange(1, 4);
     app.option("--out", arguments.out, "directory for the results").showsDefault();
     app.option("--workers", arguments.workers, "threads besides the main one; -1: all cores").inRange(-1, 256);
     app.flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
