@@ -10,6 +10,22 @@ namespace {
 
 constexpr float kDegreesOfRadian = 57.29577951f, kMostLux = 1e6f;
 
+/// How the file's sun is handled; a change loads the file again.
+void drawSun(PanelFrame& frame) {
+    EnvironmentLoadOptions& options = frame.document.environment.options;
+    auto sun = static_cast<int>(options.sun);
+    if (ImGui::Combo("sun", &sun, "keep\0extract\0fit\0")) options.sun = static_cast<EnvironmentSun>(sun);
+    tooltip("extract: a compact sun becomes a light that casts shadows; fit: the brightest regions do");
+    if (options.sun == EnvironmentSun::Fit) {
+        auto lights = static_cast<int>(options.lights);
+        if (ImGui::SliderInt("lights", &lights, 1, static_cast<int>(EnvironmentLights::kMost), "%d",
+                             ImGuiSliderFlags_AlwaysClamp))
+            options.lights = static_cast<uint32_t>(lights);
+    }
+    const std::string lights = frame.stage.environmentLights();
+    if (!lights.empty()) ImGui::TextWrapped("%s", lights.c_str());
+}
+
 } // namespace
 
 void drawEnvironmentPanel(PanelFrame& frame) {
@@ -30,6 +46,7 @@ void drawEnvironmentPanel(PanelFrame& frame) {
     if (!environment.settings.skybox || environment.file.empty())
         ImGui::ColorEdit3("colour", &frame.document.view.clearColor.x,
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    drawSun(frame);
     ImGui::PopItemWidth();
 }
 

@@ -431,5 +431,9 @@ LightDesc Stage::lightOfFile(uint32_t light) const { return mImpl->scene->lightO
 std::vector<CopyLight> Stage::modelLights() const { return mImpl->scene->modelLights(); }
 std::vector<Light> Stage::documentLights() const { return mImpl->scene->documentLights(); }
 bool Stage::hasModelEnvironment() const { return mImpl->isModelEnvironment; }
+std::string Stage::environmentLights() const {
+    if (mImpl->isModelEnvironment || !mImpl->environment.value()) return {};
+    return explain(mImpl->environment.value()->lights(), mImpl->document.environment.settings);
+}
 
 } // namespace filament_core::view

@@ -119,6 +119,8 @@ public:
     /// Handles of Document::lights; none for one that is off.
     std::vector<Light> documentLights() const;
     bool hasModelEnvironment() const; ///< the model's own is what lights it
+    /// What was found in the environment's file, a line each; empty if nothing was looked for.
+    std::string environmentLights() const;
 
     struct Impl;
 
