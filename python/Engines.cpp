@@ -86,15 +86,37 @@ std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem
 
 std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesystem::path const& path,
                                            int64_t faceSize, std::string const& format,
-                                           std::string const& roughnessMapping, int64_t samples) {
+                                           std::string const& roughnessMapping, int64_t samples, std::string const& sun,
+                                           int64_t lights) {
     EnvironmentLoadOptions options;
     setKeyword(options, "faceSize", "face_size", std::to_string(faceSize));
     setKeyword(options, "format", "format", format);
     setKeyword(options, "roughnessMapping", "roughness_mapping", roughnessMapping);
     setKeyword(options, "samples", "samples", std::to_string(samples));
+    setKeyword(options, "sun", "sun", sun);
+    setKeyword(options, "lights", "lights", std::to_string(lights));
     const Owner::Call call(*self.owner);
     Result<Environment> sky = released([&] { return loadEnvironment(call.engine(), path, options); });
     return std::make_shared<EnvironmentObject>(self.owner, valueOf(std::move(sky)));
+}
+
+py::list lightsOf(EnvironmentObject const& self) {
+    const Owner::Call call(*self.owner());
+    py::list lights;
+    for (ExtractedLight const& light : self->lights().found()) {
+        py::dict one;
+        one["direction"] = py::make_tuple(light.direction.x, light.direction.y, light.direction.z);
+        one["illuminance"] = py::make_tuple(light.illuminance.x, light.illuminance.y, light.illuminance.z);
+        one["angular_radius_degrees"] = light.angularRadiusDegrees;
+        one["share"] = light.share;
+        lights.append(one);
+    }
+    return lights;
+}
+
+std::string explanationOf(EnvironmentObject const& self) {
+    const Owner::Call call(*self.owner());
+    return explain(self->lights(), {});
 }
 
 std::shared_ptr<TextureObject> makeTexture(EngineObject const& self, Image const& image, std::string const& name) {
@@ -153,8 +175,13 @@ void bindLoaded(py::module_& module) {
                     "warnings", [](ModelObject const& self) { return self->warnings(); },
                     "What was not supported, or repaired, one line each.");
     py::class_<EnvironmentObject, std::shared_ptr<EnvironmentObject>>(
-            module, "Environment",
-            "A loaded environment, for Scene.set_environment(). From Engine.load_environment().");
+            module, "Environment", "A loaded environment, for Scene.set_environment(). From Engine.load_environment().")
+            .def_property_readonly("lights", &lightsOf,
+                                   "What load_environment(sun=...) made lights, brightest first: direction towards it, "
+                                   "illuminance (red, "
+                                   "green, blue) in units of radiance, angular_radius_degrees, share of the light.")
+            .def_property_readonly("explanation", &explanationOf,
+                                   "The same as text, or why there is none; empty with sun='keep'.");
     py::class_<TextureObject, std::shared_ptr<TextureObject>>(
             module, "Texture", "A picture on the device, for parameters of materials. From Engine.texture().");
 }
@@ -167,8 +194,9 @@ void bindLoading(EngineClass& engine) {
                "model.simplified and model.filesFromAnywhere.")
             .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
+                 py::arg("sun") = "keep", py::arg("lights") = 1,
                  "Loads an equirectangular .hdr or .exr, a cube map in a .ktx2, or a package of cmgen, as light and "
-                 "background.")
+                 "background. sun: keep, extract or fit, with up to `lights` lights: what casts shadows.")
             .def("texture", &textureOfArray, py::arg("pixels"), py::kw_only(), py::arg("srgb") = true,
                  py::arg("name") = "",
                  "A texture with all mip levels from a picture: uint8 codes of sRGB (srgb=False: data), or floats.")

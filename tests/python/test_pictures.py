@@ -105,6 +105,24 @@ class ClosedForms(unittest.TestCase):
         self.assertTrue(first.flags.owndata or first.base is not None)
 
 
+class EnvironmentLights(unittest.TestCase):
+    def test_a_sun_becomes_a_light(self):
+        with tempfile.TemporaryDirectory() as folder, fc.Engine("null") as engine:
+            sky = np.full((32, 64, 3), 0.5, np.float32)
+            sky[10, 20] = 2000
+            path = pathlib.Path(folder) / "sky.exr"
+            fc.save_picture(path, sky)
+            kept = engine.load_environment(path, face_size=16, samples=16)
+            self.assertEqual((kept.lights, kept.explanation), ([], ""))
+            light, = engine.load_environment(path, face_size=16, samples=16, sun="extract").lights
+            azimuth, polar = (0.5 - 20.5 / 64) * 2 * np.pi, 10.5 / 32 * np.pi
+            np.testing.assert_allclose(light["direction"], (np.sin(azimuth) * np.sin(polar), np.cos(polar),
+                                                            np.cos(azimuth) * np.sin(polar)), atol=1e-3)
+            self.assertTrue(0.9 < light["share"] < 1)
+            with self.assertRaises(fc.InvalidArgumentError):
+                engine.load_environment(path, sun="moon")
+
+
 class BothApis(unittest.TestCase):
     """One scene, one view: what Vulkan and OpenGL ES draw."""
 
