@@ -68,6 +68,24 @@ class LightOffEdit final : public FrameEdit {
     }
 };
 
+/// The brightest sun on the other side, for shading and for its shadow alike.
+class SunMirroredEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, sunDirection);
+        writeFloat(bytes, at, -readFloat(bytes, at));
+    }
+};
+
+/// The brightest sun twice: as a light, and in the environment that it was taken out of.
+class SunTwiceEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, sunIlluminance);
+        for (size_t i = 0; i < 3; ++i) writeFloat(bytes, at + 4 * i, 2 * readFloat(bytes, at + 4 * i));
+    }
+};
+
 /// Diffuse light of the environment in coefficients: where it has no cube, or the quality asks for them.
 class IrradianceShEdit final : public FrameEdit {
     void changeFrame(CmdUpdateBuffer& command) override {
@@ -243,6 +261,8 @@ class OcclusionRadiusEdit final : public PassBlocksEdit {
 constexpr Mutation kLightMutations[] = {
     { kOneList, "one list of lights instead of froxels: must not be noticed", make<OneListEdit> },
     { "lightOff", "one light off", make<LightOffEdit> },
+    { "sunMirrored", "the brightest sun on the other side", make<SunMirroredEdit> },
+    { "sunTwice", "the brightest sun counts twice", make<SunTwiceEdit> },
     { "irradiance", "irradiance + 1 %", make<IrradianceEdit> },
     { "irradianceSh", "irradiance in harmonics + 1 %", make<IrradianceShEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },

@@ -22,10 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white",
+constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white", kSunny = "sunny",
                            kStudio = "studio";
-constexpr uint32_t kSkyHeight = 64; // smooth except at the horizon: enough for images of 256 pixels
-constexpr float kSkyUnit = 22;      // klx: radiance 1 in the sky's file, as in the showcase
+constexpr uint32_t kSkyHeight = 64;    // smooth except at the horizon: enough for images of 256 pixels
+constexpr uint32_t kSunnyHeight = 512; // pixels as small as the sun
+constexpr float kSkyUnit = 22;         // klx: radiance 1 in the sky's file, as in the showcase
 
 fs::path resolve(std::string const& name, SceneSpec const& spec, fs::path const& assets) {
     if (name.starts_with(kAsset)) return assets / name.substr(kAsset.size());
@@ -55,14 +56,17 @@ Result<fs::path> writeBuiltModel(SceneSpec const& spec, fs::path const& work) {
     return path;
 }
 
-Result<void> writeSky(fs::path const& path) {
+Result<void> writeAnalyticSky(fs::path const& path, uint32_t height, bool sunDisc) {
     jobs::JobSystem jobs({ .workers = 0 });
     Result<assets::HdrImage> sky = assets::makeAnalyticSky(
-            { .height = kSkyHeight, .groundAlbedo = { 0.30f, 0.29f, 0.27f }, .sunDisc = false }, jobs);
+            { .height = height, .groundAlbedo = { 0.30f, 0.29f, 0.27f }, .sunDisc = sunDisc }, jobs);
     if (!sky) return sky.error();
     for (float3& pixel : sky->pixels) pixel /= kSkyUnit;
     return assets::writeHdr(path, *sky);
 }
+
+Result<void> writeSky(fs::path const& path) { return writeAnalyticSky(path, kSkyHeight, false); }
+Result<void> writeSunny(fs::path const& path) { return writeAnalyticSky(path, kSunnyHeight, true); }
 
 Result<void> writeWhite(fs::path const& path) {
     const assets::HdrImage white{
@@ -106,8 +110,8 @@ Result<showcase::Files> showcaseFiles(fs::path const& work) {
 }
 
 bool isBuiltIn(std::string const& environment) {
-    return environment.empty() || environment == kSky || environment == kWhite || environment == kStudio ||
-           environment == kShowcase;
+    return environment.empty() || environment == kSky || environment == kSunny || environment == kWhite ||
+           environment == kStudio || environment == kShowcase;
 }
 
 } // namespace
@@ -134,6 +138,7 @@ Result<fs::path> modelFile(SceneSpec const& spec, SceneFolders const& folders) {
 
 Result<fs::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders) {
     if (spec.environment == kSky) return writeOnce(folders.work / "sky.hdr", writeSky);
+    if (spec.environment == kSunny) return writeOnce(folders.work / "sunny.hdr", writeSunny);
     if (spec.environment == kWhite) return writeOnce(folders.work / "white.hdr", writeWhite);
     if (spec.environment == kStudio) return writeOnce(folders.work / "studio.hdr", writeStudio);
     if (spec.environment == kShowcase) {

@@ -2,9 +2,9 @@
 /// SceneAssets: turns the text of a scene file into files, lights and a camera, for every program that draws such
 /// scenes.
 ///   Model        objects to build, "showcase", "asset:PATH", or a path relative to the scene file.
-///   Environment  "sky" (analytic, without its sun), "white" (radiance 1 everywhere), "studio" (dim, with four
-///                lamps of up to 300 times its radiance), "showcase", or a path as above. None: the image-based light
-///                that the model's file names, if it does.
+///   Environment  "sky" (analytic, without its sun), "sunny" (with it), "white" (radiance 1 everywhere), "studio"
+///                (dim, with four lamps of up to 300 times its radiance), "showcase", or a path as above. None: the
+///                image-based light that the model's file names, if it does.
 ///   Memory       built files are written once into the folder `work`; several processes may do so at once.
 ///   Thread       any.
 ///   Fails        errors of the builders and the file system. For a missing asset see missingFile().
