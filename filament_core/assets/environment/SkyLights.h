@@ -10,7 +10,7 @@
 ///           there is no seam. The brightest regions become lights, and fall to twice the mean.
 ///   Thread  runs on the job system; the same bits for any number of workers.
 ///   Memory  Fit: 4 B a bright pixel.   Fails: never.
-///   Cost    bench/filament_core/assets/README.md
+///   Cost    6 to 9 ms for 1024 x 512 pixels on one core; Fit 14 to 21 ms.
 #pragma once
 
 #include "filament_core/assets/environment/SkyGrid.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Shared by the fuzzer and the replay test: for any bytes with a correct checksum, and for any KTX 2.0 file, reading a
-/// baked environment gives an error, or cubes that a device can hold.
+/// baked environment gives an error, or cubes that a device can hold. The lights of a cube map are suns.
 #pragma once
 
 #include "base/Assert.h"
@@ -8,6 +8,8 @@
 #include "filament_core/assets/environment/CubePicture.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/environment/EnvironmentPackage.h"
+#include "filament_core/assets/environment/LightNumbers.h"
+#include "filament_core/assets/environment/SkyLights.h"
 
 #include <filament_core/LoadOptions.h>
 
@@ -29,6 +31,26 @@ inline std::vector<std::byte> signedEnvironment(std::span<const std::byte> bytes
     return file;
 }
 
+inline void checkLights(EnvironmentLights const& lights) {
+    for (ExtractedLight const& light : lights.found()) {
+        const SunLight sun = sunLightOf(light, {});
+        FILAMENT_ASSERT(sun.illuminance.value >= 0 && sun.illuminance.value <= 1e12f, "lights are suns");
+        FILAMENT_ASSERT(glm::length(sun.directionWorld) > 0.9f, "lights have a direction");
+        for (int i = 0; i < 3; ++i) FILAMENT_ASSERT(sun.color[i] >= 0 && sun.color[i] <= 1e9f, "lights have a colour");
+    }
+    FILAMENT_ASSERT(lightsFrom(numbersOf(lights)).has_value(), "lights can be stored");
+}
+
+/// Takes the lights out of a cube map that is not too large.
+inline void fuzzLights(CubePicture const& picture) {
+    if (picture.radiance.size() > 64) return; // only slow
+    jobs::JobSystem jobs({ .workers = 0 });
+    HdrImage sky = imageFromPicture(picture);
+    checkLights(takeLights(sky, SkyLayout::Cube, EnvironmentSun::Fit, EnvironmentLights::kMost, jobs));
+    for (float3 const& pixel : sky.pixels)
+        for (int i = 0; i < 3; ++i) FILAMENT_ASSERT(pixel[i] >= 0 && pixel[i] <= kMaxRadiance, "the rest is light");
+}
+
 inline void checkEnvironment(EnvironmentData const& data) {
     for (Image const* cube : { &data.specular, &data.sky, &data.irradiance }) {
         if (cube == &data.irradiance && cube->data.empty()) continue; // only its coefficients are known
@@ -38,12 +60,7 @@ inline void checkEnvironment(EnvironmentData const& data) {
         FILAMENT_ASSERT(cube->data.size() == cube->levelOffset(cube->levels), "every texel is there");
         FILAMENT_ASSERT(isEnvironmentFormat(cube->format), "the format is one of environments");
     }
-    for (ExtractedLight const& light : data.lights.found()) {
-        const SunLight sun = sunLightOf(light, {});
-        FILAMENT_ASSERT(sun.illuminance.value >= 0 && sun.illuminance.value <= 1e12f, "lights are suns");
-        FILAMENT_ASSERT(glm::length(sun.directionWorld) > 0.9f, "lights have a direction");
-        for (int i = 0; i < 3; ++i) FILAMENT_ASSERT(sun.color[i] >= 0 && sun.color[i] <= 1e9f, "lights have a colour");
-    }
+    checkLights(data.lights);
     for (float4 const& coefficient : data.irradianceSh) {
         for (int i = 0; i < 4; ++i) FILAMENT_ASSERT(std::isfinite(coefficient[i]), "coefficients are finite");
     }
@@ -74,6 +91,7 @@ inline bool fuzzEnvironmentPackage(std::span<const std::byte> bytes) {
     if (!isEnvironmentPackage(*file)) {
         const Result<CubePicture> picture = decodeCubePicture(bytes, "fuzzed");
         if (!picture) checkError(picture.error());
+        if (picture) fuzzLights(*picture);
         return picture.ok();
     }
     const Result<EnvironmentData> data = decodeEnvironmentPackage(*file, "fuzzed");

@@ -4,6 +4,8 @@
 #include "filament_core/assets/environment/SkyLights.h"
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/environment/LightNumbers.h"
+#include "filament_core/assets/image/HdrReader.h"
+#include "toolkit/paths/Paths.h"
 
 #include <filament_core/LoadOptions.h>
 #include <gtest/gtest.h>
@@ -299,7 +301,7 @@ TEST_F(SkyLightsTest, LampsBecomeAsManyLightsAsAsked) {
         for (uint32_t i = 0; i < most; ++i) {
             EXPECT_LT(angleBetween(double3(lights.lights[i].direction), lamps[i]), 0.5);
             EXPECT_NEAR(lights.lights[i].illuminance.x / light[i], 0.9, 0.1);
-            EXPECT_NEAR(lights.lights[i].angularRadiusDegrees, 8, 0.3);
+            EXPECT_NEAR(lights.lights[i].angularRadiusDegrees, 8, 0.6); // pixels of 2.8 degrees
         }
         EXPECT_LT(irradianceError(sky, rest, lights), 0.01) << most;
     }
@@ -350,6 +352,30 @@ TEST_F(SkyLightsTest, ACubeHasTheSameSun) {
         EXPECT_LT(angleBetween(double3(lights.lights[0].direction), sun), 0.1 + 0.5 * 90.0 / kSize);
         EXPECT_NEAR(lights.lights[0].illuminance.x, 4, 0.04);
     }
+}
+
+/// Photographs: a beach at noon, a room with windows and a bulb, a studio with a soft box and a floor lamp.
+TEST_F(SkyLightsTest, PhotographsHaveTheSunThatTheyShow) {
+    const auto photograph = [](const char* name) { return readHdrImage(tools::assetDir() / "environments" / name); };
+    Result<HdrImage> beach = photograph("spiaggia_di_mondello_1k.hdr"), room = photograph("st_fagans_interior_1k.hdr"),
+                     studio = photograph("studio_small_03_1k.hdr");
+    if (!beach || !room || !studio) GTEST_SKIP() << "FILAMENT_ASSET_DIR has no environments";
+    HdrImage rest = *beach;
+    const EnvironmentLights sun = take(rest);
+    ASSERT_EQ(sun.count, 1u) << explain(sun, {});
+    // The brightest pixel is (615, 184).
+    EXPECT_LT(angleBetween(double3(sun.lights[0].direction), panoramaDirection(615.5 / 1024, 184.5 / 512)), 0.3);
+    EXPECT_NEAR(sun.lights[0].share, 0.777, 0.01);
+    const double3 towards(sun.lights[0].direction), whole = irradianceOf(*beach, towards);
+    const double3 parts = irradianceOf(rest, towards) + irradianceOf(sun, towards);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(parts[c] / whole[c], 1, 0.001);
+    HdrImage kept = *room;
+    EXPECT_EQ(take(kept).search, SunSearch::Wide);
+    EXPECT_EQ(kept.pixels, room->pixels);
+    kept = *studio;
+    EXPECT_EQ(take(kept).search, SunSearch::Wide);
+    EXPECT_EQ(take(*studio, EnvironmentSun::Fit, 4).count, 2u);
+    EXPECT_EQ(take(*room, EnvironmentSun::Fit, 4).count, 4u);
 }
 
 TEST_F(SkyLightsTest, BrokenAndHugePixelsGiveFiniteLights) {
