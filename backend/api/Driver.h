@@ -50,7 +50,9 @@ struct DeviceFeatures {
     /// saves.
     bool mergedPasses = false;
     bool timers = false;
-    bool blockCompression = false; ///< BC1..BC7
+    /// BC1..BC7. Linear BC6H and BC7 are sampled to the bits of textures of their decoded texels.
+    bool blockCompression = false;
+    bool exactSrgbBlocks = false; ///< so is BC7Srgb
     bool depthClamp = false;
     bool lastVertexProvokes = false; ///< a flat input has the value of the primitive's last vertex; else of its first
     bool depthResolve = false;       ///< PassLayout::resolvesDepth

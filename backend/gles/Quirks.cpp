@@ -78,6 +78,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
     quirks.textureViews = gl.TextureView && hasAny(names, { "GL_EXT_texture_view", "GL_OES_texture_view" });
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
+    quirks.exactSrgbBlocks = text(gl, GL_RENDERER).find("llvmpipe") == std::string::npos;
     quirks.primitiveIds = hasAny(names, { "GL_EXT_geometry_shader" });
     quirks.cubeArrays = es32 || hasAny(names, { "GL_EXT_texture_cube_map_array", "GL_OES_texture_cube_map_array" });
     quirks.srgbWriteControl = names.contains("GL_EXT_sRGB_write_control");
@@ -122,6 +123,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .mergedPasses = quirks.framebufferFetch && quirks.indexedBlend,
         .timers = quirks.timers,
         .blockCompression = quirks.blockCompression,
+        .exactSrgbBlocks = quirks.blockCompression && quirks.exactSrgbBlocks,
         .depthClamp = quirks.depthClamp,
         .lastVertexProvokes = true, // the only convention of OpenGL ES
         .depthResolve = true,       // ES 3.1 samples multisampled depth

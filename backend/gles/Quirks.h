@@ -18,6 +18,7 @@ struct Quirks {
     bool textureViews = false;     ///< else a bind group shows whole textures only
     bool timers = false;           ///< else a timer answers 0
     bool blockCompression = false; ///< BC1..BC7 complete, or not offered
+    bool exactSrgbBlocks = false;  ///< else BC7Srgb has other bits than its texels: see vulkan::Quirks
     bool srgbWriteControl = false; ///< else textures of sRGB are no attachments
     bool cubeArrays = false;
     bool primitiveIds = false;  ///< gl_PrimitiveID in fragment shaders

@@ -116,6 +116,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.sharedMemory = true; // and images that alias
     info.features.cubeArrays = features.features.imageCubeArray;
     info.features.blockCompression = features.features.textureCompressionBC;
+    info.features.exactSrgbBlocks = info.features.blockCompression && !device.quirks.convertsSrgbOfBlocks;
     info.features.srgbAttachments = true; // views of another format are core, too
     info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.primitiveIds = features.features.geometryShader;

@@ -21,7 +21,10 @@ uint32_t uniformBuffersIn(BindGroupLayout const& layout, ShaderStage stage, bool
 
 Quirks Quirks::of(VkDriverId driver) {
     const bool isLavapipe = driver == VK_DRIVER_ID_MESA_LLVMPIPE;
-    return { .spoilsFourthUniforms = isLavapipe, .inlinesUniforms = isLavapipe, .clearsIndependentBlend = isLavapipe };
+    return { .spoilsFourthUniforms = isLavapipe,
+             .inlinesUniforms = isLavapipe,
+             .clearsIndependentBlend = isLavapipe,
+             .convertsSrgbOfBlocks = isLavapipe };
 }
 
 uint32_t spareBindings(BindGroupLayout const& layout,

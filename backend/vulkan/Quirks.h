@@ -53,6 +53,15 @@ struct Quirks {
     /// Remove  when the oldest Mesa that is supported has the correction that docs/driver-faults.md proposes.
     bool clearsIndependentBlend = false;
 
+    /// Driver  lavapipe, found in Mesa 22.3.6.
+    /// What    a texture of BC7Srgb is sampled to other bits than a texture of RGBA8Srgb of its decoded texels.
+    /// Why     codes of blocks are looked up in a table of sRGB (util_format_bptc_srgba_fetch_rgba), those of texels
+    ///         are converted by a polynomial (lp_build_srgb_to_linear).
+    /// Cure    DeviceFeatures::exactSrgbBlocks is false: colours are decoded when they are loaded.
+    /// Cost    four times the memory of those textures.
+    /// Test    tests/backend/create/BlockSamplingTest.cpp
+    bool convertsSrgbOfBlocks = false;
+
     static Quirks of(VkDriverId driver);
 };
 

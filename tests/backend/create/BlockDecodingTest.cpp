@@ -3,9 +3,9 @@
 #include "base/math/Half.h"
 #include "filament_core/assets/blocks/BlockDecoder.h"
 #include "tests/backend/create/Gpu.h"
+#include "tests/backend/create/RandomBlocks.h"
 
 #include <cmath>
-#include <random>
 
 namespace filament_core::backend {
 namespace {
@@ -13,22 +13,6 @@ namespace {
 DRIVER_SUITE(BlockDecoding);
 
 constexpr uint32_t kSide = 128, kBlocks = kSide / 4 * kSide / 4;
-
-/// Random blocks; `low(i)` takes the place of the lowest `lowBits` bits.
-template <class Low>
-Bytes randomBlocks(size_t blockBytes, uint32_t lowBits, Low const& low) {
-    std::mt19937 random(11);
-    Bytes bytes(blockBytes * kBlocks);
-    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
-    for (uint32_t i = 0; i < kBlocks; ++i) {
-        uint16_t bits;
-        std::memcpy(&bits, &bytes[i * blockBytes], sizeof(bits));
-        const uint32_t mask = (1u << lowBits) - 1;
-        bits = static_cast<uint16_t>((bits & ~mask) | (low(i) & mask));
-        std::memcpy(&bytes[i * blockBytes], &bits, sizeof(bits));
-    }
-    return bytes;
-}
 
 std::vector<Rgba> sampled(Gpu& gpu, Format format, Bytes const& bytes) {
     const Program program =
@@ -68,41 +52,30 @@ void expectSame(Gpu& gpu, Format format, assets::BlockKind kind, Bytes const& by
     testing::Test::RecordProperty(formatInfo(format).name, std::to_string(worst * 255));
 }
 
-uint32_t noBits(uint32_t) { return 0; }
-
 DRIVER_TEST(BlockDecoding, ColoursOfBc1ToBc5AreThoseOfDevicesWithinTheirPrecision) {
     if (!gpu.info().features.blockCompression)
         GTEST_SKIP() << "this device samples no BC formats, which are optional: there is nothing to compare the "
                         "decoder with";
     using enum assets::BlockKind;
-    expectSame(gpu, Format::BC1, Bc1Rgba, randomBlocks(8, 0, noBits), 2);
-    expectSame(gpu, Format::BC2, Bc2, randomBlocks(16, 0, noBits), 2);
-    expectSame(gpu, Format::BC3, Bc3, randomBlocks(16, 0, noBits), 2);
-    expectSame(gpu, Format::BC4, Bc4, randomBlocks(8, 0, noBits), 2);
-    expectSame(gpu, Format::BC5, Bc5, randomBlocks(16, 0, noBits), 2);
+    expectSame(gpu, Format::BC1, Bc1Rgba, randomBlocks(8, kBlocks, 11, noMode), 2);
+    expectSame(gpu, Format::BC2, Bc2, randomBlocks(16, kBlocks, 11, noMode), 2);
+    expectSame(gpu, Format::BC3, Bc3, randomBlocks(16, kBlocks, 11, noMode), 2);
+    expectSame(gpu, Format::BC4, Bc4, randomBlocks(8, kBlocks, 11, noMode), 2);
+    expectSame(gpu, Format::BC5, Bc5, randomBlocks(16, kBlocks, 11, noMode), 2);
 }
 
 DRIVER_TEST(BlockDecoding, EveryModeAndPartitionOfBc7HasTheBitsOfDevices) {
     if (!gpu.info().features.blockCompression)
         GTEST_SKIP() << "this device samples no BC formats, which are optional: there is nothing to compare the "
                         "decoder with";
-    // 2 blocks for each of 8 modes and 64 partitions
-    const auto modeAndPartition = [](uint32_t i) {
-        return (i / 128 < 8 ? 1u << (i / 128) : 0) | (i % 64) << (i / 128 + 1);
-    };
-    expectSame(gpu, Format::BC7, assets::BlockKind::Bc7, randomBlocks(16, 14, modeAndPartition), 0);
+    expectSame(gpu, Format::BC7, assets::BlockKind::Bc7, randomBlocks(16, kBlocks, 11, modeOfBc7), 0);
 }
 
 DRIVER_TEST(BlockDecoding, EveryModeOfBc6HasTheBitsOfDevices) {
     if (!gpu.info().features.blockCompression)
         GTEST_SKIP() << "this device samples no BC formats, which are optional: there is nothing to compare the "
                         "decoder with";
-    constexpr std::array<uint32_t, 14> kModes{ 0b00000, 0b00001, 0b00010, 0b00110, 0b01010, 0b01110, 0b10010,
-                                               0b10110, 0b11010, 0b11110, 0b00011, 0b00111, 0b01011, 0b01111 };
-    for (uint32_t first = 0; first < kModes.size(); first += 7) {
-        const Bytes blocks = randomBlocks(16, 5, [&](uint32_t i) { return kModes[first + i % 7]; });
-        expectSame(gpu, Format::BC6HUfloat, assets::BlockKind::Bc6, blocks, 0);
-    }
+    expectSame(gpu, Format::BC6HUfloat, assets::BlockKind::Bc6, randomBlocks(16, kBlocks, 11, modeOfBc6), 0);
 }
 
 } // namespace
