@@ -102,7 +102,7 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, Content& 
     for (GltfImageJob& job : textures.jobs) {
         group.run<"decode image">([&document, &textures, &options, &progress, &job] {
             if (isCancelled(options)) return;
-            decodeImageJob(document, textures, options.maxTextureSize, job);
+            decodeImageJob(document, textures, options.maxTextureSize, options.blocks, job);
             progress.step();
         });
     }

@@ -42,6 +42,7 @@ struct GltfOptions {
     GltfDeformation deformation = GltfDeformation::AtRest;
     GltfLevels levels = GltfLevels::Finest;
     GltfNormals normals = GltfNormals::Plain;
+    GltfBlocks blocks = GltfBlocks::None;
     bool simplifies = false;             ///< for who uploads the primitives: they get levels (DetailLevels.h)
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
     GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files

@@ -180,8 +180,15 @@ private:
 };
 
 Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource const& source, uint32_t maxSize,
-                              TextureDepth depth) {
-    return decodeTexture(source.bytes, imageName(document, source.image), maxSize, depth);
+                              TextureDepth depth, TextureBlocks blocks = TextureBlocks::Decoded) {
+    return decodeTexture(source.bytes, imageName(document, source.image), maxSize, depth, blocks);
+}
+
+/// All uses of an image come from one decoding.
+TextureBlocks blocksOf(GltfImageJob const& job, GltfBlocks blocks) {
+    const bool isColor = job.colorTexture != kNone, hasNormals = job.normalTexture != kNone;
+    const bool isKept = blocks == GltfBlocks::All || (blocks == GltfBlocks::Data && !isColor);
+    return isKept && !hasNormals ? TextureBlocks::KeptBc7 : TextureBlocks::Decoded;
 }
 
 /// The file of a texture says whether it holds colours, and so does its use.
@@ -239,11 +246,13 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
                            textures.textureCount, pixels, kMaxImagePixels);
 }
 
-void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job) {
+void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfBlocks blocks,
+                    GltfImageJob& job) {
     GltfImageSource const& source = textures.sources[job.source];
     try {
         const bool hasNormals = job.normalTexture != kNone; // of which the first level counts, even if it is dropped
-        Result<DecodedTexture> texture = decode(document, source, hasNormals ? 0 : maxSize, TextureDepth::AllBits);
+        Result<DecodedTexture> texture =
+                decode(document, source, hasNormals ? 0 : maxSize, TextureDepth::AllBits, blocksOf(job, blocks));
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
         if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);

@@ -5,7 +5,8 @@
 ///           image used as colour and as data becomes two textures (sRGB and linear) from one decoding. If an extension
 ///           expects a pair of maps in one texture and the file has two that are read alike and have one size, they are
 ///           packed, with one job per distinct pair; others stay apart. TextureRef::image is an index into the jobs'
-///           textures, in order. With GltfNormals::WithVariance, normals are a third use: their alpha is filled.
+///           textures, in order. With GltfNormals::WithVariance, normals are a third use: their alpha is filled. On
+///           request, textures of BC7 with all levels stay compressed (GltfBlocks); what is packed or filled does not.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
 ///   Fails   a missing or broken image is an error that names it.
 #pragma once
@@ -55,7 +56,8 @@ GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder
 /// An error if the textures together have more than kMaxImagePixels; the sources are read.
 void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);
 
-void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job);
+void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfBlocks blocks,
+                    GltfImageJob& job);
 void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job);
 
 /// Moves the decoded images into their slots.

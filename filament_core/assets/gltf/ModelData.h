@@ -39,6 +39,13 @@ enum class GltfNormals : uint8_t {
     WithVariance, ///< alpha as image/NormalVariance.h fills it
 };
 
+/// Textures that stay blocks of BC7, if the file has all of their levels.
+enum class GltfBlocks : uint8_t {
+    None, ///< all are decoded
+    Data, ///< not colours
+    All,
+};
+
 /// Where skins and morph targets are applied.
 enum class GltfDeformation : uint8_t {
     AtRest, ///< by the loader, once: the vertices are those of the rest pose
@@ -178,7 +185,7 @@ struct SkinData {
 
 struct ModelData {
     std::string name;
-    std::vector<Image> images; ///< with full mip chains; format RGBA8Srgb for colours, RGBA8 for data
+    std::vector<Image> images; ///< with full mip chains; RGBA8Srgb or BC7Srgb for colours, RGBA8 or BC7 for data
     std::vector<MaterialData> materials;
     std::vector<MeshData> meshes;
     std::vector<NodeData> nodes;    ///< of the default scene, parents before children

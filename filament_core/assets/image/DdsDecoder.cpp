@@ -121,24 +121,31 @@ public:
         DdsTexture texture{ .image = {},
                             .isSrgb = mFormat.isSrgb ? std::optional(true) : std::nullopt,
                             .isRg = isTwoChannels() };
-        const bool isDeep = !mFormat.hasCodesOf8();
-        using backend::Format;
-        texture.image.format = isDeep           ? (options.isFull ? Format::RGBA32F : Format::RGBA16F)
-                               : mFormat.isSrgb ? Format::RGBA8Srgb
-                                                : Format::RGBA8;
+        const bool isKept = options.keepsBc7 && isWhole && mFormat.block && mFormat.block->kind == BlockKind::Bc7;
+        texture.image.format =
+                isKept ? (mFormat.isSrgb ? backend::Format::BC7Srgb : backend::Format::BC7) : formatOfTexels(options);
         texture.image.width = levels->front().width, texture.image.height = levels->front().height;
         texture.image.levels = static_cast<uint32_t>(levels->size());
         texture.image.data.resize(texture.image.levelOffset(texture.image.levels));
         for (uint32_t i = 0; i < levels->size(); ++i) {
             const auto texels =
                     std::span(texture.image.data).subspan(texture.image.levelOffset(i), texture.image.levelBytes(i));
-            decodeLevel((*levels)[i], isDeep, isDeep && options.isFull, texels);
+            if (isKept)
+                std::ranges::copy((*levels)[i].bytes, texels.begin());
+            else
+                decodeLevel((*levels)[i], options.isFull, texels);
         }
         return texture;
     }
 
 private:
     uint32_t word(size_t at) const { return wordAt(mBytes, at); }
+    bool isDeep() const { return !mFormat.hasCodesOf8(); }
+    backend::Format formatOfTexels(Ktx2Options const& options) const {
+        using backend::Format;
+        if (isDeep()) return options.isFull ? Format::RGBA32F : Format::RGBA16F;
+        return mFormat.isSrgb ? Format::RGBA8Srgb : Format::RGBA8;
+    }
 
     template <class... T>
     Error damaged(fmt::format_string<T...> what, T&&... values) const {
@@ -243,12 +250,12 @@ private:
         return mFormat.channels[1].bits > 0 && mFormat.channels[2].bits == 0 && mFormat.numbers == Ktx2Numbers::Codes;
     }
 
-    void decodeLevel(DdsLevel const& level, bool isDeep, bool isFull, std::span<std::byte> texels) const {
+    void decodeLevel(DdsLevel const& level, bool isFull, std::span<std::byte> texels) const {
         if (!mFormat.block) {
-            if (isDeep) return decodeFloats(mFormat, level.bytes, isFull, texels);
+            if (isDeep()) return decodeFloats(mFormat, level.bytes, isFull, texels);
             return decodeCodes(mFormat, level.bytes, texels);
         }
-        if (!isFull)
+        if (!isDeep() || !isFull)
             return decodeBlocks(*mFormat.block, mFormat.isSrgb, level.bytes, level.width, level.height, texels);
         std::vector<std::byte> halves(texels.size() / 2);
         decodeBlocks(*mFormat.block, mFormat.isSrgb, level.bytes, level.width, level.height, halves);

@@ -4,7 +4,8 @@
 ///   Reads   BC1 to BC7; plain formats of 1 to 4 channels with up to 32 bits, described by a DXGI format or by masks,
 ///           with colours or grey. Not premultiplied alpha, palettes or YUV.
 ///   Out     RGBA8 where 8 bits hold all of it, RGBA8Srgb if the file says sRGB; otherwise RGBA16F, or on request
-///           RGBA32F. Channels that a format does not have are 0, alpha is 1. Row 0 is at the top.
+///           RGBA32F. Channels that a format does not have are 0, alpha is 1. Row 0 is at the top. On request BC7 or
+///           BC7Srgb instead, without decoding (Ktx2Options::keepsBc7).
 ///   Thread  any; no shared state.   Memory: the result.
 ///   Limits  two dimensions, without cubes and arrays; 16384 a side.
 ///   Fails   Corrupt or Unsupported: one line with the file, the field and the cure. The length of every level that is

@@ -44,7 +44,7 @@ public:
         for (uint32_t level = 0; level < image.levels; ++level) {
             const auto texels = std::span(image.data).subspan(image.levelOffset(level), image.levelBytes(level));
             if (Result<void> decoded = decodeLevel(first + level, texels); !decoded) return decoded.error();
-            arrangeKtx2(mFile, image, level, texels);
+            if (!mIsKept) arrangeKtx2(mFile, image, level, texels);
         }
         mTexture.isCube = mFile.isCube, mTexture.isArray = mFile.isArray;
         return std::move(mTexture);
@@ -89,7 +89,14 @@ private:
         using backend::Format;
         mTexture.image.format = mIsHalf ? (mOptions.isFull ? Format::RGBA32F : Format::RGBA16F)
                                         : (mTexture.isSrgb ? Format::RGBA8Srgb : Format::RGBA8);
+        mIsKept = mOptions.keepsBc7 && !mOptions.isOneLevel && isWholeBc7();
+        if (mIsKept) mTexture.image.format = mTexture.isSrgb ? Format::BC7Srgb : Format::BC7;
         return {};
+    }
+
+    bool isWholeBc7() const {
+        return mFormat.block && mFormat.block->kind == BlockKind::Bc7 && !isArranged(mFile) &&
+               mFile.levels.size() == backend::fullMipCount(mFile.width, mFile.height);
     }
 
     uint32_t firstLevel() const {
@@ -124,6 +131,7 @@ private:
     }
 
     void decodeImage(std::span<const std::byte> bytes, uint32_t width, uint32_t height, std::span<std::byte> texels) {
+        if (mIsKept) return void(std::ranges::copy(bytes, texels.begin()));
         if (!mFormat.block) {
             if (mIsHalf) return decodeFloats(mFormat, bytes, mOptions.isFull, texels);
             return decodeCodes(mFormat, bytes, texels);
@@ -196,6 +204,7 @@ private:
     Ktx2Options mOptions;
     Ktx2Format mFormat;
     bool mIsHalf = false;
+    bool mIsKept = false; ///< as blocks
     std::optional<BasisLz> mBooks;
     std::vector<std::byte> mInflated;
     std::vector<Texel8> mSlice;

@@ -10,6 +10,8 @@
 namespace filament_core::assets {
 namespace {
 
+constexpr std::array kOrderOfTexels{ 'r', 'g', 'b', 'a' };
+
 template <class Component>
 void swizzle(std::array<char, 4> const& order, Component one, std::span<std::byte> texels) {
     std::array<Component, 6> from{ 0, 0, 0, 0, 0, one }; // r g b a 0 1
@@ -37,9 +39,11 @@ void flipColumns(size_t rowBytes, size_t texelBytes, std::span<std::byte> layer)
 
 } // namespace
 
+bool isArranged(Ktx2File const& file) { return file.swizzle != kOrderOfTexels || file.isFlippedX || file.isFlippedY; }
+
 void arrangeKtx2(Ktx2File const& file, Image const& image, uint32_t level, std::span<std::byte> texels) {
     const size_t texelBytes = backend::formatInfo(image.format).bytesPerBlock;
-    if (file.swizzle != std::array{ 'r', 'g', 'b', 'a' }) {
+    if (file.swizzle != kOrderOfTexels) {
         if (texelBytes == 4) swizzle<uint8_t>(file.swizzle, 255, texels);
         if (texelBytes == 8) swizzle<uint16_t>(file.swizzle, blocks::TexelHalf::kOne, texels);
         if (texelBytes == 16) swizzle<float>(file.swizzle, 1, texels);

@@ -11,6 +11,9 @@
 
 namespace filament_core::assets {
 
+/// Whether it would change anything.
+bool isArranged(Ktx2File const& file);
+
 /// `texels`: those of `level` of the image, all layers. Four channels of 8, 16 or 32 bits.
 void arrangeKtx2(Ktx2File const& file, Image const& image, uint32_t level, std::span<std::byte> texels);
 

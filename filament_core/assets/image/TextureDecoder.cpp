@@ -20,7 +20,7 @@ Result<void> checkShape(Ktx2File const& file, std::string_view name) {
 }
 
 Result<void> checkTexels(Image const& image, std::string_view name, const char* cure) {
-    if (image.format != backend::Format::RGBA8 && image.format != backend::Format::RGBA8Srgb)
+    if (backend::formatInfo(image.format).isFloat)
         return fail(ErrorCode::Unsupported,
                     "image '{}' has more than 8 bits a channel, which materials of models do not read; export it as {}",
                     name, cure);
@@ -37,11 +37,22 @@ void addThirdCoordinate(std::span<std::byte> texels) {
     }
 }
 
-Result<DecodedTexture> decodeDdsTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize) {
-    Result<DdsTexture> texture = decodeDds(bytes, name, { .maxSize = maxSize });
+/// The uses of a texture determine its transfer function.
+void setTransfer(Image& image, bool isColor) {
+    using backend::Format;
+    if (backend::isCompressed(image.format))
+        image.format = isColor ? Format::BC7Srgb : Format::BC7;
+    else
+        image.format = isColor ? Format::RGBA8Srgb : Format::RGBA8;
+}
+
+Result<DecodedTexture> decodeDdsTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize,
+                                        TextureBlocks blocks) {
+    Result<DdsTexture> texture =
+            decodeDds(bytes, name, { .maxSize = maxSize, .keepsBc7 = blocks == TextureBlocks::KeptBc7 });
     if (!texture) return texture.error();
     if (Result<void> checked = checkTexels(texture->image, name, "BC7"); !checked) return checked.error();
-    texture->image.format = backend::Format::RGBA8;
+    setTransfer(texture->image, false);
     if (texture->isRg) addThirdCoordinate(texture->image.data);
     return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };
 }
@@ -49,8 +60,8 @@ Result<DecodedTexture> decodeDdsTexture(std::span<const std::byte> bytes, std::s
 } // namespace
 
 Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::string_view name, uint32_t maxSize,
-                                     TextureDepth depth) {
-    if (isDds(bytes)) return decodeDdsTexture(bytes, name, maxSize);
+                                     TextureDepth depth, TextureBlocks blocks) {
+    if (isDds(bytes)) return decodeDdsTexture(bytes, name, maxSize, blocks);
     if (!isKtx2(bytes)) {
         if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
             return fail(ErrorCode::Unsupported,
@@ -69,18 +80,21 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
     if (Result<void> checked = checkShape(*file, name); !checked) return checked.error();
     const uint32_t all = backend::fullMipCount(file->width, file->height);
     const bool isWhole = file->levels.size() == all;
-    Result<Ktx2Texture> texture = decodeKtx2(bytes, name, { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole });
+    Result<Ktx2Texture> texture = decodeKtx2(
+            bytes, name,
+            { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole, .keepsBc7 = blocks == TextureBlocks::KeptBc7 });
     if (!texture) return texture.error();
     if (Result<void> checked = checkTexels(texture->image, name, "UASTC"); !checked) return checked.error();
-    texture->image.format = backend::Format::RGBA8;
+    setTransfer(texture->image, false);
     return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };
 }
 
 Image withAllLevels(DecodedTexture texture, bool isColor, uint32_t maxSize) {
     if (!texture.deep.codes.empty()) return withMipMaps(texture.deep, isColor, maxSize);
     Image image = std::move(texture.image);
-    if (image.levels == 1) return withMipMaps(std::move(image), isColor, maxSize);
-    image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
+    if (image.levels == 1 && !backend::isCompressed(image.format))
+        return withMipMaps(std::move(image), isColor, maxSize);
+    setTransfer(image, isColor);
     dropLargeLevels(image, maxSize);
     return image;
 }
