@@ -54,13 +54,13 @@ struct Effect {
     std::string title;
     std::string question;          ///< answered by the row, one sentence
     std::string scene;             ///< scenes/NAME.json or NAME/FEATURE, in which the error is measured
-    std::vector<std::string> base; ///< settings of all values in that scene
+    std::vector<std::string> base; ///< settings of all values, in that scene and in the frame
     std::vector<Value> values;
     size_t standard = 0; ///< the engine's default; times are ratios to it
     size_t best = 0;     ///< whole frames are compared with those of this value
     Reference reference{};
     Cost cost = Cost::Frame;
-    std::string frame = kWholeFrame; ///< the scene in which the frame is timed
+    std::string frame = kWholeFrame; ///< the scene in which the frame is timed; the values differ in it
 };
 
 const char* toString(Cost cost);

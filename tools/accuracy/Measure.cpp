@@ -153,22 +153,23 @@ private:
         const Result<SceneSpec const*> own = effect.scene.empty() ? *frame : mScenes.find(effect.scene);
         if (!own) return own.error();
         const bool linear = result.linear = (*own)->linear || effect.scene.empty();
-        const auto draw = [&](std::vector<std::string> const& words) -> Result<Picture> {
-            Result<Settings> settings = settingsFor(**frame, {}, words);
+        const auto draw = [&](std::vector<std::string> const& base,
+                              std::vector<std::string> const& words) -> Result<Picture> {
+            Result<Settings> settings = settingsFor(**frame, base, words);
             if (!settings) return settings.error();
             return shoot(*mStudios.front(), **frame, *settings, mOptions.errorSize, linear);
         };
-        const Result<Picture> best = draw(effect.values[effect.best].set);
+        const Result<Picture> best = draw(effect.base, effect.values[effect.best].set);
         if (!best) return best.error();
         std::optional<Picture>& bestOfEverything = mBestOfEverything[{ effect.frame, linear }];
         if (!bestOfEverything) {
-            Result<Picture> drawn = draw(bestOfAll(effect.frame));
+            Result<Picture> drawn = draw({}, bestOfAll(effect.frame));
             if (!drawn) return drawn.error();
             bestOfEverything = std::move(*drawn);
         }
         for (ValueResult& value : result.values) {
             step(effect, "whole frame with " + value.value.name);
-            const Result<Picture> picture = draw(value.value.set);
+            const Result<Picture> picture = draw(effect.base, value.value.set);
             if (!picture) return picture.error();
             if (const Result<void> kept = keep(*picture, effect.name, "frame " + value.value.name); !kept) return kept;
             value.frame = compare(*best, *picture);

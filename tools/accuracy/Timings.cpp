@@ -21,7 +21,7 @@ Result<Turns> prepareTurns(TimingJob const& job) {
     Turns all;
     all.settings.reserve(job.effect.values.size());
     for (Value const& value : job.effect.values) {
-        Result<Settings> settings = settingsFor(job.scene, {}, value.set);
+        Result<Settings> settings = settingsFor(job.scene, job.effect.base, value.set);
         if (!settings) return settings.error();
         Settings const& kept = all.settings.emplace_back(std::move(*settings));
         if (job.effect.cost == Cost::Environment) {

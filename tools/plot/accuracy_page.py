@@ -241,8 +241,8 @@ HOW_TO_ADD = f"""<section><h2>Adding an effect</h2><p>An object in <code>tools/a
   "reference": {{ "kind": "traced", "set": ["specularVisibility=correlated"] }}
 }}</pre><p><code>values</code> chooses among the values of the choice, or lists several settings each
 (<code>"diffuseIrradiance=sphericalHarmonics shBands=2"</code>); <code>standard</code> and <code>best</code> name values (the first one
-unless told otherwise); <code>base</code> are settings of all values; <code>cost</code> is <code>frame</code>, <code>environment</code> or
-<code>model</code>. References: <code>setting</code> (the engine with <code>set</code>), <code>scene</code>, <code>supersampled</code>
+unless told otherwise); <code>base</code> are settings of all values, in the scene and in the timed frame; <code>frame</code> names the frame, in which the
+values must differ (the showcase unless told otherwise); <code>cost</code> is <code>frame</code>, <code>environment</code> or <code>model</code>. References: <code>setting</code> (the engine with <code>set</code>), <code>scene</code>, <code>supersampled</code>
 (<code>factor</code>), <code>traced</code> (<code>samples</code>), <code>otherBackend</code>, <code>furnace</code>, <code>integral</code>. Scenes
 are files as in <a href="conformance.md">conformance.md</a>.</p></section>"""
 
