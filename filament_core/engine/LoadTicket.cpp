@@ -81,11 +81,11 @@ protected:
 class ModelTask : public UploadTask<Model, ModelUpload> {
 public:
     ModelTask(Engine::Impl& owner, std::filesystem::path path, GltfLoadOptions const& options)
-            : UploadTask(owner, path.filename().string()), mPath(std::move(path)), mOptions(gltfOptions(options)),
-              mChoice(GltfMaterials::choiceOf(owner)) {}
+            : UploadTask(owner, path.filename().string()), mPath(std::move(path)),
+              mOptions(gltfOptions(owner, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
     ModelTask(Engine::Impl& owner, GltfMemory const& model, GltfLoadOptions const& options)
             : UploadTask(owner, model.name), mIsInMemory(true), mFile(model.file.begin(), model.file.end()),
-              mOptions(gltfOptions(model, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
+              mOptions(gltfOptions(owner, model, options)), mChoice(GltfMaterials::choiceOf(owner)) {}
 
 private:
     Result<void> work() override {

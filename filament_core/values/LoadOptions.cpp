@@ -20,6 +20,9 @@ std::span<const Option> optionsOf<GltfLoadOptions>() {
                "Makes [levels of detail](levels-of-detail.md) of meshes; programs do where `lod.pixels` is not 0."),
         option("normalMapRoughness", &O::normalMapRoughness,
                "Mip levels of normal maps raise the roughness by what they average away."),
+        option("compressedTextures", &O::compressedTextures,
+               "Textures of BC7 [stay compressed](textures.md#compressed-on-the-device) where that shows the same "
+               "bits."),
         option("filesFromAnywhere", &O::filesFromAnywhere,
                "Opens buffers and images outside of the model's folder: only for models that you trust.")
     };

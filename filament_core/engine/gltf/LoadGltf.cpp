@@ -14,12 +14,23 @@
 namespace filament_core {
 namespace engine {
 
-assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
+namespace {
+
+assets::GltfBlocks blocksOn(Engine::Impl const& engine) {
+    backend::DeviceFeatures const& features = engine.stream->info().features;
+    if (!features.blockCompression) return assets::GltfBlocks::None;
+    return features.exactSrgbBlocks ? assets::GltfBlocks::All : assets::GltfBlocks::Data;
+}
+
+} // namespace
+
+assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfLoadOptions const& options) {
     assets::GltfOptions loaderOptions{
         .storage = { options.positions, options.tangents },
         .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
         .levels = options.allLevels ? assets::GltfLevels::All : assets::GltfLevels::Finest,
         .normals = options.normalMapRoughness ? assets::GltfNormals::WithVariance : assets::GltfNormals::Plain,
+        .blocks = options.compressedTextures ? blocksOn(engine) : assets::GltfBlocks::None,
         .simplifies = options.simplified,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
@@ -31,8 +42,8 @@ assets::GltfOptions gltfOptions(GltfLoadOptions const& options) {
     return loaderOptions;
 }
 
-assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& options) {
-    assets::GltfOptions loaderOptions = gltfOptions(options);
+assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfMemory const& model, GltfLoadOptions const& options) {
+    assets::GltfOptions loaderOptions = gltfOptions(engine, options);
     loaderOptions.name = model.name;
     loaderOptions.resolve = model.resolve;
     if (!loaderOptions.resolve) {
@@ -126,8 +137,8 @@ Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLo
     const engine::PublicCall call(engine, "loadGltf(Engine, path)", path.native());
     return orOutOfMemory("glTF", path.native(), [&] {
         Engine::Impl& impl = engine.impl();
-        return upload(impl,
-                      engine::readModel(path, impl.jobs, engine::gltfOptions(options), GltfMaterials::choiceOf(impl)));
+        return upload(impl, engine::readModel(path, impl.jobs, engine::gltfOptions(impl, options),
+                                              GltfMaterials::choiceOf(impl)));
     });
 }
 
@@ -135,7 +146,7 @@ Result<Model> loadGltf(Engine& engine, GltfMemory const& model, GltfLoadOptions 
     const engine::PublicCall call(engine, "loadGltf(Engine, GltfMemory)", model.name);
     return orOutOfMemory("glTF", model.name, [&] {
         Engine::Impl& impl = engine.impl();
-        return upload(impl, engine::readModel(model.file, impl.jobs, engine::gltfOptions(model, options),
+        return upload(impl, engine::readModel(model.file, impl.jobs, engine::gltfOptions(impl, model, options),
                                               GltfMaterials::choiceOf(impl)));
     });
 }

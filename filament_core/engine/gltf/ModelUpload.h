@@ -33,10 +33,10 @@ struct ReadModel {
     std::vector<std::vector<Shape>> shapes; ///< by mesh and primitive
 };
 
-/// Of the loader, with `progress` of the options.
-assets::GltfOptions gltfOptions(GltfLoadOptions const& options);
+/// Of the loader, with `progress` of the options. `engine`: the one that will draw the model.
+assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfLoadOptions const& options);
 /// The same for a model in memory: what its URIs name comes from the caller.
-assets::GltfOptions gltfOptions(GltfMemory const& model, GltfLoadOptions const& options);
+assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfMemory const& model, GltfLoadOptions const& options);
 
 /// `choice`: of the engine that will draw it.
 Result<ReadModel> readModel(std::filesystem::path const& path, jobs::JobSystem& jobs,

@@ -123,6 +123,7 @@ template <> struct Fields<GltfLoadOptions> {
                                              field("allLevels", &GltfLoadOptions::allLevels),
                                              field("simplified", &GltfLoadOptions::simplified),
                                              field("normalMapRoughness", &GltfLoadOptions::normalMapRoughness),
+                                             field("compressedTextures", &GltfLoadOptions::compressedTextures),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress
 };
