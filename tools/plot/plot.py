@@ -6,6 +6,7 @@
   plot.py scaling FILE.json  -o OUT   only their growth with workers and renderables
   plot.py jobs    TRACE.json -o OUT   timeline of the threads: a Chrome trace-event file from --trace-jobs
   plot.py materials FILE.json -o OUT  cost of the terms of a material: material_bench --json
+  plot.py scale FILE.json -o OUT      time and memory over counts: scale_bench --json
   plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one image per effect, and frames; --format
   plot.py accuracy-page DIR -o OUT.html   the page of such results: DIR has results.json and *.fragment.html, and lies beside OUT
 
@@ -28,6 +29,7 @@ import accuracy_plot
 import bench_plot
 import jobs_plot
 import materials_plot
+import scale_plot
 from style import BadInput, apply_style
 
 FORMATS = (".png", ".svg", ".pdf")
@@ -55,7 +57,8 @@ def parse_arguments(words):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, help_text in (("bench", "all figures of threading_bench"), ("scaling", "scaling figures only"),
-                            ("jobs", "a timeline of jobs"), ("materials", "what the terms of a material cost")):
+                            ("jobs", "a timeline of jobs"), ("materials", "what the terms of a material cost"),
+                            ("scale", "time and memory over counts")):
         command = commands.add_parser(name, help=help_text)
         command.add_argument("input", type=pathlib.Path, metavar="FILE.json")
         command.add_argument("-o", "--output", type=output_path, required=True, metavar="OUT")
@@ -92,6 +95,8 @@ def draw(arguments):
         return jobs_plot.draw(arguments.input, arguments.begin, arguments.end, arguments.title)
     if arguments.command == "materials":
         return materials_plot.draw(arguments.input, arguments.title)
+    if arguments.command == "scale":
+        return scale_plot.draw(arguments.input, arguments.title)
     return bench_plot.draw(arguments.input, arguments.title, only_scaling=arguments.command == "scaling")
 
 

@@ -187,6 +187,29 @@ class MaterialPictures(Plot):
         self.assert_refused("materials", broken, "row 0: 'gles'")
 
 
+def scale():
+    points = [{"count": count, "minimumMs": count * 1e-5, "medianMs": count * 2e-5, "sceneBytes": 200 * count, "frameBytes": 9}
+              for count in (1000, 10000)]
+    return {"kind": "scale", "series": [{"name": name, "counted": counted, "points": points}
+                                        for name, counted in (("static", "renderables"), ("lamps", "lights"))]}
+
+
+class ScalePictures(Plot):
+    def test_series_and_what_they_count_are_named(self):
+        texts = self.texts("scale", scale())
+        for words in ("static", "renderables", "lamps", "lights", "linear", "megabytes"):
+            self.assertIn(words, texts)
+
+    def test_what_cannot_be_drawn_is_refused(self):
+        self.assert_refused("scale", bench(), "is not a file of scale_bench")
+        self.assert_refused("scale", {**scale(), "series": []}, "has no series")
+        broken = scale()
+        broken["series"][0]["points"][1]["minimumMs"] = 0
+        self.assert_refused("scale", broken, "static: point 1: counts, times and bytes are above 0")
+        broken["series"][0]["points"] = []
+        self.assert_refused("scale", broken, "static: has no points")
+
+
 class AccuracyPictures(Plot):
     def test_every_effect_and_the_whole_frames_are_drawn(self):
         self.assertEqual(self.run_plot("accuracy", accuracy(), output="plots"), (0, ""))
