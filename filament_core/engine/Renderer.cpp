@@ -182,7 +182,7 @@ struct Renderer::Impl final : engine::Dependent {
         plan = {};
         const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet =
-                prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held(), last);
+                prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views, shadows.held(), last);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
         addDebugQuads(context, view, effects, output);

@@ -52,7 +52,6 @@ Renderable addSplatsTo(Scene::Impl& scene, RenderableDesc const& desc) {
                                         .boundsMax = splats.bounds.max,
                                         .worldFromObject = desc.worldFromObject,
                                         .culled = desc.culled,
-                                        .name = desc.name,
                                         .castsShadows = false,
                                         .layers = desc.layers };
     return scene::addSplats(scene.changed(), input, desc.splats.data());
@@ -93,7 +92,6 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         .boundsMax = bounds.max,
                                         .worldFromObject = desc.worldFromObject,
                                         .culled = desc.culled,
-                                        .name = desc.name,
                                         .instanceIndex = desc.instanceIndex,
                                         .castsShadows = desc.castsShadows,
                                         .properties = { .receivesShadows = desc.receivesShadows,

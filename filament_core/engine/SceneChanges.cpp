@@ -69,10 +69,8 @@ scene::MinMax Scene::Impl::boundsOf(GeometryDesc const& desc) const {
 }
 
 void Scene::Impl::follow(Renderable renderable, GeometryDesc const& desc) {
-    if (renderable.index() >= followed.size()) {
-        if (desc.bounds) return;
-        followed.resize(renderable.index() + 1);
-    }
+    if (renderable.index() >= followed.size() && desc.bounds) return;
+    while (renderable.index() >= followed.size()) scene::append(followed, {});
     followed[renderable.index()] = desc.bounds ? FollowedBounds{} : FollowedBounds{ renderable, desc.vertices };
 }
 

@@ -40,6 +40,13 @@ struct Scene::Impl {
         return data;
     }
 
+    /// The same, once a frame: what rests is taken into blocks.
+    scene::SceneData const& settled() const {
+        upToDate();
+        data.renderables.blocks.settle(data.renderables.bounds, data.renderables.flags);
+        return data;
+    }
+
     /// The data, to be changed.
     scene::SceneData& changed() {
         ++changes;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/CullRenderables.h"
 
+#include "filament_core/prepare/CullBlocks.h"
+#include "filament_core/prepare/LoadBoxes.h"
+
 #include <array>
 #include <atomic>
 #include <cstring>
@@ -12,7 +15,7 @@ using scene::Renderables;
 using simd::Float8;
 using simd::kLanes;
 
-static_assert(kCullRange % kLanes == 0, "only the last range of a scene has boxes left over");
+static_assert(kCullRange % 64 == 0, "only the last range of a scene has boxes left over, and words of bits");
 
 struct Tally {
     uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0, tooSmall = 0;
@@ -48,38 +51,119 @@ public:
               mIsShadow(kind == ViewKind::Shadow) {}
 
     /// Writes the visible renderables of [begin, end) to `slots`.
-    Tally cull(size_t begin, size_t end, SortItem* slots) const {
+    [[gnu::flatten]] Tally cull(size_t begin, size_t end, SortItem* slots) const {
         Tally tally;
         SortItem* next = slots;
         // Which renderables are tested one by one follows from the size of the scene alone, not from the number of
         // workers: any difference of rounding between the two functions is the same in every run.
         size_t i = begin;
-        for (; i + kLanes <= end; i += kLanes) next = keep(see8(i), i, next, tally);
+        for (; i + kLanes <= end; i += kLanes) next = keep(see<kLanes>(i), i, next, tally);
         for (; i < end; ++i) next = keep(see1(i), i, next, tally);
-        tally.visible = static_cast<uint32_t>(next - slots);
+        return finished(tally, begin, end, static_cast<uint32_t>(next - slots));
+    }
+
+    /// The same, testing only fours with a bit in `may`: no other renderable is in view. Each bit is a renderable from
+    /// `begin` on.
+    [[gnu::noinline]] Tally cullAmong(std::span<const uint64_t> may, size_t begin, size_t end, SortItem* slots) const {
+        std::array<Few, kCullRange / kLanes> few;
+        size_t count = 0;
+        for (size_t word = 0; word < may.size(); ++word) {
+            for (uint64_t left = may[word]; left != 0;) {
+                const auto byte = static_cast<uint32_t>(std::countr_zero(left)) / 8;
+                const uint64_t bits = left >> byte * 8 & 0xFF;
+                const bool hasLow = (bits & 0xF) != 0, hasHigh = bits > 0xF;
+                const size_t first = begin + word * 64 + byte * 8;
+                few[count++] = { hasLow ? first : first + 4, hasLow && hasHigh ? 8u : 4u };
+                left &= ~(uint64_t{ 0xFF } << byte * 8);
+            }
+        }
+        Tally tally;
+        SortItem* next = slots;
+        for (size_t i = 0; i < count; ++i) {
+            if (i + kFewAhead < count) prefetch(few[i + kFewAhead]);
+            const bool isWhole = few[i].first + few[i].count <= end;
+            if (few[i].count == 4 && isWhole)
+                next = keep(see<4>(few[i].first), few[i].first, next, tally);
+            else
+                next = keepEight(few[i].first, std::min(end, few[i].first + few[i].count), next, tally);
+        }
+        tally.nothingToDraw = tally.inOtherLayers = 0; // of all instead
+        countLeftOut(begin, end, tally);
+        return finished(tally, begin, end, static_cast<uint32_t>(next - slots));
+    }
+
+private:
+    /// Four or eight renderables.
+    struct Few {
+        size_t first = 0;
+        uint32_t count = 0;
+    };
+    static constexpr size_t kFewAhead = 8;
+
+    SortItem* keepEight(size_t i, size_t end, SortItem* next, Tally& tally) const {
+        if (i + kLanes <= end) return keep(see<kLanes>(i), i, next, tally);
+        for (; i < end; ++i) next = keep(see1(i), i, next, tally);
+        return next;
+    }
+
+    static Tally finished(Tally tally, size_t begin, size_t end, uint32_t visible) {
+        tally.visible = visible;
         tally.outOfView = static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw -
                           tally.inOtherLayers - tally.tooSmall;
         return tally;
     }
 
-private:
-    Seen8 see8(size_t i) const {
-        scene::BoundsColumns const& bounds = mRenderables.bounds;
-        Box8 boxes;
-        for (int axis = 0; axis < 3; ++axis) {
-            boxes.center[axis] = simd::loadRelative8(&bounds.center[axis][i], mSpace.cameraWorld[axis]);
-            boxes.halfExtent[axis] = simd::load8(&bounds.halfExtent[axis][i]);
+    void prefetch(Few few) const {
+        using Four = scene::BoundsColumns::Four;
+        auto const* const boxes = reinterpret_cast<const std::byte*>(&mRenderables.bounds.four(few.first / 4));
+        for (size_t line = 0; line < few.count / 4 * sizeof(Four); line += 64) __builtin_prefetch(boxes + line);
+        __builtin_prefetch(&mRenderables.drawable[few.first]);
+    }
+
+    /// Without a test of boxes, sixteen bytes at a time.
+    void countLeftOut(size_t begin, size_t end, Tally& tally) const {
+        using Byte16 [[gnu::vector_size(16)]] = uint8_t;
+        static_assert(kCullRange / sizeof(Byte16) <= 255, "counts are bytes");
+        const auto mask = static_cast<uint8_t>(scene::kNeverDrawn | scene::kCollapsed | (mIsShadow ? kNoCaster : 0));
+        const Byte16 masks = Byte16{} + mask, visible = Byte16{} + mSpace.visibleLayers;
+        Byte16 nothing{}, elsewhere{};
+        size_t i = begin;
+        for (; i + sizeof(Byte16) <= end; i += sizeof(Byte16)) {
+            Byte16 flags, layers;
+            std::memcpy(&flags, &mRenderables.flags[i], sizeof flags);
+            const Byte16 isNothing = Byte16((flags & masks) != 0);
+            nothing -= isNothing; // all ones: -1
+            if (mSpace.visibleLayers == kAllLayers) continue;
+            std::memcpy(&layers, &mRenderables.layers[i], sizeof layers);
+            elsewhere -= Byte16((layers & visible) == 0) & ~isNothing;
         }
-        uint64_t flags;
-        std::memcpy(&flags, &mRenderables.flags[i], sizeof flags);
+        for (size_t lane = 0; lane < sizeof(Byte16); ++lane) {
+            tally.nothingToDraw += nothing[lane];
+            tally.inOtherLayers += elsewhere[lane];
+        }
+        for (; i < end; ++i) {
+            const bool isNothing = (mRenderables.flags[i] & mask) != 0;
+            tally.nothingToDraw += isNothing;
+            tally.inOtherLayers += !isNothing && (mRenderables.layers[i] & mSpace.visibleLayers) == 0;
+        }
+    }
+
+    /// Of four only the low lanes count; `i` is a multiple of it.
+    template <size_t kCount>
+    [[gnu::always_inline]] Seen8 see(size_t i) const {
+        const Box8 boxes = loadBoxes(mRenderables.bounds.four(i / 4), mRenderables.bounds.four(i / 4 + kCount / 8),
+                                     mSpace.cameraWorld);
+        uint64_t flags = 0;
+        std::memcpy(&flags, &mRenderables.flags[i], kCount);
         Seen8 seen;
         seen.nothingToDraw = simd::bitOfEachByte(flags, kNeverDrawnBit) | simd::bitOfEachByte(flags, kCollapsedBit);
         if (mIsShadow)
             seen.nothingToDraw |=
                     simd::bitOfEachByte(flags, kCastsNoShadowsBit) | simd::bitOfEachByte(flags, kCannotCastBit);
-        if (mSpace.visibleLayers != kAllLayers) seen.inOtherLayers = hidden8(i) & ~seen.nothingToDraw;
+        if (mSpace.visibleLayers != kAllLayers) seen.inOtherLayers = hidden<kCount>(i) & ~seen.nothingToDraw;
         const uint32_t mayBeCulled = simd::bitOfEachByte(flags, kCulledBit);
-        seen.visible = (mFrustum.intersects(boxes) | ~mayBeCulled) & ~seen.nothingToDraw & ~seen.inOtherLayers & 0xFFu;
+        constexpr uint32_t kAll = (1u << kCount) - 1;
+        seen.visible = (mFrustum.intersects(boxes) | ~mayBeCulled) & ~seen.nothingToDraw & ~seen.inOtherLayers & kAll;
         // The exact test divides eight times for a box. It runs only for boxes that this one lets through, and that are
         // seen.
         seen.mayBeTooSmall = mSpace.pixels.mayMiss8(boxes.center, boxes.halfExtent) & mayBeCulled;
@@ -87,10 +171,11 @@ private:
         return seen;
     }
 
-    uint32_t hidden8(size_t i) const {
+    template <size_t kCount>
+    uint32_t hidden(size_t i) const {
         constexpr uint64_t kOnes = 0x0101'0101'0101'0101, kLow7 = 0x7F7F'7F7F'7F7F'7F7F;
-        uint64_t layers;
-        std::memcpy(&layers, &mRenderables.layers[i], sizeof layers);
+        uint64_t layers = 0;
+        std::memcpy(&layers, &mRenderables.layers[i], kCount);
         // Eight masks as the bytes of one word: vectors of bytes would be needed for this test alone.
         const uint64_t shared = layers & mSpace.visibleLayers * kOnes;
         const uint64_t isShared = ((shared & kLow7) + kLow7) | shared; // bit 7 of each byte that is not zero
@@ -176,9 +261,14 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
     const auto tallies = arena.arrayForOverwrite<Tally>(ranges);
     std::ranges::fill(spans, VisibleItems::kNoSpan);
+    const std::span<const uint64_t> may = cullBlocks(jobs, arena, renderables.blocks, space.frustum, space.cameraWorld);
     jobs::parallelFor<"cull">(jobs, renderables.count(), kCullRange, [&](size_t begin, size_t end) {
         const RangeCuller culler(renderables, space, kind, spans, levels);
-        tallies[begin / kCullRange] = culler.cull(begin, end, &slots[begin]);
+        Tally& tally = tallies[begin / kCullRange];
+        if (may.empty())
+            tally = culler.cull(begin, end, &slots[begin]);
+        else
+            tally = culler.cullAmong(may.subspan(begin / 64, (end - begin + 63) / 64), begin, end, &slots[begin]);
     });
 
     const auto firsts = arena.arrayForOverwrite<uint32_t>(ranges + 1);

@@ -8,10 +8,25 @@
 #include "filament_core/scene/ObjectHandles.h"
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace filament_core::scene {
+
+/// Grows by a quarter: a scene has many columns, and half of each in reserve would be more than most need.
+template <class T>
+void append(std::vector<T>& column, std::type_identity_t<T> const& value) {
+    if (column.size() == column.capacity()) column.reserve(column.size() + column.size() / 4 + 16);
+    column.push_back(value);
+}
+
+/// Moves the last element of a column into the gap and drops the last.
+template <class T>
+void closeGap(std::vector<T>& column, uint32_t gap) {
+    if (gap + 1 != column.size()) column[gap] = std::move(column.back());
+    column.pop_back();
+}
 
 /// Maps handles to positions in dense arrays and back.
 template <class Tag>
@@ -21,9 +36,9 @@ public:
 
     ObjectHandle<Tag> add() {
         const ObjectHandle<Tag> handle = mHandles.allocate();
-        if (handle.index() >= mDense.size()) mDense.resize(handle.index() + 1);
+        while (handle.index() >= mDense.size()) append(mDense, 0u);
         mDense[handle.index()] = static_cast<uint32_t>(mOwners.size());
-        mOwners.push_back(handle);
+        append(mOwners, handle);
         return handle;
     }
 
@@ -60,12 +75,5 @@ private:
     std::vector<uint32_t> mDense;           // by handle index
     std::vector<ObjectHandle<Tag>> mOwners; // by dense position
 };
-
-/// Moves the last element of a column into the gap and drops the last.
-template <class T>
-void closeGap(std::vector<T>& column, uint32_t gap) {
-    if (gap + 1 != column.size()) column[gap] = std::move(column.back());
-    column.pop_back();
-}
 
 } // namespace filament_core::scene

@@ -46,24 +46,20 @@ bool isPoint(Placement const& placement) {
     return placement.rows[0] == float3(0) && placement.rows[1] == float3(0) && placement.rows[2] == float3(0);
 }
 
+/// Everything that depends on the transform.
+void write(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
+    CenteredBox const& bounds = renderables.objectBounds[at];
+    const Placement placement = placementOf(worldFromObject, std::abs(renderables.placement[at].side));
+    renderables.placement[at] = placement;
+    renderables.bounds.set(at, transformPoint(worldFromObject, double3(bounds.center)),
+                           worldHalfExtent(worldFromObject, bounds.halfExtent));
+    const int kept = renderables.flags[at] & ~(kMirrored | kCollapsed);
+    const bool mirrored = (placement.side < 0) != ((kept & kBonesMirror) != 0);
+    const int changed = (mirrored ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
+    renderables.flags[at] = static_cast<uint8_t>(kept | changed);
+}
+
 } // namespace
-
-void BoundsColumns::set(size_t i, double3 const& newCenter, float3 newHalfExtent) {
-    for (int axis = 0; axis < 3; ++axis) {
-        center[axis][i] = newCenter[axis];
-        halfExtent[axis][i] = newHalfExtent[axis];
-    }
-}
-
-void BoundsColumns::add() {
-    for (auto& column : center) column.push_back(0.0);
-    for (auto& column : halfExtent) column.push_back(0.0f);
-}
-
-void BoundsColumns::remove(uint32_t gap) {
-    for (auto& column : center) closeGap(column, gap);
-    for (auto& column : halfExtent) closeGap(column, gap);
-}
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
     const uint32_t drawable = renderables.drawables.acquire(
@@ -73,15 +69,15 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
     const int flags =
             (input.culled ? kCulled : 0) | (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
     renderables.bounds.add();
-    renderables.flags.push_back(static_cast<uint8_t>(flags));
-    renderables.layers.push_back(input.layers);
-    renderables.drawable.push_back(drawable);
+    append(renderables.flags, static_cast<uint8_t>(flags));
+    append(renderables.layers, input.layers);
+    append(renderables.drawable, drawable);
     FILAMENT_ASSERT(input.instanceIndex < 1u << 24, "an instance index is below 2^24, where floats are whole numbers");
-    renderables.placement.push_back({ .side = static_cast<float>(input.instanceIndex + 1) });
-    renderables.objectBounds.push_back(boxFromMinMax(input.boundsMin, input.boundsMax));
-    renderables.name.push_back(input.name);
+    append(renderables.placement, { .side = static_cast<float>(input.instanceIndex + 1) });
+    append(renderables.objectBounds, boxFromMinMax(input.boundsMin, input.boundsMax));
+    renderables.blocks.add();
     updateNeverDrawn(renderables, renderables.count() - 1);
-    place(renderables, renderables.count() - 1, input.worldFromObject);
+    write(renderables, renderables.count() - 1, affineFrom(input.worldFromObject));
     return handle;
 }
 
@@ -94,7 +90,7 @@ void remove(Renderables& renderables, Renderable renderable) {
     closeGap(renderables.drawable, gap);
     closeGap(renderables.placement, gap);
     closeGap(renderables.objectBounds, gap);
-    closeGap(renderables.name, gap);
+    renderables.blocks.remove(gap);
 }
 
 namespace {
@@ -157,15 +153,8 @@ void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, 
 }
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
-    CenteredBox const& bounds = renderables.objectBounds[at];
-    const Placement placement = placementOf(worldFromObject, std::abs(renderables.placement[at].side));
-    renderables.placement[at] = placement;
-    renderables.bounds.set(at, transformPoint(worldFromObject, double3(bounds.center)),
-                           worldHalfExtent(worldFromObject, bounds.halfExtent));
-    const int kept = renderables.flags[at] & ~(kMirrored | kCollapsed);
-    const bool mirrored = (placement.side < 0) != ((kept & kBonesMirror) != 0);
-    const int changed = (mirrored ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
-    renderables.flags[at] = static_cast<uint8_t>(kept | changed);
+    write(renderables, at, worldFromObject);
+    renderables.blocks.noteMoved(at);
 }
 
 void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject) {

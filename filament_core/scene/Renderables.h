@@ -1,43 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Renderables: everything that can be drawn, by column; each step of a frame reads only the columns it needs.
-///   culling      bounds (36 B) and flags (1 B) of every renderable, in order; layers (1 B), unless a view has them all
+///   culling      flags (1 B) of every renderable; bounds (36 B) of those in blocks that a view may see, in order;
+///                layers (1 B), unless a view has them all
 ///   sorting      drawable (4 B) of the visible ones
 ///   object data  placement (64 B, one cache line) of the visible ones, in draw order
-///   The rest (objectBounds, name) is for edits and messages; frames do not read it.
+///   The rest (objectBounds) is for edits; frames do not read it.
+///   Memory  about 165 B a renderable with its handle, and up to a quarter of that in reserve.
 ///   Thread  the app thread between frames; read-only while a frame is prepared. place() may run on many threads at
 ///           once, each with its own indices.
 #pragma once
 
 #include "base/math/Box.h"
 #include "filament_core/scene/Affine.h"
+#include "filament_core/scene/BoundsColumns.h"
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"
+#include "filament_core/scene/RestingBlocks.h"
 
-#include <filament_core/Box.h>
 #include <filament_core/Objects.h>
 
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace filament_core::scene {
-
-/// Axis-aligned boxes in world space, one column per component, so that SIMD can load neighbours. Centres are double;
-/// after subtracting the camera the result fits a float.
-struct BoundsColumns {
-    std::array<std::vector<double>, 3> center;
-    std::array<std::vector<float>, 3> halfExtent;
-
-    double3 centerAt(size_t i) const { return { center[0][i], center[1][i], center[2][i] }; }
-    float3 halfExtentAt(size_t i) const { return { halfExtent[0][i], halfExtent[1][i], halfExtent[2][i] }; }
-    Box at(size_t i) const {
-        return { centerAt(i) - double3(halfExtentAt(i)), centerAt(i) + double3(halfExtentAt(i)) };
-    }
-    void set(size_t i, double3 const& newCenter, float3 newHalfExtent);
-    void add();
-    void remove(uint32_t gap);
-};
 
 /// worldFromObject as the shaders see it: the linear part rounded to float once, here, and the translation in double
 /// precision, because the camera is subtracted first.
@@ -69,7 +55,7 @@ struct Renderables {
     std::vector<uint32_t> drawable; ///< into `drawables`
     std::vector<Placement> placement;
     std::vector<CenteredBox> objectBounds;
-    std::vector<std::string> name;
+    RestingBlocks blocks; ///< of positions
     Drawables drawables;
 
     uint32_t count() const { return index.size(); }
@@ -81,7 +67,6 @@ struct RenderableInput {
     float3 boundsMin{ 0.0f }, boundsMax{ 0.0f };
     double4x4 worldFromObject{ 1.0 };
     bool culled = true;
-    std::string name;
     uint32_t instanceIndex = 0; ///< < 2^24
     uint32_t deformation = kNotDeformed;
     bool castsShadows = true;

@@ -2,20 +2,12 @@
 // Each choice of prepare compared with the plain alternative, measured in turns in one run. Counters named vs_* are
 // ratios of medians of thread time; below 1 the engine is faster. If the results disagree, the benchmark fails.
 #include "bench/filament_core/prepare/PrepareSetup.h"
+#include "filament_core/prepare/LoadBoxes.h"
 
 #include <cstring>
 
 namespace filament_core::prepare {
 namespace {
-
-Box8 loadBoxes(scene::BoundsColumns const& bounds, size_t i, double3 const& cameraWorld) {
-    Box8 boxes;
-    for (int axis = 0; axis < 3; ++axis) {
-        boxes.center[axis] = simd::loadRelative8(&bounds.center[axis][i], cameraWorld[axis]);
-        boxes.halfExtent[axis] = simd::load8(&bounds.halfExtent[axis][i]);
-    }
-    return boxes;
-}
 
 /// Eight boxes at a time, compared with one at a time, over the same columns.
 void boxesAgainstScalar(benchmark::State& state) {
@@ -29,8 +21,8 @@ void boxesAgainstScalar(benchmark::State& state) {
     for (auto _ : state) {
         state.SetIterationTime(ours.time([&] {
             for (size_t i = 0; i < count; i += 8) {
-                lanes += static_cast<uint32_t>(
-                        std::popcount(frustum.intersects(loadBoxes(bounds, i, space.cameraWorld))));
+                lanes += static_cast<uint32_t>(std::popcount(
+                        frustum.intersects(loadBoxes(bounds.four(i / 4), bounds.four(i / 4 + 1), space.cameraWorld))));
             }
         }));
         scalar.time([&] {

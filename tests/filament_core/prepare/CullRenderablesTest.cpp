@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/CullRenderables.h"
 
+#include "filament_core/prepare/CullBlocks.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -30,12 +33,13 @@ struct CullTest : testing::Test, BoxScene {
 
     /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN; in
     /// layers.
-    void addMixture(uint32_t count) {
+    void addMixture(uint32_t count, double3 middle = double3(0)) {
         const auto* look = material();
         Random random(count + 1);
         for (uint32_t i = 0; i < count; ++i) {
             double4x4 world(random.next() % 16 ? random.within(-2, 2) * (random.next() % 4 ? 1 : 0.02) : 0.0);
-            world[3] = double4(random.within(-15, 15), random.within(-15, 15), random.within(-30, 15), 1);
+            const double3 place(random.within(-15, 15), random.within(-15, 15), random.within(-30, 15));
+            world[3] = double4(middle + place, 1);
             scene::RenderableInput input = box(world, look, 1 + random.next() % 7);
             input.culled = random.next() % 8 != 0;
             if (random.next() % 8 == 0) input.geometry.indexCount = 0;
@@ -45,6 +49,20 @@ struct CullTest : testing::Test, BoxScene {
                 input.layers = static_cast<uint8_t>(random.next() % 3 ? 1u << random.next() % 8 : 0u);
             addRenderable(scene, input);
         }
+    }
+
+    /// Takes what rests into blocks.
+    void settle() {
+        for (int i = 0; i < 200; ++i) scene.renderables.blocks.settle(renderables().bounds, renderables().flags);
+    }
+
+    /// How many renderables culling looks at.
+    uint32_t looked() {
+        jobs::JobSystem jobs({ .workers = 0 });
+        const auto may = cullBlocks(jobs, arena, renderables().blocks, space.frustum, space.cameraWorld);
+        uint32_t count = may.empty() ? renderables().count() : 0;
+        for (const uint64_t word : may) count += static_cast<uint32_t>(std::popcount(word));
+        return count;
     }
 
     bool isTooSmall(uint32_t i) const {
@@ -97,6 +115,55 @@ TEST_P(CullCountTest, SeesExactlyWhatTheScalarTestSeesForAnyNumberOfWorkers) {
     addMixture(GetParam());
     for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
     EXPECT_TRUE(GetParam() < 1000 || counts.tooSmall > 10) << counts.tooSmall;
+}
+
+struct CullBlocksTest : CullTest, testing::WithParamInterface<double> {};
+INSTANTIATE_TEST_SUITE_P(Offset, CullBlocksTest, testing::Values(0, 1e4, -3e9));
+
+TEST_P(CullBlocksTest, LeaveOutNothingThatIsInView) {
+    const double3 middle(GetParam(), 0.1 * GetParam(), 0);
+    addMixture(20'003, middle);
+    settle();
+    Random random(5);
+    uint32_t least = renderables().count();
+    for (int i = 0; i < 40; ++i) {
+        const double3 eye = middle + double3(random.within(-40, 40), random.within(-40, 40), random.within(-40, 40));
+        const double3 at = middle + double3(random.within(-15, 15), random.within(-15, 15), random.within(-30, 15));
+        space = makeViewSpace({ .camera = Camera::lookAt(eye, at, { .verticalFovDegrees = i % 2 ? 3.0f : 30.0f }),
+                                .size = { 640, 480 },
+                                .visibleLayers = static_cast<Layers>(i % 4 == 0 ? 0x5D : kAllLayers) });
+        least = std::min(least, looked());
+        for (const int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
+        for (int moved = 0; moved < 50; ++moved) {
+            double4x4 world(random.within(0.01, 2));
+            world[3] = double4(i % 2 ? at : eye - 2.0 * (at - eye), 1);
+            place(scene.renderables, random.next() % renderables().count(), world);
+        }
+        expectWhatOneByOneSees(cull());
+        if (i % 10 == 0) settle();
+    }
+    EXPECT_LT(least, renderables().count() / 3) << "a third is never culled, or has no usable box";
+}
+
+TEST_F(CullTest, BlocksChangeNothingInShadowMaps) {
+    addMixture(20'003);
+    for (uint32_t i = 0; i < renderables().count(); i += 5) scene.renderables.flags[i] |= scene::kCastsNoShadows;
+    space = makeViewSpace(
+            { .camera = Camera::lookAt({ 0, 0, 40 }, { 3, 2, 1 }, { .verticalFovDegrees = 5 }), .size = { 64, 64 } });
+    jobs::JobSystem jobs({ .workers = 0 });
+    ViewCounts without, with;
+    const VisibleItems all = cullRenderables(jobs, arena, renderables(), space, ViewKind::Shadow, without);
+    settle();
+    EXPECT_LT(looked(), renderables().count() / 2);
+    const VisibleItems blocks = cullRenderables(jobs, arena, renderables(), space, ViewKind::Shadow, with);
+    EXPECT_TRUE(std::ranges::equal(all.firsts, blocks.firsts));
+    EXPECT_TRUE(std::ranges::equal(all.spans, blocks.spans));
+    for (size_t range = 0; range + 1 < all.firsts.size(); ++range)
+        for (size_t i = 0; i < all.firsts[range + 1] - all.firsts[range]; ++i)
+            ASSERT_EQ(all.slots[range * kCullRange + i].renderable, blocks.slots[range * kCullRange + i].renderable);
+    EXPECT_EQ(without.nothingToDraw, with.nothingToDraw);
+    EXPECT_EQ(without.outOfView, with.outOfView);
+    EXPECT_EQ(without.tooSmall, with.tooSmall);
 }
 
 TEST_F(CullTest, OnlyTrianglesThatStayInTheirBoxAreTooSmall) {

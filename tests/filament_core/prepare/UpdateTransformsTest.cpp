@@ -260,8 +260,9 @@ struct Forest {
             hash = hashBytes(std::as_bytes(std::span(&world, 1)), hash);
         }
         hash = hashBytes(std::as_bytes(std::span(scene.renderables.placement)), hash);
-        for (auto const& column : scene.renderables.bounds.center) {
-            hash = hashBytes(std::as_bytes(std::span(column)), hash);
+        for (uint32_t i = 0; i < scene.renderables.count(); ++i) {
+            const double3 center = scene.renderables.bounds.centerAt(i);
+            hash = hashBytes(std::as_bytes(std::span(&center, 1)), hash);
         }
         return hash;
     }

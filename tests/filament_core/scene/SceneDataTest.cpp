@@ -14,24 +14,21 @@ struct SceneDataTest : testing::Test {
     MaterialInstance instance{ .material = &material };
     SceneData scene;
 
-    Renderable add(double x, std::string name = {}) {
+    Renderable add(double x) {
         double4x4 world(1.0);
         world[3].x = x;
-        return addRenderable(scene, { .material = &instance,
-                                      .boundsMin = float3(-1),
-                                      .boundsMax = float3(1),
-                                      .worldFromObject = world,
-                                      .name = std::move(name) });
+        return addRenderable(
+                scene,
+                { .material = &instance, .boundsMin = float3(-1), .boundsMax = float3(1), .worldFromObject = world });
     }
 };
 
 TEST_F(SceneDataTest, KeepsHandlesValidWhenOthersAreRemoved) {
-    const Renderable a = add(0, "a"), b = add(10, "b"), c = add(20, "c");
+    const Renderable a = add(0), b = add(10), c = add(20);
     removeRenderable(scene, a);
     Renderables const& r = scene.renderables;
     ASSERT_EQ(r.count(), 2u);
-    EXPECT_EQ(r.name[r.index.at(b)], "b");
-    EXPECT_EQ(r.name[r.index.at(c)], "c");
+    EXPECT_EQ(r.bounds.centerAt(r.index.at(b)).x, 10);
     EXPECT_EQ(r.bounds.centerAt(r.index.at(c)).x, 20);
     setTransform(scene, c, double4x4(2.0));
     EXPECT_EQ(r.bounds.halfExtentAt(r.index.at(c)), float3(2));
@@ -54,10 +51,8 @@ TEST_F(SceneDataTest, EveryColumnHasTheSameLengthAfterRandomAddsAndRemoves) {
     }
     Renderables const& r = scene.renderables;
     EXPECT_EQ(r.count(), live.size());
-    for (size_t size :
-         { r.bounds.center[0].size(), r.bounds.center[1].size(), r.bounds.center[2].size(),
-           r.bounds.halfExtent[0].size(), r.bounds.halfExtent[1].size(), r.bounds.halfExtent[2].size(), r.flags.size(),
-           r.drawable.size(), r.placement.size(), r.objectBounds.size(), r.name.size() }) {
+    for (size_t size : { r.bounds.size(), r.flags.size(), r.drawable.size(), r.placement.size(), r.objectBounds.size(),
+                         r.layers.size() }) {
         EXPECT_EQ(size, live.size());
     }
 }
