@@ -43,7 +43,7 @@ struct Scene::Impl {
     /// The same, once a frame: what rests is taken into blocks.
     scene::SceneData const& settled() const {
         upToDate();
-        data.renderables.blocks.settle(data.renderables.bounds, data.renderables.flags);
+        scene::settle(data.renderables);
         return data;
     }
 

@@ -4,6 +4,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace filament_core::prepare {
@@ -19,6 +20,14 @@ constexpr uint32_t kJitters = 1024;
 // A pixel of an enlarged image is the mean of the samples in it in the end. Until there are some, the filter is as
 // wide as two pixels.
 constexpr float kWidestRamp = 0.5f, kNarrowestRamp = 0.0625f;
+
+/// Gives back what a quarter of would do.
+template <class T>
+void resizeAndShrink(std::vector<T>& values, size_t size) {
+    constexpr size_t kFew = 4096;
+    values.resize(size);
+    if (values.capacity() > 4 * size + kFew) values.shrink_to_fit();
+}
 
 float rampOf(float accumulated) {
     return std::max(kWidestRamp / std::sqrt(std::max(accumulated, 1.0f)), kNarrowestRamp);
@@ -101,11 +110,31 @@ Accumulation LastFrame::accumulation(scene::SceneData const& scene, ViewInput co
     return accumulation;
 }
 
+/// Of what moved lately; the rest is where it was, or the scene saves where that is.
+void LastFrame::keepPlacements(scene::Renderables const& renderables) {
+    renderables.restPlaces.ask(renderables.count());
+    const std::span<const scene::RestingBlocks::Word> words = renderables.blocks.words();
+    mPass = renderables.blocks.pass();
+    mRecent.resize(words.size());
+    uint32_t count = 0;
+    for (size_t i = 0; i < words.size(); ++i) {
+        mRecent[i] = { words[i].recent(), count };
+        count += static_cast<uint32_t>(std::popcount(mRecent[i].bits));
+    }
+    resizeAndShrink(mRenderables, count);
+    resizeAndShrink(mPlacements, count);
+    for (size_t i = 0; i < words.size(); ++i) {
+        uint32_t to = mRecent[i].first;
+        for (uint64_t left = mRecent[i].bits; left != 0; left &= left - 1, ++to) {
+            const auto at = static_cast<uint32_t>(i * 64) + static_cast<uint32_t>(std::countr_zero(left));
+            mRenderables[to] = renderables.index.handleAt(at);
+            mPlacements[to] = renderables.placement[at];
+        }
+    }
+}
+
 void LastFrame::keepPlaces(scene::SceneData const& scene) {
-    scene::Renderables const& renderables = scene.renderables;
-    mPlacements = renderables.placement;
-    mRenderables.resize(renderables.count());
-    for (uint32_t i = 0; i < renderables.count(); ++i) mRenderables[i] = renderables.index.handleAt(i);
+    keepPlacements(scene.renderables);
     const auto deformations = scene.deformations.all();
     mDeformed.resize(deformations.size());
     for (size_t i = 0; i < deformations.size(); ++i) {
@@ -135,10 +164,19 @@ LastView LastFrame::seenFrom(ViewSpace const& space, ViewInput const& view, floa
 }
 
 scene::Placement const* LastFrame::placement(scene::SceneData const& scene, uint32_t at) const {
-    // Removing a renderable may move another one to its position, so that only the handle says what was there.
-    const bool isKnown = mScene == scene.serial && at < mRenderables.size() &&
-                         mRenderables[at] == scene.renderables.index.handleAt(at);
-    return isKnown ? &mPlacements[at] : nullptr;
+    scene::Renderables const& renderables = scene.renderables;
+    if (mScene != scene.serial || renderables.blocks.pass() > mPass + 1) return nullptr;
+    const uint64_t bit = uint64_t{ 1 } << at % 64;
+    const Recent recent = at / 64 < mRecent.size() ? mRecent[at / 64] : Recent{};
+    if (recent.bits & bit) {
+        const uint32_t kept = recent.first + static_cast<uint32_t>(std::popcount(recent.bits & (bit - 1)));
+        // Removing a renderable may move another one to its position, so that only the handle says what was there.
+        return mRenderables[kept] == renderables.index.handleAt(at) ? &mPlacements[kept] : nullptr;
+    }
+    // It was not new then, and at rest.
+    scene::RestingBlocks::Word const& now = renderables.blocks.words()[at / 64];
+    if ((now.added | now.addedBefore) & bit) return nullptr;
+    return now.moving() & bit ? renderables.restPlaces.find(at) : &renderables.placement[at];
 }
 
 std::optional<LastDeformation> LastFrame::deformation(scene::SceneData const& scene, uint32_t slot) const {

@@ -5,8 +5,10 @@
 ///   Limits  of one scene and one view, by the size of what it shows: beside others, frames know none before them
 ///           (isFollowedBy(), which prepareFrame() asks first).
 ///           Parameters of materials are not remembered: a vertex block that the app moves by one shows no motion.
-///   Memory  places only if asked for: 72 B a renderable, 48 B a bone, 4 B a morph target; levels of detail likewise,
-///           12 B a renderable; kept and reused.
+///   Memory  places only if asked for: 72 B for each renderable that moved or was added lately (in the last two passes
+///           of scene::RestingBlocks), a quarter of a byte for others, 48 B a bone, 4 B a morph target; levels of
+///           detail likewise, 12 B a renderable; kept and reused. Where others rested until they moved, the scene
+///           knows (scene::RestPlaces): a renderer that did not draw it in two passes finds no places.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
 ///   Fails   std::bad_alloc; there was no last frame then.
 #pragma once
@@ -42,6 +44,7 @@ public:
     std::span<const DrawnLevel> levels() const { return mLevels; }
     /// Whether the renderable at position `at` was in the last frame's scene, and its place there.
     scene::Placement const* placement(scene::SceneData const& scene, uint32_t at) const;
+    size_t keptPlaces() const { return mPlacements.size(); }
     /// Of a slot of Deformations; none: it was not there, or had another skin.
     std::optional<LastDeformation> deformation(scene::SceneData const& scene, uint32_t slot) const;
 
@@ -55,6 +58,10 @@ private:
         float3 forward;
         float4 time;
     };
+    struct Recent {
+        uint64_t bits = 0;  ///< bit i: the place of position 64 * index + i is kept
+        uint32_t first = 0; ///< into mPlacements
+    };
     struct Deformed {
         Renderable renderable{};
         Skin skin{};
@@ -62,18 +69,21 @@ private:
     };
 
     void keepPlaces(scene::SceneData const& scene);
+    void keepPlacements(scene::Renderables const& renderables);
     bool isAccumulatedBy(scene::SceneData const& scene, FrameSettings const& settings) const;
     bool isFixed(ViewInput const& view, FramePacket const& packet) const;
 
     std::optional<Seen> mSeen;
-    uint32_t mJitters = 0;                ///< frames in a row that were accumulated
-    float mAccumulated = 0;               ///< accumulated frames
-    bool mIsExposed = false;              ///< by AutoExposure
-    bool mIsReflected = false;            ///< its scene colour was kept for reflections
-    std::vector<DrawnLevel> mLevels;      // by position
-    uint64_t mScene = 0;                  ///< SceneData::serial; 0: no places are known
-    std::vector<Renderable> mRenderables; // parallel to mPlacements
-    std::vector<scene::Placement> mPlacements;
+    uint32_t mJitters = 0;                             ///< frames in a row that were accumulated
+    float mAccumulated = 0;                            ///< accumulated frames
+    bool mIsExposed = false;                           ///< by AutoExposure
+    bool mIsReflected = false;                         ///< its scene colour was kept for reflections
+    std::vector<DrawnLevel> mLevels;                   // by position
+    uint64_t mScene = 0;                               ///< SceneData::serial; 0: no places are known
+    uint64_t mPass = 0;                                // of RestingBlocks
+    std::vector<Recent> mRecent;                       // by position / 64
+    std::vector<Renderable> mRenderables;              // parallel to mPlacements
+    std::vector<scene::Placement> mPlacements;         // of what moved lately, by position
     std::vector<Deformed> mDeformed;                   // by slot of Deformations
     std::vector<std::vector<shader::BoneData>> mBones; // by Skin::index()
 };

@@ -153,6 +153,8 @@ void setLayers(Renderables& renderables, Renderable renderable, uint8_t select, 
 }
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
+    if (renderables.restPlaces.isAsked() && !renderables.blocks.isMoving(at))
+        renderables.restPlaces.save(at, renderables.placement[at]);
     write(renderables, at, worldFromObject);
     renderables.blocks.noteMoved(at);
 }
@@ -177,6 +179,14 @@ Affine worldFromObject(Renderables const& renderables, uint32_t at) {
     }
     world[3] = double4(placement.translation, 1);
     return affineFrom(world);
+}
+
+void settle(Renderables& renderables) {
+    const uint64_t pass = renderables.blocks.pass();
+    renderables.blocks.settle(renderables.bounds, renderables.flags);
+    if (pass == renderables.blocks.pass() || !renderables.restPlaces.isAsked()) return;
+    const std::span<const RestingBlocks::Word> words = renderables.blocks.words();
+    for (size_t i = 0; i < words.size(); ++i) renderables.restPlaces.drop(i, words[i].moving());
 }
 
 } // namespace filament_core::scene

@@ -15,24 +15,16 @@
 #include "filament_core/scene/BoundsColumns.h"
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"
+#include "filament_core/scene/Placement.h"
+#include "filament_core/scene/RestPlaces.h"
 #include "filament_core/scene/RestingBlocks.h"
 
 #include <filament_core/Objects.h>
 
-#include <array>
 #include <span>
 #include <vector>
 
 namespace filament_core::scene {
-
-/// worldFromObject as the shaders see it: the linear part rounded to float once, here, and the translation in double
-/// precision, because the camera is subtracted first.
-struct alignas(64) Placement {
-    std::array<float3, 3> rows{}; ///< of the linear part
-    float side = 1;               ///< 1 + the instance index; negative if it mirrors
-    double3 translation{ 0.0 };
-};
-static_assert(sizeof(Placement) == 64, "one cache line a renderable");
 
 enum RenderableFlag : uint8_t {
     kCulled = 1,     ///< may be skipped when its box is out of view
@@ -55,7 +47,8 @@ struct Renderables {
     std::vector<uint32_t> drawable; ///< into `drawables`
     std::vector<Placement> placement;
     std::vector<CenteredBox> objectBounds;
-    RestingBlocks blocks; ///< of positions
+    RestingBlocks blocks;          ///< of positions
+    mutable RestPlaces restPlaces; ///< by position; renderers ask for them
     Drawables drawables;
 
     uint32_t count() const { return index.size(); }
@@ -97,6 +90,9 @@ inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {
 void setObjectBounds(Renderables& renderables, uint32_t at, CenteredBox const& bounds, bool bonesMirror);
 /// The transform that place() stored: the linear part as floats.
 Affine worldFromObject(Renderables const& renderables, uint32_t at);
+
+/// Once a frame, before it is prepared: RestingBlocks::settle(), and forgets places that no frame can ask for any more.
+void settle(Renderables& renderables);
 
 /// Writes everything that depends on the transform: placement, bounds and flags of the renderable at position `at`.
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject);

@@ -39,6 +39,7 @@ void RestingBlocks::add() {
     append(mPlaces, kNone);
     if (at / 64 >= mWords.size()) append(mWords, {});
     mWords[at / 64].unsettled |= uint64_t{ 1 } << at % 64;
+    mWords[at / 64].added |= uint64_t{ 1 } << at % 64;
     ++mCount;
 }
 
@@ -48,11 +49,13 @@ void RestingBlocks::remove(uint32_t gap) {
     Word& to = mWords[gap / 64];
     Word& from = mWords[last / 64];
     const uint64_t toBit = uint64_t{ 1 } << gap % 64, fromBit = uint64_t{ 1 } << last % 64;
-    for (uint64_t Word::*plane : { &Word::unsettled, &Word::moved, &Word::movedBefore, &Word::unfit }) {
+    for (uint64_t Word::*plane :
+         { &Word::unsettled, &Word::moved, &Word::movedBefore, &Word::unfit, &Word::added, &Word::addedBefore }) {
         const bool isSet = (from.*plane & fromBit) != 0;
         to.*plane = isSet ? to.*plane | toBit : to.*plane & ~toBit;
         from.*plane &= ~fromBit;
     }
+    if (gap != last) to.added |= toBit;
     if (gap != last && mPlaces[last] != kNone) mMembers[mPlaces[last]] = gap;
     closeGap(mPlaces, gap);
     --mCount;
@@ -70,7 +73,11 @@ bool RestingBlocks::isFit(BoundsColumns const& boxes, std::span<const uint8_t> f
 /// Words are visited in an order that has nothing to do with that of their renderables: trees of sorted insertions
 /// would be lists.
 void RestingBlocks::beginPass() {
-    for (Word& word : mWords) word.movedBefore = std::exchange(word.moved, 0);
+    for (Word& word : mWords) {
+        word.movedBefore = std::exchange(word.moved, 0);
+        word.addedBefore = std::exchange(word.added, 0);
+    }
+    ++mPass;
     mCalls = mCursor = 0;
     mPassWords = static_cast<uint32_t>(mWords.size());
     mStride = std::max(1u, static_cast<uint32_t>(0.618 * mPassWords));
@@ -78,9 +85,9 @@ void RestingBlocks::beginPass() {
 }
 
 void RestingBlocks::settle(BoundsColumns const& boxes, std::span<const uint8_t> flags) {
-    if (mCount < kFewest) return;
     if (mCursor == mPassWords && mCalls >= kRestFrames) beginPass();
     ++mCalls;
+    if (mCount < kFewest) mCursor = mPassWords;
     for (uint32_t settled = 0; mCursor < mPassWords && settled < kMostSettled; ++mCursor) {
         const uint64_t index = uint64_t{ mCursor } * mStride % mPassWords;
         if (index >= mWords.size()) continue;

@@ -10,7 +10,7 @@
 ///           and settle once they rested for at least kRestFrames: settling takes as long as testing a box in about
 ///           fifty frames. What was added rests.
 ///   Thread  the app thread between frames; noteMoved() on many threads at once, each with its own renderables.
-///   Memory  about 12 bytes a renderable; none for scenes below kFewest.
+///   Memory  about 12 bytes a renderable; 5 in scenes below kFewest.
 ///   Fails   settle(): std::bad_alloc; what is settled then remains.
 ///   Cost    settle(): 0.3 us for each renderable that comes to rest, at most kMostSettled a call.
 #pragma once
@@ -38,6 +38,10 @@ public:
         uint64_t unsettled = 0;              ///< in no block, or its box is not in that of its block
         uint64_t moved = 0, movedBefore = 0; ///< since the last pass began, and in the pass before; always unsettled
         uint64_t unfit = 0;                  ///< unsettled for as long as it does not move
+        uint64_t added = 0, addedBefore = 0; ///< it is new at its position since then, and in the pass before
+
+        uint64_t moving() const { return moved | movedBefore; }
+        uint64_t recent() const { return moving() | added | addedBefore; }
     };
 
     /// At the next position.
@@ -53,11 +57,20 @@ public:
         std::atomic_ref(word.unfit).fetch_and(~bit, std::memory_order_relaxed);
         std::atomic_ref(word.moved).fetch_or(bit, std::memory_order_relaxed);
     }
+    /// Since the last pass began, or in the pass before. On many threads, as noteMoved().
+    bool isMoving(uint32_t at) const {
+        Word& word = const_cast<Word&>(mWords[at / 64]); // atomic_ref of C++20 wants it so
+        const uint64_t moved = std::atomic_ref(word.moved).load(std::memory_order_relaxed);
+        return ((moved | word.movedBefore) >> at % 64 & 1) != 0;
+    }
+    /// How often movedBefore became moved. A pass begins in settle(), after kRestFrames calls at the earliest.
+    uint64_t pass() const { return mPass; }
+
     /// Takes renderables that rest into blocks. `flags`: RenderableFlag.
     void settle(BoundsColumns const& boxes, std::span<const uint8_t> flags);
 
     std::span<const Word> words() const { return mWords; }
-    uint32_t settled() const { return mSettled; } ///< members of all blocks
+    uint32_t settled() const { return mSettled; }                      ///< members of all blocks
     bool holdMost() const { return settled() >= 32 * words().size(); } ///< half of all, or more
     /// Numbers of blocks are below this; some may be empty.
     uint32_t limit() const { return mLimit; }
@@ -117,6 +130,7 @@ private:
     uint32_t mRoot = kNone;
 
     uint32_t mCount = 0, mCalls = kRestFrames; // since the pass began
+    uint64_t mPass = 0;
     uint32_t mPassWords = 0, mCursor = 0, mStride = 1;
     uint32_t mDeepest = 0; // that settling saw
     uint32_t mRefit = 0;   // the block that refitSome() looked at last
