@@ -4,6 +4,8 @@
 #include "filament_core/prepare/ReduceRanges.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace filament_core::prepare {
@@ -28,6 +30,47 @@ void addBox(ShadowReceivers& receivers, double3 const& center, double3 const& ha
     receivers.nearest = std::min(receivers.nearest, std::max(depth - reach, nearMeters));
     receivers.farthest = std::max(receivers.farthest, depth + reach);
 }
+
+/// Blocks as a light sees them, by more than all roundings too large. Minima and maxima are the same in any order, so
+/// blocks inside of what is known need no look at their members.
+class BlockExtents {
+public:
+    BlockExtents(scene::RestingBlocks const& blocks, double3x3 const& worldFromLight)
+            : mBlocks(blocks), mWorldFromLight(worldFromLight) {}
+
+    /// In each of six directions.
+    std::array<uint32_t, 6> farthest() const {
+        std::array<uint32_t, 6> found{};
+        LightSpaceBox all;
+        for (uint32_t block = 0; block < mBlocks.limit(); ++block) {
+            const LightSpaceBox box = of(block);
+            for (int axis = 0; axis < 3; ++axis) {
+                if (box.min[axis] < all.min[axis]) found[static_cast<size_t>(axis)] = block;
+                if (box.max[axis] > all.max[axis]) found[static_cast<size_t>(axis) + 3] = block;
+            }
+            all.add(box);
+        }
+        return found;
+    }
+
+    bool reachesBeyond(LightSpaceBox const& known, uint32_t block) const {
+        const LightSpaceBox box = of(block);
+        return glm::any(glm::lessThan(box.min, known.min)) || glm::any(glm::greaterThan(box.max, known.max));
+    }
+
+private:
+    LightSpaceBox of(uint32_t block) const {
+        if (mBlocks.members(block).empty()) return {};
+        const double3 center = mBlocks.bounds().centerAt(block);
+        const float3 half = mBlocks.bounds().halfExtentAt(block);
+        LightSpaceBox box = inLightSpace(mWorldFromLight, center, half);
+        const double margin = 1e-12 * glm::dot(glm::abs(center) + double3(half), double3(1));
+        return { box.min - margin, box.max + margin };
+    }
+
+    scene::RestingBlocks const& mBlocks;
+    double3x3 mWorldFromLight;
+};
 
 } // namespace
 
@@ -81,14 +124,35 @@ void addFog(ShadowReceivers& receivers, ViewSpace const& space, float meters) {
 LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
                                 double3x3 const& worldFromLight, Layers visibleLayers) {
     constexpr int kNothing = scene::kNeverDrawn | scene::kCollapsed;
-    return reduceRanges<LightSpaceBox>(
-            jobs, arena, renderables.count(),
-            [&](LightSpaceBox& part, size_t i) {
-                if ((renderables.flags[i] & kNothing) != 0 || (renderables.layers[i] & visibleLayers) == 0) return;
-                part.add(inLightSpace(worldFromLight, renderables.bounds.centerAt(i),
-                                      renderables.bounds.halfExtentAt(i)));
+    const auto add = [&](LightSpaceBox& part, size_t i) {
+        if ((renderables.flags[i] & kNothing) != 0 || (renderables.layers[i] & visibleLayers) == 0) return;
+        part.add(inLightSpace(worldFromLight, renderables.bounds.centerAt(i), renderables.bounds.halfExtentAt(i)));
+    };
+    const auto join = [](LightSpaceBox& whole, LightSpaceBox const& part) { whole.add(part); };
+    scene::RestingBlocks const& blocks = renderables.blocks;
+    if (!blocks.holdMost()) return reduceRanges<LightSpaceBox>(jobs, arena, renderables.count(), add, join);
+
+    const auto addMembers = [&](LightSpaceBox& part, uint32_t block) {
+        for (const uint32_t i : blocks.members(block)) add(part, i);
+    };
+    LightSpaceBox known = reduceRanges<LightSpaceBox>(
+            jobs, arena, blocks.words().size(),
+            [&](LightSpaceBox& part, size_t word) {
+                for (uint64_t left = blocks.words()[word].unsettled; left != 0; left &= left - 1)
+                    add(part, word * 64 + static_cast<size_t>(std::countr_zero(left)));
             },
-            [](LightSpaceBox& whole, LightSpaceBox const& part) { whole.add(part); });
+            join);
+    const BlockExtents extents(blocks, worldFromLight);
+    for (const uint32_t block : extents.farthest()) addMembers(known, block);
+    const LightSpaceBox others = reduceRanges<LightSpaceBox>(
+            jobs, arena, blocks.limit(),
+            [&](LightSpaceBox& part, size_t block) {
+                if (extents.reachesBeyond(known, static_cast<uint32_t>(block)))
+                    addMembers(part, static_cast<uint32_t>(block));
+            },
+            join);
+    known.add(others);
+    return known;
 }
 
 } // namespace filament_core::prepare
