@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/DrawRecorder.h"
 
+#include "filament_core/prepare/PrefetchDraws.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/Package.h"
 
@@ -114,6 +115,7 @@ bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, u
             std::span<const DrawCall> draws, DrawVariants const& variants) {
     bool hasAll = true;
     for (size_t i = 0; i < draws.size(); ++i) {
+        prepare::prefetchDraw(draws, i);
         DrawCall const& draw = draws[i];
         chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
                             ? chosen[i - 1]
@@ -156,6 +158,7 @@ void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<
                  std::span<const PipelineHandle> pipelines) {
     StateFilter state(commands, context);
     for (size_t i = 0; i < draws.size(); ++i) {
+        prepare::prefetchDraw(draws, i);
         // A material without the variant, which takeErrors() reports.
         if (!pipelines[i]) continue;
         DrawCall const& draw = draws[i];

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/LightChannels.h"
 
 #include "filament_core/prepare/Froxels.h"
+#include "filament_core/prepare/PrefetchDraws.h"
 #include "filament_core/prepare/ViewConstants.h"
 
 #include <algorithm>
@@ -20,8 +21,9 @@ bool meetsLight(DrawCall const& draw) { return isLit(draw) || draw.material->mat
 template <class F>
 void forEachLit(ViewPacket const& view, F&& function) {
     for (std::span<const DrawCall> draws : { view.opaque, view.blended }) {
-        for (DrawCall const& draw : draws) {
-            if (meetsLight(draw)) function(draw);
+        for (size_t i = 0; i < draws.size(); ++i) {
+            prefetchDraw(draws, i);
+            if (meetsLight(draws[i])) function(draws[i]);
         }
     }
 }

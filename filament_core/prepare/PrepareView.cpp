@@ -5,6 +5,7 @@
 #include "filament_core/prepare/Froxels.h"
 #include "filament_core/prepare/LightChannels.h"
 #include "filament_core/prepare/PlaceProfiles.h"
+#include "filament_core/prepare/PrefetchDraws.h"
 #include "filament_core/prepare/SceneColorLayers.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
@@ -24,36 +25,33 @@ scene::Lights const& lightsFor(ViewKind kind, scene::SceneData const& scene) {
     return isShaded(kind) ? scene.lights : kNone;
 }
 
-uint32_t countLit(std::span<const DrawCall> draws) {
-    return static_cast<uint32_t>(
-            std::ranges::count_if(draws, [](DrawCall const& draw) { return draw.material->material->isLit(); }));
-}
+/// Of one list.
+struct DrawTally {
+    uint32_t lit = 0, refractive = 0, reflective = 0, stencil = 0;
+};
 
-uint32_t countRefractive(std::span<const DrawCall> draws) {
-    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
-        return draw.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
-    }));
-}
-
-uint32_t countReflective(std::span<const DrawCall> draws) {
-    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
-        return draw.material->material->package.reflections == shader::Reflections::ScreenSpace;
-    }));
-}
-
-uint32_t countStencil(std::span<const DrawCall> draws) {
-    return static_cast<uint32_t>(std::ranges::count_if(
-            draws, [](DrawCall const& draw) { return draw.material->raster.stencil.has_value(); }));
+DrawTally tallyOf(std::span<const DrawCall> draws) {
+    DrawTally tally;
+    for (size_t i = 0; i < draws.size(); ++i) {
+        prefetchDraw(draws, i);
+        scene::Material const& material = *draws[i].material->material;
+        tally.lit += material.isLit();
+        tally.refractive += material.package.refractionMode == shader::RefractionMode::ScreenSpace;
+        tally.reflective += material.package.reflections == shader::Reflections::ScreenSpace;
+        tally.stencil += draws[i].material->raster.stencil.has_value();
+    }
+    return tally;
 }
 
 void countDraws(DrawLists const& draws, ViewCounts& counts) {
-    counts.litDraws = countLit(draws.opaque) + countLit(draws.blended);
+    const DrawTally opaque = tallyOf(draws.opaque), blended = tallyOf(draws.blended);
+    counts.litDraws = opaque.lit + blended.lit;
     counts.blendedDraws = static_cast<uint32_t>(draws.blended.size());
     counts.opaqueDraws = static_cast<uint32_t>(draws.opaque.size());
-    counts.opaqueLitDraws = countLit(draws.opaque);
-    counts.refractiveDraws = countRefractive(draws.opaque) + countRefractive(draws.blended);
-    counts.reflectiveDraws = countReflective(draws.opaque) + countReflective(draws.blended);
-    counts.stencilDraws = countStencil(draws.opaque) + countStencil(draws.blended);
+    counts.opaqueLitDraws = opaque.lit;
+    counts.refractiveDraws = opaque.refractive + blended.refractive;
+    counts.reflectiveDraws = opaque.reflective + blended.reflective;
+    counts.stencilDraws = opaque.stencil + blended.stencil;
 }
 
 /// Light that meets no lit surface is in no shader.
