@@ -7,6 +7,7 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <link.h>
+#include <malloc.h>
 #include <pthread.h>
 
 #include <array>
@@ -27,7 +28,7 @@ constexpr int kFrames = 48;
 std::atomic<bool> gArmed{ false };
 std::atomic<int64_t> gUntilFailure{ 0 };
 std::atomic<bool> gHasStruck{ false };
-std::atomic<int64_t> gLive{ 0 };
+std::atomic<int64_t> gLive{ 0 }, gBytes{ 0 };
 std::atomic<Whose> gWhose{ Whose::App };
 std::atomic<Lasting> gLasting{ Lasting::Once };
 std::atomic<Callers> gCallers{ Callers::All };
@@ -94,11 +95,15 @@ bool failsNow(const void* caller) {
 void* counted(void* memory) {
     if (!memory) throw std::bad_alloc();
     gLive.fetch_add(1, std::memory_order_relaxed);
+    gBytes.fetch_add(static_cast<int64_t>(malloc_usable_size(memory)), std::memory_order_relaxed);
     return memory;
 }
 
 void release(void* memory) {
-    if (memory) gLive.fetch_sub(1, std::memory_order_relaxed);
+    if (memory) {
+        gLive.fetch_sub(1, std::memory_order_relaxed);
+        gBytes.fetch_sub(static_cast<int64_t>(malloc_usable_size(memory)), std::memory_order_relaxed);
+    }
     std::free(memory);
 }
 
@@ -167,6 +172,7 @@ std::string AllocationFailure::lastSite() {
 }
 
 int64_t liveBlocks() { return gLive.load(std::memory_order_relaxed); }
+int64_t liveBytes() { return gBytes.load(std::memory_order_relaxed); }
 
 } // namespace filament_core::test
 

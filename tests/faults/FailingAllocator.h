@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FailingAllocator: the test program's operator new, which can be made to fail.
 ///   In      an AllocationFailure, for its lifetime: whose allocation fails, and which one.
-///   Out     whether it occurred and in which function; the number of live blocks.
+///   Out     whether it occurred and in which function; the number of live blocks and their bytes.
 ///   Thread  one AllocationFailure at a time. "The app thread" is the one that makes it.
 ///   Limits  direct calls of malloc() (C libraries, drivers) do not fail.
 ///   Cost    an atomic load and two counters per allocation.
@@ -43,7 +43,8 @@ public:
     static std::string lastSite();
 };
 
-/// Blocks from operator new that have not been deleted, over all threads.
+/// Blocks from operator new that have not been deleted, over all threads, and what the heap gave for them.
 int64_t liveBlocks();
+int64_t liveBytes();
 
 } // namespace filament_core::test
