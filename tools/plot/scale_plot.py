@@ -23,10 +23,10 @@ def points_of(series, path, name):
 
 
 def draw_slope(axes, lines):
-    """Linear growth from the least of the last points, so that what grows faster leaves it."""
+    """Linear growth up to the least of the last points, over the last thirtieth of its counts."""
     counts, values = min(lines, key=lambda line: line[1][-1])
-    axes.plot(counts, [values[-1] * count / counts[-1] for count in counts], color=GREY, linewidth=0.8, linestyle=":",
-              label="linear")
+    ends = [max(counts[0], counts[-1] / 30), counts[-1]]
+    axes.plot(ends, [values[-1] * count / counts[-1] for count in ends], color=GREY, linewidth=1, linestyle=":", label="linear")
 
 
 def draw(path, title):
@@ -57,7 +57,7 @@ def draw(path, title):
             axes.set_yscale("log")
             axes.grid(which="major")
         times.set_title(counted)
-        times.legend(loc="upper left", fontsize=6.5)
+        times.legend(fontsize=6.5)
         sizes.set_xlabel(counted)
     grid[0][0].set_ylabel("milliseconds of a frame: minimum to median")
     grid[1][0].set_ylabel("megabytes of scene and frames")
