@@ -102,6 +102,7 @@ inline vec4 textureLod(samplerCube, vec3, double) { return vec4(1.0); }
 inline vec4 texture(samplerCube, vec3) { return vec4(1.0); }
 inline vec4 textureLod(sampler2D const& map, vec2 uv, double) { return map.texel ? map.texel(uv) : vec4(1.0); }
 inline vec4 texture(sampler2D const& map, vec2 uv) { return textureLod(map, uv, 0.0); }
+inline vec2 unpackHalf2x16(uint32_t) { return vec2(0.0); } // no fog is lit here
 inline vec4 texelFetch(sampler2D const&, ivec2, int) { return vec4(1.0); }
 
 inline vec4 gl_FragCoord{ 0.5f, 0.5f, 0.5f, 1.0f };
