@@ -97,7 +97,7 @@ enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, D
 class ResultSink {
 public:
     virtual ~ResultSink() = default;
-    virtual void onReadback(Ticket ticket, std::span<const std::byte> bytes) = 0;
+    virtual void onReadback(Ticket ticket, std::span<const std::byte> bytes) = 0; ///< no bytes: reported as an error
     virtual void onTimer(Ticket ticket, uint64_t nanoseconds) = 0;
     /// One line: what failed, on which object (debug name), and how to fix it.
     virtual void onError(DriverErrorKind kind, std::string_view message) = 0;

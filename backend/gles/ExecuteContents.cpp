@@ -49,7 +49,9 @@ void Executor::copy(Image const& source, Image const& target, Filter filter) {
 }
 
 void Executor::execute(CmdReadBuffer const& command) {
-    if (Buffer const* buffer = mBuffers.find(command.buffer)) mReadbacks.read(command, *buffer);
+    Buffer const* buffer = mBuffers.find(command.buffer);
+    if (!buffer) return mReadbacks.refuse(command.ticket);
+    mReadbacks.read(command, *buffer);
 }
 
 void Executor::execute(CmdBlit const& command) {

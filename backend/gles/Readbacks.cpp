@@ -35,7 +35,7 @@ std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) 
     if (!formatInfo(desc.format).isRenderable || desc.samples > 1) {
         mDevice.error(DriverErrorKind::Other,
                       "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
-                      "its ticket gets no answer",
+                      "its answer is empty",
                       formatInfo(desc.format).name, desc.samples);
         return {};
     }
@@ -68,7 +68,7 @@ Readbacks::Plan Readbacks::planFor(Format format) const {
 
 void Readbacks::read(CmdReadTexture const& command) {
     const std::optional<Source> source = open(command);
-    if (!source) return;
+    if (!source) return refuse(command.ticket);
     Api const& gl = mDevice.gl;
     mDevice.state.bindFramebuffers(source->framebuffer, source->framebuffer);
     const uint64_t texels = static_cast<uint64_t>(source->rect.width) * source->rect.height;
@@ -84,7 +84,7 @@ void Readbacks::read(CmdReadTexture const& command) {
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     if (!mDevice.created("read-back of format", formatInfo(source->format).name)) {
         gl.DeleteBuffers(1, &pending.buffer);
-        return;
+        return refuse(command.ticket);
     }
     pending.fence = Fence(mDevice);
     mPending.push_back(std::move(pending));
@@ -102,13 +102,14 @@ void Readbacks::read(CmdReadBuffer const& command, Buffer const& buffer) {
     gl.CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(command.offset), 0, size);
     if (!mDevice.created("read-back of", "a buffer")) {
         gl.DeleteBuffers(1, &pending.buffer);
-        return;
+        return refuse(command.ticket);
     }
     pending.fence = Fence(mDevice);
     mPending.push_back(std::move(pending));
 }
 
 void Readbacks::deliver(Pending const& pending) {
+    if (pending.buffer == 0) return mDevice.sink.onReadback(pending.ticket, {});
     Api const& gl = mDevice.gl;
     const size_t bytes = pending.texels * pending.plan.texelBytes;
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
@@ -128,6 +129,7 @@ void Readbacks::deliver(Pending const& pending) {
     } else {
         mDevice.checkLost();
         mDevice.created("read-back", "mapping its buffer");
+        if (!mDevice.lost) mDevice.sink.onReadback(pending.ticket, {});
     }
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl.DeleteBuffers(1, &pending.buffer);

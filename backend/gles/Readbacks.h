@@ -3,7 +3,7 @@
 ///   Out     tightly packed rows, row 0 first, in the texture's own format; depth formats as 32-bit floats.
 ///   Thread  the driver thread.
 ///   Memory  one pixel buffer per unanswered ticket.
-///   Fails   a texture that cannot be read is reported; its ticket gets no result.
+///   Fails   what cannot be read is reported, and the answer to its ticket is empty.
 #pragma once
 
 #include "backend/gles/Buffer.h"
@@ -25,6 +25,8 @@ public:
     void read(CmdReadTexture const& command);
     /// Copies at once: the buffer may change or go afterwards.
     void read(CmdReadBuffer const& command, Buffer const& buffer);
+    /// Answers the ticket with nothing, in its turn.
+    void refuse(Ticket ticket) { mPending.push_back({ .ticket = ticket }); }
     /// How many results are ready, the oldest first; `wait`: all of them.
     size_t countReady(bool wait) const;
     /// Delivers the oldest results, which must be ready.
@@ -39,11 +41,11 @@ private:
         bool isUnorm16 = false;         ///< floats that stand for multiples of 1 / 65535
     };
     struct Pending {
-        Ticket ticket;
-        Plan plan;
+        Ticket ticket{};
+        Plan plan{};
         uint64_t texels = 0;
-        GLuint buffer = 0;
-        Fence fence;
+        GLuint buffer = 0; ///< 0: there is nothing to deliver
+        Fence fence{};
     };
     struct Source {
         GLuint framebuffer = 0;

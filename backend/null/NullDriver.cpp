@@ -118,13 +118,13 @@ public:
 
     void execute(CmdReadBuffer const& command) {
         ++mCount.commands;
-        if (mBuffers.contains(command.buffer)) mReadbacks.push_back({ command.ticket, command.size });
+        mReadbacks.push_back({ command.ticket, mBuffers.contains(command.buffer) ? command.size : 0 });
     }
     void execute(CmdReadTexture const& command) {
         ++mCount.commands;
         const auto it = mTextures.find(command.texture);
-        if (it == mTextures.end()) return;
-        mReadbacks.push_back({ command.ticket, readbackBytes(it->second.format, command.rect) });
+        const bool isKnown = it != mTextures.end();
+        mReadbacks.push_back({ command.ticket, isKnown ? readbackBytes(it->second.format, command.rect) : 0 });
     }
     void execute(CmdEndTimer const& command) {
         ++mCount.commands;

@@ -186,10 +186,20 @@ TEST_F(GlesTest, ACompressedTextureSamplesItsBlocks) {
     EXPECT_EQ(read<Rgba>(image, { 0, 0, 2, 2 }), std::vector<Rgba>(4, Rgba{ 255, 0, 0, 255 }));
 }
 
-TEST_F(GlesTest, AFormatThatCannotBeReadIsReportedAndItsTicketStaysUnanswered) {
+TEST_F(GlesTest, AFormatThatCannotBeReadIsReportedAndItsAnswerIsEmpty) {
     const TextureHandle image = texture(copyable(Format::RGB9E5, 1, 1));
     EXPECT_TRUE(read<uint32_t>(image, { 0, 0, 1, 1 }).empty());
     expectError(DriverErrorKind::Other, "RGB9E5");
+}
+
+TEST_F(GlesTest, ReadbacksOfMissingObjectsAreAnsweredInTheirTurn) {
+    commands.record(CmdReadBuffer{ .buffer = BufferHandle::make(900, 1), .size = 16, .ticket = { 71 } });
+    commands.record(CmdReadTexture{ .texture = TextureHandle::make(900, 1), .rect = { 0, 0, 1, 1 }, .ticket = { 72 } });
+    run();
+    driver->waitIdle();
+    ASSERT_EQ(sink.readbacks.size(), 2u);
+    EXPECT_TRUE(sink.readbacks[71].empty());
+    EXPECT_TRUE(sink.readbacks[72].empty());
 }
 
 TEST_F(GlesTest, ADeviceWithoutBlockCompressionRefusesItByName) {

@@ -80,7 +80,8 @@ TEST_F(NullDriver, AnswersReadbacksWithZerosOfTheSizeOfTheRectangleAtTheEndOfAFr
     EXPECT_TRUE(mAnswers.readbacks.empty()) << "not before the frame ends";
     mCommands.record(CmdEndFrame{ 1 });
     execute();
-    ASSERT_EQ(mAnswers.readbacks.size(), 3u);
+    ASSERT_EQ(mAnswers.readbacks.size(), 4u);
+    EXPECT_TRUE(mAnswers.readbacks[4].empty()) << "there is no such texture";
     EXPECT_EQ(mAnswers.readbacks[1].size(), 3u * 5u * 8u);
     EXPECT_EQ(mAnswers.readbacks[2].size(), 2u * 2u * 4u) << "depth reads back as D32F";
     EXPECT_EQ(mAnswers.readbacks[3].size(), 2u * 2u * 8u) << "4 blocks";

@@ -277,9 +277,9 @@ TEST(BuiltInMaterials, AreKnownByNameAndSuggestTheNearest) {
         EXPECT_EQ(owner.describe(*created).name, material.name);
         owner.destroy(*created);
     }
-    EXPECT_EQ(names.size(), 7u);
-    const std::string all =
-            "; there are lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors, wireframe";
+    EXPECT_EQ(names.size(), 8u);
+    const std::string all = "; there are lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors, "
+                            "shadowCatcher, wireframe";
     const auto message = [&](std::string_view name) { return createBuiltInMaterial(owner, name).error().message; };
     EXPECT_EQ(message("wirefame"), "no built-in material 'wirefame'; did you mean 'wireframe'?" + all);
     EXPECT_EQ(message("litTexture"), "no built-in material 'litTexture'; did you mean 'litTextured'?" + all);
