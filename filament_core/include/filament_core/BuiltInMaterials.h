@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Materials that are part of the library, for programs without .mat files. docs/built-in-materials.md shows them.
-///   Names      lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors, shadowCatcher,
-///              wireframe.
+///   Names      lit, unlit, litTextured, unlitTextured, litVertexColors, vertexColors, shadowCatcher, wireframe.
 ///   Parameters linear colours without alpha; an instance starts with the values in brackets.
 ///                baseColor           float3  [1 1 1]  all; times the texture or the colour of the vertex
 ///                baseColorMap        sampler2d        *Textured: sRGB, in a texture of RGBA8Srgb; its alpha is not
@@ -15,8 +14,9 @@
 ///                lineWidth           float   [1]      wireframe: pixels, [0, 1024]
 ///                depthBias           float   [4]      wireframe: lines hide their surface up to this slope: 4 is 76
 ///                                    degrees
-///              Without a map its texel is white. All are opaque but shadowCatcher, with their back culled except for wireframe; what any
-///              instance can change (Engine::setCulling(), setDoubleSided(), setStencil(), ...) these can, too.
+///              Without a map its texel is white. All are opaque but shadowCatcher, with their back culled except
+///              for wireframe; what any instance can change (Engine::setCulling(), setDoubleSided(), setStencil(), ...)
+///              these can, too.
 ///   Vertices   position; lit*: tangents; *Textured: uv0, (0, 0) is the lower left corner of the image; *ertexColors:
 ///              color; wireframe: what makeWireframe() and makeLineQuads() return. A Mesh has all but the last.
 ///   Unlit      baseColor is what the target shows: neither lights nor the camera's exposure count.
