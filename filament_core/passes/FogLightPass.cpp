@@ -27,12 +27,13 @@ FogGrid gridOf(FrameContext const& context) {
     return { static_cast<uint32_t>(grid.x), static_cast<uint32_t>(grid.y), static_cast<uint32_t>(grid.z) };
 }
 
-/// What the stage is specialised with: the quality of lights and shadows, and whether there are shadows.
+/// What the stage is specialised with: lights, shadows, and nothing else, which would make another pipeline of it.
 auto constantsOf(FrameContext const& context) {
     constexpr size_t kQuality = shader::kQualityConstants.size(), kVariants = shader::kVariantConstants.size();
     std::array<ConstantValue, kQuality + kVariants> constants{};
-    std::ranges::copy(shadingConstants(context.shading), constants.begin());
-    const auto variants = shader::variantConstants(context.packet.mainView().variant);
+    std::ranges::copy(shadingConstants(ofLights(context.shading)), constants.begin());
+    const auto variants =
+            shader::variantConstants(context.packet.mainView().variant & uint16_t{ shader::kVariantShadowReceiver });
     std::ranges::copy(variants, constants.begin() + kQuality);
     return constants;
 }

@@ -88,6 +88,11 @@ ShadingKey withoutReflections(ShadingKey key) { return key & ~maskOf(shader::kQu
 
 ShadingKey ofUnlit(ShadingKey key) { return key & (maskOf(shader::kQualityFog) | maskOf(shader::kQualityMipBias)); }
 
+ShadingKey ofLights(ShadingKey key) {
+    return key & (maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles) |
+                  maskOf(shader::kQualityColoredShadows) | maskOf(shader::kQualityShadowFilter));
+}
+
 ShadingKey withoutMipBias(ShadingKey key) { return key & ~maskOf(shader::kQualityMipBias); }
 
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term) {

@@ -56,6 +56,8 @@ ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);
 ShadingKey withoutMipBias(ShadingKey key);
 /// The choices of materials that are not lit.
 ShadingKey ofUnlit(ShadingKey key);
+/// The choices of light that reaches any point, lit surface or not.
+ShadingKey ofLights(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.
 ShadingKey withoutLightList(ShadingKey key);
 /// Without the choices that only shadows have.
