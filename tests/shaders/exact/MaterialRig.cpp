@@ -227,6 +227,8 @@ BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage 
                              .raster = { 1, 0, 0, 0 },
                              .picture = { 0, 0, kPictureSide, kPictureSide } };
     const BufferHandle passBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1)));
+    const std::vector<std::byte> noFog(kFogCellBytes);
+    const BufferHandle fogCells = buffer(commands, BufferUsage::Storage, noFog);
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingPass, .buffer = passBuffer, .size = sizeof(PassUniforms) },
         { .binding = kBindingShadowMaps, .texture = mDfg, .sampler = mSampler },            // read by no
@@ -237,7 +239,8 @@ BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage 
         { .binding = kBindingOcclusion, .texture = mDfg, .sampler = mSampler },  // read by no program:
         { .binding = kBindingSceneDepth, .texture = mDfg, .sampler = mSampler }, // its constants are 0
         { .binding = kBindingFog, .texture = mWhiteCube, .sampler = mSampler },
-        { .binding = kBindingPicture, .texture = mDfg, .sampler = mSampler }
+        { .binding = kBindingPicture, .texture = mDfg, .sampler = mSampler },
+        { .binding = kBindingFogCells, .buffer = fogCells, .size = kFogCellBytes }
     };
     const BindGroupLayout layout = passGroupLayout(passKind(package));
     const BindGroupHandle group = mStream->allocateBindGroup();
