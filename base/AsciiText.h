@@ -21,4 +21,12 @@ inline std::string_view withoutBlanks(std::string_view text, std::string_view bl
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// What is shown of a word of unknown origin: its first characters, without line breaks and control sequences of
+/// terminals.
+inline std::string printable(std::string_view text, size_t most = 32) {
+    std::string shown(text.substr(0, most));
+    for (char& c : shown) c = static_cast<unsigned char>(c) >= ' ' && c != 0x7F ? c : '?';
+    return shown;
+}
+
 } // namespace filament_core

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/json/JsonReader.h"
 
+#include "base/AsciiText.h"
 #include "base/Suggest.h"
 
 #include <nlohmann/json.hpp>
@@ -75,7 +76,7 @@ void JsonReader::read(const char* key, std::vector<std::pair<std::string, std::s
     if (!found) return;
     if (!found->is_object()) return complain(key, "expected an object of texts");
     for (auto const& [name, value] : found->items()) {
-        if (!value.is_string()) return complain(key, fmt::format("'{}': expected a text", name));
+        if (!value.is_string()) return complain(key, fmt::format("'{}': expected a text", printable(name)));
         values.emplace_back(name, value.get<std::string>());
     }
 }
@@ -109,7 +110,8 @@ Result<void> JsonReader::finish() {
     if (mError) return *mError;
     for (auto const& [key, value] : mObject.items()) {
         if (std::find(mKnown.begin(), mKnown.end(), key) != mKnown.end()) continue;
-        return fail(ErrorCode::InvalidArgument, "{}: '{}' is not a field here{}", mWhere, key, suggestion(key, mKnown));
+        return fail(ErrorCode::InvalidArgument, "{}: '{}' is not a field here{}", mWhere, printable(key),
+                    suggestion(key, mKnown));
     }
     return {};
 }

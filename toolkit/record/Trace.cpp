@@ -3,6 +3,7 @@
 
 #include "backend/api/Format.h"
 #include "backend/layers/Trace.h"
+#include "base/AsciiText.h"
 #include "base/Hash.h"
 #include "filament_core/assets/files/FileBytes.h"
 
@@ -16,14 +17,7 @@ namespace {
 
 using namespace backend;
 
-// What is printed of a trace of unknown origin: no line breaks, no control sequences of terminals.
-std::string printable(std::string_view name) {
-    constexpr size_t kMost = 200;
-    std::string text(name.substr(0, kMost));
-    std::ranges::replace_if(
-            text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
+constexpr size_t kMostOfName = 200; // characters that are shown
 
 /// Follows names from the commands that create objects to those that use them.
 class Lister {
@@ -46,11 +40,13 @@ private:
     void note(C const&) {}
     void note(CmdCreateTexture const& command) {
         mTextures[command.handle] =
-                fmt::format("{} {} {}x{}", printable(command.desc.debugName), formatInfo(command.desc.format).name,
-                            command.desc.width, command.desc.height);
+                fmt::format("{} {} {}x{}", printable(command.desc.debugName, kMostOfName),
+                            formatInfo(command.desc.format).name, command.desc.width, command.desc.height);
     }
     void note(CmdDestroyTexture const& command) { mTextures.erase(command.handle); }
-    void note(CmdCreatePipeline const& command) { mPipelines[command.handle] = printable(command.desc.debugName); }
+    void note(CmdCreatePipeline const& command) {
+        mPipelines[command.handle] = printable(command.desc.debugName, kMostOfName);
+    }
     void note(CmdDestroyPipeline const& command) { mPipelines.erase(command.handle); }
     void note(CmdBeginFrame const& command) {
         frames.push_back({ .number = command.frame, .stream = mStream });
@@ -62,7 +58,7 @@ private:
         if (!mIsInFrame) return;
         ListedFrame& frame = frames.back();
         ListedPass& pass = frame.passes.emplace_back();
-        pass.name = printable(command.desc.debugName);
+        pass.name = printable(command.desc.debugName, kMostOfName);
         pass.firstDraw = static_cast<uint32_t>(frame.draws.size());
         const size_t colors = std::min<size_t>(command.desc.layout.colorCount, command.desc.colors.size());
         for (size_t i = 0; i < colors; ++i) attach(pass, command.desc.colors[i].texture);

@@ -23,12 +23,6 @@ constexpr uint32_t kMaxCurve = 65536, kMaxCube = 128;
 constexpr float kMaxValue = 1e10f;
 constexpr std::string_view kBlank = " \t\r";
 
-std::string printable(std::string_view text) {
-    std::string shown(text.substr(0, 32));
-    for (char& c : shown) c = c >= ' ' && c < 127 ? c : '?';
-    return shown;
-}
-
 std::optional<float> finiteNumber(std::string_view word) {
     if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     return numberOf(word, -kMaxValue, kMaxValue);

@@ -80,12 +80,6 @@ public:
         return values;
     }
 
-    static std::string printable(std::string_view text) {
-        std::string shown(text.substr(0, 24));
-        for (char& c : shown) c = c >= ' ' && c < 127 ? c : '?';
-        return shown;
-    }
-
 private:
     std::string_view nextWord() {
         for (;;) {
@@ -155,7 +149,7 @@ double readTilt(IesText& text, std::string const& tilt) {
     if (word.empty()) text.refuse(ErrorCode::Corrupt, "TILT= names nothing; expected TILT=NONE or TILT=INCLUDE");
     if (word != "include") {
         text.refuse(ErrorCode::Unsupported, "TILT={} names another file; put its data into this one with TILT=INCLUDE",
-                    IesText::printable(tilt));
+                    printable(tilt));
         return 1;
     }
     text.number("the lamp's geometry", 1, 3);
