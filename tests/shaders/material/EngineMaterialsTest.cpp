@@ -52,7 +52,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         const size_t precisions = name.starts_with("gltf_lit_") ? 2 : 1;
         const size_t lit = 7 * precisions; // sun, punctual lights, shadows of either
         const bool merges = std::ranges::any_of(package.parameters, &Parameter::currentPixel);
-        const size_t unlit = merges ? 2 : 1; // merged into the pass before it, or not
+        const size_t unlit = merges || package.shadowMultiplier ? 2 : 1; // merged into the pass before it, or not;
+                                                                         // shadowed, or not
         const size_t color = package.shading == ShadingModel::Unlit ? unlit : lit;
         const bool isSurface = package.domain == MaterialDomain::Surface;
         const bool isDeformable = isSurface && package.vertexDomain == VertexDomain::Object;
