@@ -176,7 +176,7 @@ Image withMipMaps(DeepImage const& base, bool isColor, uint32_t maxSize) {
                 level.texels.size(), [&](size_t at) { return shareOfDeepCode(level.texels[at]); },
                 &image.data[image.levelOffset(i)]);
     }
-    // Last, because the levels that stay are means of those that are dropped.
+    // Last: the remaining levels are averages of the larger ones that are removed here.
     dropLargeLevels(image, maxSize);
     return image;
 }
