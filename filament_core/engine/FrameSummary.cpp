@@ -14,6 +14,7 @@ namespace {
 void add(FrameSummary::Totals& totals, prepare::ViewPacket const& view) {
     ++totals.views;
     totals.visible += view.counts.visible;
+    totals.occluded += view.counts.occluded;
     totals.draws += static_cast<uint32_t>(view.opaque.size() + view.blended.size());
     totals.triangles += view.counts.triangles;
 }
@@ -133,6 +134,7 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
         text += fmt::format("{} {} view{} besides: {} renderables drawn, {} triangles in {} draws\n", others.views,
                             kKindNames[kind], others.views > 1 ? "s" : "", others.visible, others.triangles,
                             others.draws);
+        if (others.occluded) text += fmt::format("  {} not drawn: they are behind others\n", others.occluded);
     }
     text += table(decisions(summary, plan, times));
     if (plan.graph) text += framegraph::toText(plan);

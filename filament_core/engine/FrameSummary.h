@@ -19,7 +19,7 @@ namespace filament_core::engine {
 struct FrameSummary {
     /// Views of one kind together.
     struct Totals {
-        uint32_t views = 0, visible = 0, draws = 0;
+        uint32_t views = 0, visible = 0, occluded = 0, draws = 0;
         uint64_t triangles = 0;
     };
 

@@ -126,6 +126,7 @@ FrameSettings resolve(ViewInput const& main) {
     const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;
     // Occluders are tested at the centres of pixels: with more samples a pixel they may leave some of them open.
     settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 && isPrecise;
+    settings.cullsCasters = main.occlusionCulling && main.quality.cameraRelative;
     return settings;
 }
 

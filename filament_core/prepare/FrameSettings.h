@@ -26,6 +26,7 @@ struct FrameSettings {
     bool upscalesOverFrames = false; ///< and accumulation, not a filter, makes it as large as it is shown
     bool composesAnyOrder = false;   ///< transparent objects, if they may overlap
     bool cullsOccluded = false;      ///< hides opaque objects behind others; debug views show what it leaves out
+    bool cullsCasters = false;       ///< hides casters behind others from the lights of shadow maps
     bool lightsFog = false;          ///< lamps and shadows of the sun light the fog, if there are any
     bool tracksMotion = false;       ///< an effect of the image looks at the last one, so that it matters what moved
     float mipBias = 0;               ///< of materials' textures, in levels, at most 0

@@ -18,6 +18,10 @@ struct SizedItem {
     uint32_t item = 0;
 };
 
+bool drawsNoFaces(scene::InstanceRaster const& raster) {
+    return !raster.cullingDisabled && raster.culling == shader::Culling::FrontAndBack;
+}
+
 DrawnFaces facesOf(scene::InstanceRaster const& raster) {
     if (raster.cullingDisabled || raster.culling == shader::Culling::None) return DrawnFaces::All;
     return raster.culling == shader::Culling::Back ? DrawnFaces::Front : DrawnFaces::Back;
@@ -26,14 +30,15 @@ DrawnFaces facesOf(scene::InstanceRaster const& raster) {
 class OcclusionCulling {
 public:
     OcclusionCulling(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables, ViewSpace const& space,
-                     uint2 size)
-            : mJobs(jobs), mArena(arena), mRenderables(renderables), mSpace(space), mSize(size) {}
+                     ViewInput const& view)
+            : mJobs(jobs), mArena(arena), mRenderables(renderables), mSpace(space), mSize(view.size),
+              mIsShadowMap(view.kind == ViewKind::Shadow) {}
 
     /// The items that are not hidden, in their order.
     std::span<const SortItem> visible(std::span<const SortItem> items) const {
         const std::span<const PlacedOccluder> occluders = choose(items);
         if (occluders.empty()) return items;
-        const OcclusionBuffer buffer(mJobs, mArena, mSize, occluders);
+        const OcclusionBuffer buffer(mJobs, mArena, mSize, occluders, errorOfDepths());
         const auto hidden = mArena.arrayForOverwrite<bool>(items.size());
         jobs::parallelFor<"hide">(mJobs, items.size(), kItemsOfJob, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) hidden[i] = isHidden(buffer, items[i]);
@@ -51,8 +56,18 @@ private:
         return float3(mRenderables.bounds.centerAt(renderable) - mSpace.cameraWorld);
     }
 
+    DepthError errorOfDepths() const {
+        if (mSpace.clipFromView[3][3] != 0) return kParallelDepthError;
+        return mIsShadowMap ? kScaleFreeDepthError : kPerspectiveDepthError;
+    }
+
+    scene::InstanceRaster rasterOf(SortItem const& item) const {
+        scene::InstanceRaster const& raster = mRenderables.drawables[drawableOf(item.draw)].material->raster;
+        return mIsShadowMap ? scene::inShadowMaps(raster) : raster;
+    }
+
     float pixelsOf(SortItem const& item) const {
-        if (!mRenderables.drawables.use(drawableOf(item.draw)).occludes) return 0;
+        if (!mRenderables.drawables.use(drawableOf(item.draw)).occludes || drawsNoFaces(rasterOf(item))) return 0;
         const float3 center = centerOf(item.renderable);
         const float radius = glm::length(mRenderables.bounds.halfExtentAt(item.renderable));
         const float4 clip = mSpace.clipFromWorld * float4(center, 1);
@@ -65,10 +80,12 @@ private:
         jobs::parallelFor<"occluders">(mJobs, items.size(), kItemsOfJob, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sizes[i] = pixelsOf(items[i]);
         });
+        // Small shadow maps show small occluders, too.
+        const float smallest = std::min(kSmallestPixels, static_cast<float>(mSize.y) * kSmallestShare);
         const auto sized = mArena.arrayForOverwrite<SizedItem>(items.size());
         size_t count = 0;
         for (uint32_t i = 0; i < items.size(); ++i) {
-            if (sizes[i] >= kSmallestPixels) sized[count++] = { sizes[i], i };
+            if (sizes[i] >= smallest) sized[count++] = { sizes[i], i };
         }
         const size_t chosen = std::min(count, kMostOccluders);
         // Ties are broken by position: which occluders are chosen must not depend on the sorting of the C++ library.
@@ -92,7 +109,7 @@ private:
         world[3] = double4(placement.translation - mSpace.cameraWorld, 1);
         return { .mesh = drawable.geometry.occluder,
                  .clipFromObject = double4x4(mSpace.clipFromWorld) * world,
-                 .faces = facesOf(drawable.material->raster),
+                 .faces = facesOf(rasterOf(item)),
                  .mirrored = isMirrored(item.draw) };
     }
 
@@ -110,6 +127,7 @@ private:
     scene::Renderables const& mRenderables;
     ViewSpace const& mSpace;
     uint2 mSize;
+    bool mIsShadowMap;
 };
 
 uint64_t trianglesOf(std::span<const DrawCall> draws) {
@@ -125,7 +143,7 @@ void hideOccluded(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const&
     const std::span<const SortItem> all = packet.objects.order;
     const std::span<const SortItem> early = itemsBefore(all, kLateKey);
     if (early.size() < kObjectsWorthHiding || !renderables.drawables.hasOccluders()) return;
-    const std::span<const SortItem> kept = OcclusionCulling(jobs, arena, renderables, space, view.size).visible(early);
+    const std::span<const SortItem> kept = OcclusionCulling(jobs, arena, renderables, space, view).visible(early);
     const size_t hidden = early.size() - kept.size();
     if (hidden == 0) return;
 

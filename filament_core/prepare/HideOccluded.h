@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// hideOccluded: takes what lies behind large occluders out of the opaque draws of a view. The image keeps its bits: a
 /// box is left out only if every pixel that it could cover shows something nearer (OcclusionBuffer.h).
-///   In      the finished packet of a view of a camera with one sample a pixel.
+///   In      the finished packet of a view of a camera, or of a shadow map, with one sample a pixel.
 ///   Out     a packet with fewer opaque draws; transparent draws stay, and so does what other steps of the frame found.
 ///   Chosen  the occluders that look largest, at most kMostOccluders; without one of kSmallestPixels nothing is done,
 ///           and in scenes without any the objects are not even visited.
@@ -17,7 +17,8 @@
 namespace filament_core::prepare {
 
 inline constexpr size_t kMostOccluders = 256;
-inline constexpr float kSmallestPixels = 32; ///< across an occluder
+/// Across an occluder: so many pixels, or this share of the image, whichever is less.
+inline constexpr float kSmallestPixels = 32, kSmallestShare = 1.0f / 16;
 /// With fewer opaque objects drawing them all costs less than looking for hidden ones.
 inline constexpr size_t kObjectsWorthHiding = 64;
 

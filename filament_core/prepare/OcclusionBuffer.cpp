@@ -12,8 +12,8 @@ constexpr size_t kOccludersOfJob = 8;
 constexpr size_t kTileRowsOfJob = 2;
 // Devices draw what reaches farther than this by cutting it, which rounds its edges anew. Mesa's begins at 2^15 pixels.
 constexpr double kGuardBandPixels = 1 << 14;
-// Of a depth: the rounding of matrices, interpolation and 24-bit formats.
-constexpr float kDepthError = 2e-5f, kSmallestStep = 2e-7f;
+// Devices add depths up from such terms in floats.
+constexpr double kRounding = 4.0 / (1 << 24);
 
 /// A triangle on the screen.
 struct ScreenTriangle {
@@ -126,7 +126,9 @@ private:
         out.depthY = ((z[2] - z[0]) * abX - (z[1] - z[0]) * acX) / area;
         constexpr double kMargin = OcclusionBuffer::kMarginPixels;
         const double slope = (std::abs(out.depthX) + std::abs(out.depthY)) * kMargin;
-        out.depth = z[0] - out.depthX * out.x[0] - out.depthY * out.y[0] - slope;
+        out.depth = z[0] - out.depthX * out.x[0] - out.depthY * out.y[0];
+        const double terms = std::abs(out.depth) + std::abs(out.depthX) * mSize.x + std::abs(out.depthY) * mSize.y;
+        out.depth -= slope + terms * kRounding;
         if (area < 0) { // edge functions are positive inside
             std::swap(out.x[1], out.x[2]), std::swap(out.y[1], out.y[2]);
             std::swap(open[0], open[2]);
@@ -147,7 +149,7 @@ private:
 };
 
 /// Draws row `y`, whose `width` depths begin at `row`.
-void drawRow(ScreenTriangle const& triangle, int32_t y, uint32_t width, float* row) {
+void drawRow(ScreenTriangle const& triangle, int32_t y, uint32_t width, DepthError error, float* row) {
     const double middle = y + 0.5;
     double left = 0.5, right = width - 0.5; // centres
     for (uint32_t i = 0; i < 3; ++i) {
@@ -168,7 +170,7 @@ void drawRow(ScreenTriangle const& triangle, int32_t y, uint32_t width, float* r
     const auto depth = static_cast<float>(begin), step = static_cast<float>(triangle.depthX);
     for (int32_t i = 0; i <= last - first; ++i) {
         // A product for each pixel: the error of a running sum would grow along the row.
-        const float here = (depth + step * static_cast<float>(i)) * (1 - kDepthError) - kSmallestStep;
+        const float here = (depth + step * static_cast<float>(i)) * (1 - error.relative) - error.absolute;
         row[first + i] = std::max(row[first + i], here);
     }
 }
@@ -178,8 +180,8 @@ uint32_t tilesFor(uint32_t pixels) { return (pixels + OcclusionBuffer::kTile - 1
 } // namespace
 
 OcclusionBuffer::OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size,
-                                 std::span<const PlacedOccluder> occluders)
-        : mSize(size), mRow(tilesFor(size.x) * kTile), mTileCount{ tilesFor(size.x), tilesFor(size.y) },
+                                 std::span<const PlacedOccluder> occluders, DepthError error)
+        : mSize(size), mError(error), mRow(tilesFor(size.x) * kTile), mTileCount{ tilesFor(size.x), tilesFor(size.y) },
           mDepths(arena.arrayForOverwrite<float>(size_t{ mRow } * mTileCount.y * kTile)),
           mTiles(arena.arrayForOverwrite<float>(size_t{ mTileCount.x } * mTileCount.y)) {
     const auto firstCorners = arena.arrayForOverwrite<uint32_t>(occluders.size());
@@ -209,7 +211,7 @@ OcclusionBuffer::OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size
         for (size_t i = 0; i < occluders.size(); ++i) {
             for (ScreenTriangle const& triangle : screen.subspan(2 * size_t{ firstTriangles[i] }, counts[i])) {
                 for (int32_t y = std::max(top, triangle.top); y < std::min(bottom, triangle.end); ++y)
-                    drawRow(triangle, y, mSize.x, &mDepths[static_cast<size_t>(y) * mRow]);
+                    drawRow(triangle, y, mSize.x, mError, &mDepths[static_cast<size_t>(y) * mRow]);
             }
         }
         for (size_t row = begin; row < end; ++row) {
@@ -241,7 +243,7 @@ bool OcclusionBuffer::hides(float4x4 const& clipFromWorld, float3 center, float3
         least = glm::min(least, place), most = glm::max(most, place);
         nearest = std::max(nearest, at.z / at.w);
     }
-    nearest = nearest * (1 + kDepthError) + kSmallestStep;
+    nearest = nearest * (1 + mError.relative) + mError.absolute;
     const float2 size(mSize);
     const float2 from = (least * 0.5f + 0.5f) * size - 1.5f, to = (most * 0.5f + 0.5f) * size + 1.5f;
     if (!(from.x < size.x && from.y < size.y && to.x > 0 && to.y > 0)) return false;

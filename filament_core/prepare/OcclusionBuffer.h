@@ -23,6 +23,16 @@
 
 namespace filament_core::prepare {
 
+/// How far a device's depth may be from the exact one: by rounding matrices, interpolation and formats of 24 bits.
+struct DepthError {
+    float relative = 0, absolute = 0;
+};
+inline constexpr DepthError kPerspectiveDepthError{ 2e-5f, 2e-7f };
+/// Parallel depths are sums of terms of up to 1, whose rounding does not shrink with the sum.
+inline constexpr DepthError kParallelDepthError{ 2e-5f, 1e-5f };
+/// Of shadow maps of lamps, in floats: the near plane is so near that all depths are tiny.
+inline constexpr DepthError kScaleFreeDepthError{ 1e-3f, 0 };
+
 /// Which faces of an occluder are drawn, by the order of their corners on the screen.
 enum class DrawnFaces : uint8_t { All, Front, Back };
 
@@ -38,7 +48,8 @@ public:
     static constexpr float kMarginPixels = 1.0f / 64;
     static constexpr uint32_t kTile = 8; ///< pixels, in both directions
 
-    OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size, std::span<const PlacedOccluder> occluders);
+    OcclusionBuffer(jobs::JobSystem& jobs, Arena& arena, uint2 size, std::span<const PlacedOccluder> occluders,
+                    DepthError error = kPerspectiveDepthError);
 
     /// Whether all of a box, relative to the camera in world axes, lies behind occluders.
     bool hides(float4x4 const& clipFromWorld, float3 center, float3 halfExtent) const;
@@ -47,6 +58,7 @@ public:
 
 private:
     uint2 mSize;
+    DepthError mError;
     uint32_t mRow; ///< pixels of a row in memory: whole tiles
     uint2 mTileCount;
     std::span<float> mDepths; ///< reversed: 0 is infinitely far

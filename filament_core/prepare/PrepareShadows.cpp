@@ -4,6 +4,7 @@
 #include "base/Hash.h"
 #include "filament_core/prepare/HashView.h"
 #include "filament_core/prepare/HashWords.h"
+#include "filament_core/prepare/HideOccluded.h"
 #include "filament_core/prepare/PlaceShadowMaps.h"
 #include "filament_core/prepare/ShadowReceivers.h"
 
@@ -34,6 +35,7 @@ struct Caster {
 /// A map with something in it.
 struct Candidate {
     FittedShadow fitted;
+    ViewInput input;
     PreparedView prepared;
     uint32_t caster = 0; ///< of the casters
     uint32_t part = 0;   ///< cascade or face
@@ -150,6 +152,9 @@ private:
                          .quality = mView.quality,
                          .visibleLayers = mView.visibleLayers };
         input.quality.depthRange = DepthRange::Reversed;
+        // What is beyond the reach of a lamp darkens nothing that the lamp lights. But means of depths contain it.
+        if (momentsFor(mSettings.quality.shadows) == ShadowMoments::None && isPerspective(fitted))
+            input.farMeters = mScene.lights.records[caster.record].rangeMeters;
         // At most a texel, which the offsets of receivers cover; of an image of one pixel, as the view has.
         input.lodPixels = std::min(mView.lodPixels, 1.0f) / static_cast<float>(sizeOf(caster));
         PreparedView prepared =
@@ -159,7 +164,7 @@ private:
             ++mCounts.mapsWithoutCasters;
             return;
         }
-        mCandidates[mCount++] = { fitted, prepared, index, part, channelsOf(prepared.packet) };
+        mCandidates[mCount++] = { fitted, input, prepared, index, part, channelsOf(prepared.packet) };
     }
 
     /// Three if something in a map transmits light.
@@ -222,6 +227,8 @@ private:
             if (candidate.channels > 1) ++mCounts.coloredMaps;
             if (!out.packet.keepsAtlas || !isHeld(maps[count].held)) {
                 views[out.packet.drawn] = candidate.prepared;
+                if (mSettings.cullsCasters && candidate.channels == 1)
+                    hideCasters(candidate.input, placed.tiles[i], views[out.packet.drawn].packet);
                 maps[count].view = out.packet.drawn++;
             }
             mCounts.casters += view.counts.visible;
@@ -241,6 +248,12 @@ private:
         const auto size = static_cast<float>(out.packet.atlasSize);
         mUniforms->atlas = float4(1 / size, size, 0, 0);
         out.packet.uniforms = mUniforms;
+    }
+
+    /// After the hash, so that what is hidden neither changes which maps are kept nor is looked for in those.
+    void hideCasters(ViewInput input, ShadowTile tile, ViewPacket& map) {
+        input.size = uint2(tile.size);
+        hideOccluded(mJobs, mArena, mScene.renderables, makeViewSpace(input), input, map);
     }
 
     uint64_t hashOf(Candidate const& candidate, uint32_t size, shader::ShadowMapRecord const& map) const {

@@ -103,6 +103,8 @@ ViewSpace makeViewSpace(ViewInput const& view) {
         space.clipFromView = withJitter(space.clipFromView, view.jitterPixels, view.size);
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     space.frustum = frustumFromClip(space.clipFromWorld); // the planes do not depend on the stored depth
+    if (view.farMeters > 0) // in the place of the near plane: only boxes around the lamp are not outside of the others
+        space.frustum.planes[4] = float4(-space.forward, view.farMeters);
     if (view.quality.depthRange == DepthRange::Ordinary) {
         space.clipFromView = withOrdinaryDepth(space.clipFromView);
         space.clipFromWorld = space.clipFromView * space.viewFromWorld;

@@ -42,6 +42,9 @@ struct ViewInput {
     /// Takes the place of the camera's lens, as parallel light or a tile of an atlas needs it. The conventions of
     /// Camera::clipFromView(): row 0 of the image at y = -1, reversed depth.
     std::optional<float4x4> clipFromView{};
+    /// From the camera along its axis: whatever is farther is left out; 0: nothing is. For lamps, whose near plane
+    /// leaves nothing out.
+    float farMeters = 0;
     uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
     uint2 shownSize{ 0, 0 };  ///< of the image that is made of them; 0: the same
     uint32_t band = 0;        ///< of `size`, on each side, that the image does not show

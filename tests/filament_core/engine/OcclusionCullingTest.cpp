@@ -89,12 +89,48 @@ TEST_P(OcclusionCullingTest, LeavingHiddenObjectsOutChangesNoBit) {
     EXPECT_GT(hidden, 800) << "of 5100";
 }
 
+TEST_P(OcclusionCullingTest, LeavingHiddenCastersOutOfShadowMapsChangesNoBit) {
+    uint32_t drawn[2]{};
+    for (uint32_t seed = 1; seed <= 12; ++seed) {
+        Scene scene(engine);
+        fill(scene, seed);
+        Random random(seed);
+        // Beside and above the camera, and one that looks along the walls.
+        scene.add(PointLight{ .positionWorld = { random.within(-2, 2), 1, random.within(-4, -1) },
+                              .intensity = { 4e4f } });
+        scene.add(SpotLight{ .positionWorld = { -3, random.within(0, 4), -1 },
+                             .directionWorld = { 0.5f, -0.3f, -1 },
+                             .intensity = { 3e4f },
+                             .outerConeRadians = 0.5f + 0.05f * float(seed) });
+        View view{ .camera = Camera::lookAt({ 0, 0, 0 }, { 0.1, 0, -1 }), .size = { 320, 200 } };
+        view.quality.shadowMapSize = 256u << seed % 3;
+        view.quality.shadowCascades = 1 + seed % 4;
+        view.quality.shadows = seed % 4 == 0 ? ShadowFilter::Evsm : ShadowFilter::Hard;
+        view.samples = seed % 5 == 0 ? 4 : 1; // which says nothing of the samples of maps
+        for (Owned<MaterialInstance> const& instance : instances)
+            engine.setShadowCulling(instance, seed % 3 == 0 ? Culling::Front : Culling::Back);
+        std::array<Image, 2> images;
+        for (const bool culls : { false, true }) {
+            view.occlusionCulling = culls;
+            Renderer renderer(engine);
+            images[culls] = *renderer.renderToImage(scene, view);
+            drawn[culls] += renderer.statistics().triangles;
+            if (culls && seed == 1) {
+                EXPECT_THAT(renderer.explain(), testing::ContainsRegex("shadow views besides.*\n.*behind others"));
+            }
+        }
+        EXPECT_EQ(images[0].pixels, images[1].pixels) << seed;
+    }
+    EXPECT_LT(drawn[1], drawn[0] * 0.7) << "triangles";
+}
+
 TEST_P(OcclusionCullingTest, IsExplainedAndOffWhereItIsNotExact) {
     Scene scene(engine);
     fill(scene, 1);
     const View view{ .camera = Camera::lookAt({ 0, 0, 0 }, { 0.1, 0, -1 }), .size = { 301, 173 } };
     const auto explained = [&](auto const& change) {
         View changed = view;
+        changed.quality.shadows = ShadowFilter::Off; // whose maps leave hidden casters out with any camera
         change(changed);
         Renderer renderer(engine);
         EXPECT_TRUE(renderer.renderToImage(scene, changed));

@@ -274,6 +274,22 @@ TEST_F(PrepareShadowsTest, LampsTakeTheFacesInWhichSomethingCasts) {
     EXPECT_EQ(packet.mainView().lights[0].offset.z, (1 << 3) + (1 << kCubeFaces)) << "-y of a cube";
 }
 
+TEST_F(PrepareShadowsTest, WhatIsBeyondTheReachOfALampIsDrawnOnlyIntoMeans) {
+    removeLight(scene, sun);
+    addLight(scene, spot({ 0, 9, 0 }, { 0, -1, 0 }, 0.3f, 6.4f)); // as far as the box, which ends at 2.5, and no slab
+    const FramePacket packet = frame();
+    ASSERT_EQ(packet.views.size(), 2u);
+    EXPECT_EQ(packet.views[1].counts.visible, 1u);
+    EXPECT_EQ(packet.views[1].counts.outOfView, 1u);
+    double4x4 lower(10.0);
+    lower[1][1] = 0.1;
+    lower[3] = double4(0, -1, 0, 1);
+    setTransform(scene, slab, lower);
+    EXPECT_EQ(frame().shadows.drawn, 0u) << "nothing in the map has changed";
+    view.quality.shadows = ShadowFilter::Vsm;
+    EXPECT_EQ(frame().views[1].counts.visible, 2u);
+}
+
 TEST_F(PrepareShadowsTest, SpotsTakeOneMapAndWideOnesACube) {
     removeLight(scene, sun);
     addLight(scene, spot({ 0, 8, 0 }, { 0, -1, 0 }, 0.5f));
