@@ -9,10 +9,11 @@ const float kMinShadingNormalWeight = 0.03125f;
 // A view from behind the shading normal may cancel it: the result is then short, but valid.
 const float kMinBentLength2 = 6.103515625e-5f;
 
-// Look-ups along the grain: the least cosine of a half vector, and the width of a look-up over the gap to its neighbour,
-// which measured best for 3 to 9 of them in three environments.
-const float kMinGrainCosine = 0.015625f;
-const float kGrainOverlap = 0.6f;
+// Look-ups along the grain: the width of a look-up over that of the lobe across the grain (a sum of lobes along a line has a
+// wider tail than one of them), and over the gap to its neighbour. They measured best for 3 to 9 look-ups under random lamps
+// and in three environments.
+const float kGrainWidth = 0.75f;
+const float kGrainOverlap = 0.3125f;
 
 // The roughness along both directions. Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": one
 // is stretched by as much as the other is narrowed. alpha in [0, 1], anisotropy in [-1, 1]; a positive value stretches
@@ -60,34 +61,49 @@ vec3 importanceSampleGgxAnisotropic(vec2 u, vec2 alpha) {
     return h / sqrt(dot(h, h));
 }
 
-// One of several look-ups of image-based light along the grain: half vectors in the plane of the normal z and of the
-// direction x along which the lobe is wider, as often as D leans that way if u is uniform in (-1, 1). Its marginal
-// density of slopes is that of a disc seen from the side, so no function needs inverting.
-// viewLocal: y across the grain. alpha.x >= alpha.y in [kMinAlpha, 2]. Returns the mirrored view, which may lie below
-// the surface, and as w its weight: visible and lit facets, as in visibilitySmithGgxAnisotropic().
-vec4 grainLookUp(vec3 viewLocal, vec2 alpha, float u) {
-    float up = sqrt(max((1.0f - u) * (1.0f + u), 0.0f)), along = alpha.x * u;
-    float inverse = 1.0f / sqrt(along * along + up * up);
-    vec3 h = vec3(along * inverse, 0.0f, up * inverse);
-    float voh = viewLocal.x * h.x + viewLocal.z * h.z;
-    vec3 light = h * (2.0f * voh) - viewLocal;
+// One of several look-ups of image-based light along the grain. Half vectors in the plane of the normal z and of the direction
+// x along which the lobe is wider; where that plane is stretched until the lobe is round, they are as frequent as the view sees
+// them (Heitz 2018, "Sampling the GGX Distribution of Visible Normals", in two dimensions): evenly across the view, from the one
+// at a right angle to it down to the horizon.
+// viewLocal: y across the grain, z in (0, 1]. alpha.x >= alpha.y in [kMinAlpha, 2]. share in (0, 1): of the way to the horizon.
+// Returns x and z of a stretched half vector, a unit vector; the cosine between it and the stretched view; the length of the way,
+// [1, 2].
+vec4 grainHalfVector(vec3 viewLocal, vec2 alpha, float share) {
+    vec2 view = vec2(alpha.x * viewLocal.x, viewLocal.z);
+    view = view / sqrt(dot(view, view));
+    float way = 1.0f + view.y, p = way * share - 1.0f;
+    float cosine = sqrt(max((1.0f - p) * (1.0f + p), 0.0f));
+    vec2 down = view.x < 0.0f ? vec2(-view.y, view.x) : vec2(view.y, -view.x);
+    return vec4(down * p + view * cosine, cosine, way);
+}
+
+// The mirrored view, which may lie below the surface, and as w its weight: lit facets, of those that are seen, as in
+// visibilitySmithGgxAnisotropic(). halfVector: from grainHalfVector().
+vec4 grainLookUp(vec3 viewLocal, vec2 alpha, vec4 halfVector) {
+    vec3 h = vec3(alpha.x * halfVector.x, 0.0f, halfVector.y);
+    h = h / sqrt(dot(h, h));
+    vec3 light = h * (2.0f * (viewLocal.x * h.x + viewLocal.z * h.z)) - viewLocal;
     vec3 stretchedView = vec3(alpha.x * viewLocal.x, alpha.y * viewLocal.y, viewLocal.z);
     vec3 stretchedLight = vec3(alpha.x * light.x, alpha.y * light.y, light.z);
     float masking = light.z * sqrt(dot(stretchedView, stretchedView));
     float shadowing = viewLocal.z * sqrt(dot(stretchedLight, stretchedLight));
     float lit = light.z / max(masking + shadowing, kMinVisibilityDenominator);
-    float weight = max(voh, 0.0f) / max(h.z, kMinGrainCosine) * max(lit, 0.0f);
-    return vec4(light, light.z > 0.0f ? weight : 0.0f);
+    return vec4(light, light.z > 0.0f ? lit : 0.0f);
 }
 
-// The roughness of that look-up: as wide as the lobe across the grain there, or as the gap to its neighbours.
-// spacing: half of the difference of their u. Returns (0, 1].
-float grainLookUpRoughness(vec2 alpha, float u, float spacing) {
-    float up2 = max((1.0f - u) * (1.0f + u), 0.0f), along = alpha.x * u;
-    float length2 = along * along + up2;
-    float across = alpha.y / sqrt(length2);
-    float gap = kGrainOverlap * alpha.x * spacing / (sqrt(up2) * length2);
-    return sqrt(min(max(across, gap), 1.0f));
+// The roughness of that look-up, of `count`: as wide as the lobe across the grain there and as the gap to its neighbours, as if
+// one lobe blurred the other. Where a half vector h turns by a small angle, the mirrored view l turns by twice that times
+// sqrt(dot(v, t)^2 + dot(v, h)^2), where t is the direction in which h moves: dl = 2 (dot(v, t) h + dot(v, h) t). The cube's lobes,
+// of a view along the normal, are of half vectors that turn it by twice their angle. Returns (0, 1].
+float grainLookUpRoughness(vec3 viewLocal, vec2 alpha, vec4 halfVector, float count) {
+    float along = alpha.x * halfVector.x, up = halfVector.y;
+    float length2 = along * along + up * up;
+    float voh = viewLocal.x * along + viewLocal.z * up; // times the length
+    float turnAcross2 = viewLocal.y * viewLocal.y + voh * voh / length2;
+    float turnAlong2 = viewLocal.x * viewLocal.x + viewLocal.z * viewLocal.z;
+    float across = kGrainWidth * alpha.y, gap = kGrainOverlap * alpha.x * halfVector.w / (count * max(halfVector.z, 0.125f));
+    float alpha2 = (across * across * turnAcross2 + gap * gap * turnAlong2 / length2) / length2;
+    return sqrt(min(sqrt(alpha2), 1.0f));
 }
 
 // The normal about which image-based light is reflected, since the cube map holds isotropic lobes only: the shading

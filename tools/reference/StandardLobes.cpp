@@ -109,11 +109,12 @@ void StandardLobes::lookUpAlongGrain() {
     const int count = kGrainLookUps[static_cast<size_t>(mModel.grainLookUps)];
     double sum = 0;
     for (int i = 0; i < count; ++i) {
-        const double spacing = 1.0 / count, u = (2 * i + 1) * spacing - 1;
-        const double4 light = lib::grainLookUp(view, alpha, u);
+        const double4 halfVector = lib::grainHalfVector(view, alpha, (i + 0.5) / count);
+        const double4 light = lib::grainLookUp(view, alpha, halfVector);
         if (light.w <= 0) continue;
         const double3 local = isAlong ? double3(light) : double3(-light.y, light.x, light.z);
-        const double roughness = std::max(lib::grainLookUpRoughness(alpha, u, spacing), lib::kMinPerceptualRoughness);
+        const double roughness =
+                std::max(lib::grainLookUpRoughness(view, alpha, halfVector, count), lib::kMinPerceptualRoughness);
         mLookUps.push_back({ SplitSumLobe(roughness, mModel.splitSumLevels), Frame(glm::normalize(local)), light.w });
         sum += light.w;
     }

@@ -51,15 +51,14 @@ highp vec3 radianceAlongGrain(Grooves grooves, int count) {
     highp vec3 y = cross(shading_normal, x);
     highp vec2 alpha = isAlong ? grooves.alpha : grooves.alpha.yx;
     highp vec3 view = vec3(dot(x, shading_view), dot(y, shading_view), shading_NoV);
-    highp float spacing = 1.0 / float(count);
     highp vec3 sum = vec3(0.0);
     highp float weights = 1e-6;
     for (int i = 0; i < count; ++i) {
-        highp float u = (2.0 * float(i) + 1.0) * spacing - 1.0;
-        highp vec4 lookUp = grainLookUp(view, alpha, u);
+        highp vec4 halfVector = grainHalfVector(view, alpha, (float(i) + 0.5) / float(count));
+        highp vec4 lookUp = grainLookUp(view, alpha, halfVector);
         if (lookUp.w <= 0.0) continue; // below the surface, or hidden
         highp vec3 direction = x * lookUp.x + y * lookUp.y + shading_normal * lookUp.z;
-        sum += environmentRadiance(direction, grainLookUpRoughness(alpha, u, spacing)) * lookUp.w;
+        sum += environmentRadiance(direction, grainLookUpRoughness(view, alpha, halfVector, float(count))) * lookUp.w;
         weights += lookUp.w;
     }
     return sum / weights;

@@ -111,7 +111,7 @@ TEST(Anisotropy, LookUpsAlongTheGrainHaveTheMeanOfTheLobe) {
             vec3 sum(0);
             double weights = 0;
             for (int i = 0; i < 9; ++i) {
-                const vec4 lookUp = grainLookUp(v, alpha, (2 * i + 1) / 9.0 - 1);
+                const vec4 lookUp = grainLookUp(v, alpha, grainHalfVector(v, alpha, (i + 0.5) / 9));
                 sum += vec3(lookUp) * lookUp.w;
                 weights += lookUp.w;
             }
@@ -121,10 +121,44 @@ TEST(Anisotropy, LookUpsAlongTheGrainHaveTheMeanOfTheLobe) {
     }
 }
 
-TEST(Anisotropy, ALookUpAlongTheGrainIsAsWideAsTheLobeAcrossOrAsTheGap) {
-    EXPECT_NEAR(sq(grainLookUpRoughness(vec2(0.5, 0.1), 0.0, 0.01)), 0.1, 1e-9);
-    EXPECT_NEAR(sq(grainLookUpRoughness(vec2(0.5, 0.1), 0.0, 0.5)), kGrainOverlap * 0.25, 1e-9);
-    EXPECT_EQ(grainLookUpRoughness(vec2(2, 2), 0.0, 1.0), 1);
+TEST(Anisotropy, HalfVectorsAlongTheGrainLieBetweenTheViewAndTheHorizon) {
+    for (const vec3 view :
+         { vec3(0, 0, 1), vec3(0.8, 0, 0.6), vec3(-0.8, 0.5, std::sqrt(0.11)), vec3(0.9, 0.4, 0.1) }) {
+        const vec3 seen = glm::normalize(view);
+        const vec2 alpha(0.7, 0.1);
+        const vec2 stretched = glm::normalize(vec2(alpha.x * seen.x, seen.z));
+        for (const double share : { 0.0, 0.1, 0.5, 0.9, 1.0 }) {
+            const vec4 half = grainHalfVector(seen, alpha, share);
+            EXPECT_NEAR(half.x * half.x + half.y * half.y, 1, 1e-12);
+            EXPECT_NEAR(half.x * stretched.x + half.y * stretched.y, half.z, 1e-12);
+            EXPECT_GE(half.z, 0) << "the view sees it";
+            EXPECT_GE(half.y, -1e-12) << "it is above the horizon";
+        }
+        EXPECT_NEAR(grainHalfVector(seen, alpha, 0).z, 0, 1e-12);
+        EXPECT_NEAR(grainHalfVector(seen, alpha, 1).y, 0, 1e-12);
+    }
+}
+
+// By differences: how far the mirrored view turns for a small turn of the half vector, over that of a view along it.
+TEST(Anisotropy, ALookUpAlongTheGrainIsAsWideAsItsHalfVectorsTurnTheMirroredView) {
+    constexpr double kTurn = 1e-5;
+    for (const vec3 view : { vec3(0.6, 0, 0.8), vec3(0, 0.9, std::sqrt(0.19)), glm::normalize(vec3(-0.7, 0.6, 0.2)) }) {
+        for (const double x : { -0.8, 0.0, 0.4 }) {
+            const vec2 alpha(0.5, 0.1), thin(0.5, 0);
+            const vec4 half(x, std::sqrt(1 - x * x), 0.5, 1);
+            const vec3 h = glm::normalize(vec3(alpha.x * half.x, 0, half.y));
+            const auto mirrored = [&](vec3 of) { return of * (2 * glm::dot(view, of)) - view; };
+            const auto turned = [&](vec3 towards) {
+                return glm::length(mirrored(glm::normalize(h + towards * kTurn)) - mirrored(h)) / (2 * kTurn);
+            };
+            const double across = sq(grainLookUpRoughness(view, alpha, half, 1e9));
+            EXPECT_NEAR(across / sq(grainLookUpRoughness(h, alpha, half, 1e9)), turned({ 0, 1, 0 }), 1e-4);
+            const double gap = sq(grainLookUpRoughness(view, thin, half, 5));
+            EXPECT_NEAR(gap / sq(grainLookUpRoughness(h, thin, half, 5)), turned({ h.z, 0, -h.x }), 1e-4);
+        }
+    }
+    EXPECT_NEAR(sq(grainLookUpRoughness({ 0, 0, 1 }, { 0.5, 0.1 }, { 0, 1, 1, 2 }, 1e9)), kGrainWidth * 0.1, 1e-9);
+    EXPECT_EQ(grainLookUpRoughness({ 0, 0, 1 }, { 2, 2 }, { 0, 1, 1, 2 }, 1), 1);
 }
 
 TEST(Anisotropy, ThePositiveSignStretchesTheHighlightAlongTheTangent) {

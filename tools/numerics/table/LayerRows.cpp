@@ -4,6 +4,36 @@
 namespace filament_core::shader::numerics {
 namespace {
 
+std::vector<Row> grainRows() {
+    return {
+        { .file = "brdf_anisotropic",
+          .function = "grainHalfVector(vec3, vec2, float)",
+          // Without the way, which is one more than a cosine.
+          .call = NUMERICS_CALL(vec3(grainHalfVector(vec3(u.x, u.y, sqrt(u.z * u.z + 1e-6f)), vec2(s.x), s.y))),
+          .s = { alpha("alpha.x", 2), number("share", 0.03125, 0.96875) },
+          .u = direction("viewLocal"),
+          .range = { -1.01, 1.01 },
+          .limits = absolute(1e-6, 1e-2, "a unit vector and a cosine") },
+        { .file = "brdf_anisotropic",
+          .function = "grainLookUp(vec3, vec2, vec4)",
+          .call = NUMERICS_CALL(vec3(grainLookUp(vec3(u.x, u.y, max(u.z, -u.z)), vec2(max(s.x, s.y), min(s.x, s.y)),
+                                                 vec4(s.z, 1.0f - s.z * s.z * 0.5f, 1, 1)))),
+          .s = { alpha("alpha.x", 2), alpha("alpha.y", 2), number("halfVector.x", -0.9375, 0.9375) },
+          .u = direction("viewLocal"),
+          .range = { -1.01, 1.01 },
+          .limits = absolute(2e-6, 1e-2, "a mirrored direction: the error is relative to its length") },
+        { .file = "brdf_anisotropic",
+          .function = "grainLookUpRoughness(vec3, vec2, vec4, float)",
+          .call = NUMERICS_CALL(grainLookUpRoughness(vec3(u.x, u.y, max(u.z, -u.z)), vec2(max(s.x, s.y), min(s.x, s.y)),
+                                                     vec4(s.z, 1.0f - s.z * s.z * 0.5f, s.w, 1.5f), 5)),
+          .s = { alpha("alpha.x", 2), alpha("alpha.y", 2), number("halfVector.x", -0.9375, 0.9375),
+                 unit("halfVector.z") },
+          .u = direction("viewLocal"),
+          .range = { 0, 1 },
+          .limits = absolute(1e-6, 2e-2, "absolute: the root of a quotient of sums") }
+    };
+}
+
 std::vector<Row> anisotropicRows() {
     const std::array<Argument, 4> alphas{ alpha("alpha.x", 2), alpha("alpha.y", 2) };
     return {
@@ -51,20 +81,6 @@ std::vector<Row> anisotropicRows() {
                              "absolute: the larger alpha over the lesser, up to 1000, times the rounding of 2 pi u"),
           .fp32Only = "up to 250 times the rounding of 2 pi u; samples are drawn on the CPU",
           .openOutside = "the root of 1 - u.y for u.y above 1" },
-        { .file = "brdf_anisotropic",
-          .function = "grainLookUp(vec3, vec2, float)",
-          .call = NUMERICS_CALL(
-                  vec3(grainLookUp(vec3(u.x, u.y, max(u.z, -u.z)), vec2(max(s.x, s.y), min(s.x, s.y)), s.z))),
-          .s = { alpha("alpha.x", 2), alpha("alpha.y", 2), number("u", -0.9375, 0.9375) },
-          .u = direction("viewLocal"),
-          .range = { -1.01, 1.01 },
-          .limits = absolute(2e-6, 1e-2, "a mirrored direction: the error is relative to its length") },
-        { .file = "brdf_anisotropic",
-          .function = "grainLookUpRoughness(vec2, float, float)",
-          .call = NUMERICS_CALL(grainLookUpRoughness(vec2(max(s.x, s.y), min(s.x, s.y)), s.z, s.w)),
-          .s = { alpha("alpha.x", 2), alpha("alpha.y", 2), number("u", -0.9375, 0.9375), unit("spacing") },
-          .range = { 0, 1 },
-          .limits = absolute(1e-6, 2e-2, "absolute: the root of a quotient of sums") },
         { .file = "brdf_anisotropic",
           .function = "anisotropicNormal(vec3, vec3, vec3, vec3, float, float)",
           .call = NUMERICS_CALL(anisotropicNormal(vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 1, 0),
@@ -262,7 +278,8 @@ std::vector<Row> sheenRows() {
 
 std::vector<Row> layerRows() {
     std::vector<Row> rows = anisotropicRows();
-    for (std::vector<Row> const& more : { coatRows(), sheenRows() }) rows.insert(rows.end(), more.begin(), more.end());
+    for (std::vector<Row> const& more : { grainRows(), coatRows(), sheenRows() })
+        rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 
