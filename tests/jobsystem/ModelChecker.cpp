@@ -2,6 +2,7 @@
 #include "tests/jobsystem/ModelChecker.h"
 
 #include "tests/jobsystem/ModelFiber.h"
+#include "tests/jobsystem/ModelSchedule.h"
 #include "tests/jobsystem/ModelSearch.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ struct Step {
 
 class Checker {
 public:
-    explicit Checker(Options const& options) : mOptions(options) {}
+    explicit Checker(Options const& options) : mOptions(options), mSchedule(options.seed) {}
 
     Report explore(std::function<std::unique_ptr<Scenario>()> const& make);
 
@@ -43,6 +44,7 @@ public:
     void destroyed(const void* object);
     Outcome perform(const void* object, Operation operation);
     void pause();
+    void yield();
     void fail(const char* rule);
     int self() const { return mSelf; }
     bool isUnwinding() const { return mEnd != End::None; }
@@ -56,11 +58,16 @@ private:
     void leave();
     void announce(Operation const& operation);
     int nextThread();
-    int branch(uint8_t ready);
-    uint8_t allowedNow(uint8_t ready) const;
-    uint8_t readyThreads() const;
-    uint8_t threadsIn(State state) const;
-    uint8_t pick(Choices const& choices) { return choices.stores[mSearch.pick(choices.count)]; }
+    int branch(uint32_t ready);
+    uint32_t allowedNow(uint32_t ready) const;
+    uint32_t readyThreads() const;
+    uint32_t threadsIn(State state) const;
+    bool isRandom() const { return mOptions.schedules > 0; }
+    StoreIndex pick(Choices const& choices) {
+        return choices.stores[isRandom() ? mSchedule.pickStore(choices.count) : mSearch.pick(choices.count)];
+    }
+    uint32_t pick(uint32_t count) { return isRandom() ? mSchedule.pick(count) : mSearch.pick(count); }
+    bool isFinished();
     int find(const void* object) const;
     Outcome make(Operation const& operation);
     Outcome change(Operation const& operation);
@@ -79,6 +86,7 @@ private:
     Scenario* mScenario = nullptr;
 
     ModelSearch mSearch;
+    ModelSchedule mSchedule;
     std::vector<const void*> mObjects; // by location
     std::vector<Step> mSteps;
     int mPreemptions = 0, mSpuriousReturns = 0;
@@ -98,11 +106,14 @@ Report Checker::explore(std::function<std::unique_ptr<Scenario>()> const& make) 
         mReport.steps += mSteps.size();
         (mEnd == End::Pruned ? mReport.pruned : mReport.runs) += 1;
         if (mFailure.empty() && mReport.runs + mReport.pruned == mOptions.maxRuns) mFailure = "too many runs";
-    } while (mFailure.empty() && mSearch.advance());
+    } while (mFailure.empty() && !isFinished());
     mReport.preemptions = mOptions.preemptions;
+    mReport.isRandom = isRandom();
     mReport.failure = mFailure;
     return mReport;
 }
+
+bool Checker::isFinished() { return isRandom() ? mReport.runs == mOptions.schedules : !mSearch.advance(); }
 
 void Checker::prepareThreads(int count) {
     if (mThreads.empty()) mThreads.resize(static_cast<size_t>(count));
@@ -126,6 +137,8 @@ void Checker::runOnce(std::function<std::unique_ptr<Scenario>()> const& make) {
     const std::unique_ptr<Scenario> scenario = make();
     mScenario = scenario.get();
     prepareThreads(scenario->threads());
+    mMemory.setThreads(scenario->threads());
+    if (isRandom()) mSchedule.beginRun(mReport.runs, scenario->threads());
     for (int i = 0; i < static_cast<int>(mThreads.size()); ++i) mMemory.tick(i);
     const int first = nextThread();
     mMain.switchTo(*mThreads[static_cast<size_t>(first)].fiber);
@@ -173,34 +186,34 @@ void Checker::leave() {
 
 // ---------------------------------------------------------------------------------------------- who goes next
 
-uint8_t Checker::threadsIn(State state) const {
-    uint8_t mask = 0;
+uint32_t Checker::threadsIn(State state) const {
+    uint32_t mask = 0;
     for (size_t i = 0; i < mThreads.size(); ++i) {
-        if (mThreads[i].state == state) mask = static_cast<uint8_t>(mask | 1 << i);
+        if (mThreads[i].state == state) mask |= 1u << i;
     }
     return mask;
 }
 
-uint8_t Checker::readyThreads() const {
-    uint8_t mask = threadsIn(State::Ready);
+uint32_t Checker::readyThreads() const {
+    uint32_t mask = threadsIn(State::Ready);
     for (size_t i = 0; i < mThreads.size(); ++i) {
         const bool pauses = mThreads[i].next.kind == Kind::Pause && !mMemory.hasUnseenStores(static_cast<int>(i));
-        if (pauses) mask = static_cast<uint8_t>(mask & ~(1 << i));
+        if (pauses) mask &= ~(1u << i);
     }
     return mask;
 }
 
-uint8_t Checker::allowedNow(uint8_t ready) const {
+uint32_t Checker::allowedNow(uint32_t ready) const {
     const bool mustStay = mOptions.preemptions >= 0 && mPreemptions >= mOptions.preemptions && mLast >= 0;
-    const auto last = static_cast<uint8_t>(mLast < 0 ? 0 : 1 << mLast);
+    const uint32_t last = mLast < 0 ? 0 : 1u << mLast;
     return mustStay && (ready & last) ? last : ready;
 }
 
 /// Negative if the run is over.
 int Checker::nextThread() {
-    const uint8_t ready = readyThreads();
+    const uint32_t ready = readyThreads();
     if (ready == 0) {
-        const auto left = static_cast<uint8_t>(threadsIn(State::Sleeping) | threadsIn(State::Ready));
+        const uint32_t left = threadsIn(State::Sleeping) | threadsIn(State::Ready);
         mEnd = left ? End::AllSleep : End::AllReturned;
         return -1;
     }
@@ -219,19 +232,20 @@ int Checker::nextThread() {
     return mLast = next;
 }
 
-int Checker::branch(uint8_t ready) {
+int Checker::branch(uint32_t ready) {
+    if (isRandom()) return mSchedule.pickThread(ready);
     const int next = mSearch.pickThread(allowedNow(ready), mLast);
     if (next < 0) {
         mEnd = End::Pruned;
         return next;
     }
     if (mOptions.preemptions >= 0) return next; // a bound omits runs that the sleep sets would rely on
-    uint8_t asleep = 0;
+    uint32_t asleep = 0;
     for (size_t i = 0; i < mThreads.size(); ++i) {
         if (!(mSearch.explored() >> i & 1)) continue;
         Operation const& made = mThreads[static_cast<size_t>(next)].next;
         const bool settled = made.location >= 0 && mMemory.isSettled(made.location);
-        if (areIndependent(mThreads[i].next, made, settled)) asleep = static_cast<uint8_t>(asleep | 1 << i);
+        if (areIndependent(mThreads[i].next, made, settled)) asleep |= 1u << i;
     }
     mSearch.setSleepSet(asleep);
     return next;
@@ -295,18 +309,24 @@ void Checker::pause() {
     mMemory.seeEverything(mSelf);
 }
 
+void Checker::yield() {
+    if (isRandom()) mSchedule.yield(mSelf);
+    announce({ .kind = Kind::Yield, .function = "yield" });
+    mSteps.push_back({ mSelf, { .kind = Kind::Yield, .function = "yield" }, 0, "" });
+}
+
 Outcome Checker::make(Operation const& operation) {
     const int at = operation.location;
     const uint64_t operand = operation.operand;
     switch (operation.kind) {
     case Kind::Load: {
-        const uint8_t from = pick(mMemory.readable(mSelf, at, operation.order));
+        const StoreIndex from = pick(mMemory.readable(mSelf, at, operation.order));
         const uint64_t value = mMemory.load(mSelf, at, from, operation.order);
         mSteps.back().before = value;
         return { value };
     }
     case Kind::Store: {
-        const uint8_t after = pick(mMemory.followable(mSelf, at, operation.order));
+        const StoreIndex after = pick(mMemory.followable(mSelf, at, operation.order));
         if (!mMemory.store(mSelf, at, after, operand, operation.order)) fail("the scenario stores too often");
         return {};
     }
@@ -326,6 +346,7 @@ Outcome Checker::make(Operation const& operation) {
         return {};
     case Kind::Assume:
     case Kind::Pause:
+    case Kind::Yield:
     case Kind::Resume:
         return {};
     }
@@ -334,7 +355,7 @@ Outcome Checker::make(Operation const& operation) {
 
 Outcome Checker::change(Operation const& operation) {
     const int at = operation.location;
-    const uint8_t from = pick(mMemory.followable(mSelf, at, operation.order));
+    const StoreIndex from = pick(mMemory.followable(mSelf, at, operation.order));
     const uint64_t before = mMemory.value(at, from);
     mSteps.back().before = before;
     if (!mMemory.modify(mSelf, at, from, operation.result(before), operation.order))
@@ -355,15 +376,15 @@ Outcome Checker::compareExchange(Operation const& operation) {
     Choices choices;
     const Choices equal = mMemory.followable(mSelf, at, operation.order);
     for (uint32_t i = 0; i < equal.count; ++i) {
-        const uint8_t store = equal.stores[i];
+        const StoreIndex store = equal.stores[i];
         if (mMemory.value(at, store) == operation.expected) choices.stores[choices.count++] = store;
     }
     const Choices different = mMemory.readable(mSelf, at, operation.failureOrder);
     for (uint32_t i = 0; i < different.count; ++i) {
-        const uint8_t store = different.stores[i];
+        const StoreIndex store = different.stores[i];
         if (mMemory.value(at, store) != operation.expected) choices.stores[choices.count++] = store;
     }
-    const uint8_t from = pick(choices);
+    const StoreIndex from = pick(choices);
     const uint64_t before = mMemory.value(at, from);
     mSteps.back().before = before;
     if (before == operation.expected) {
@@ -377,12 +398,12 @@ Outcome Checker::compareExchange(Operation const& operation) {
 
 void Checker::wait(Operation const& operation) {
     const int at = operation.location;
-    const uint8_t from = pick(mMemory.readableByKernel(mSelf, at));
+    const StoreIndex from = pick(mMemory.readableByKernel(mSelf, at));
     const uint64_t value = mMemory.load(mSelf, at, from, std::memory_order_relaxed);
     mMemory.notePassedThroughKernel(mSelf, at);
     mSteps.back().before = value;
     if (value != operation.expected) return;
-    if (mSpuriousReturns < mOptions.spuriousReturns && mSearch.pick(2) == 1) {
+    if (mSpuriousReturns < mOptions.spuriousReturns && pick(2u) == 1) {
         ++mSpuriousReturns;
         mSteps.back().note = " (returns for no reason)";
         return;
@@ -402,8 +423,7 @@ void Checker::notify(Operation const& operation) {
         if (thread.state == State::Sleeping && thread.next.location == operation.location) sleepers.push_back(&thread);
     }
     if (sleepers.empty()) return;
-    if (operation.kind == Kind::NotifyOne)
-        sleepers = { sleepers[mSearch.pick(static_cast<uint32_t>(sleepers.size()))] };
+    if (operation.kind == Kind::NotifyOne) sleepers = { sleepers[pick(static_cast<uint32_t>(sleepers.size()))] };
     mSteps.back().before = sleepers.size();
     for (Thread* thread : sleepers) {
         thread->state = State::Ready;
@@ -454,8 +474,10 @@ void require(bool condition, const char* rule) {
 }
 
 void printExplored(std::string const& what, Report const& report) {
-    const std::string bound =
-            report.preemptions < 0 ? "" : " (at most " + std::to_string(report.preemptions) + " preemptions)";
+    const std::string bound = report.isRandom ? " (random schedules)"
+                              : report.preemptions < 0
+                                      ? ""
+                                      : " (at most " + std::to_string(report.preemptions) + " preemptions)";
     std::printf("[ EXPLORED ] %s%s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(), bound.c_str(),
                 static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
                 static_cast<unsigned long long>(report.steps));
@@ -475,6 +497,7 @@ uint64_t stressFactor() {
 }
 
 void pause() { gChecker->pause(); }
+void yield() { gChecker->yield(); }
 
 void created(const void* object, uint64_t initial) { gChecker->created(object, initial); }
 void destroyed(const void* object) { gChecker->destroyed(object); }

@@ -268,5 +268,44 @@ TEST(ModelChecker, TellsTheStepsOfTheRunThatFailed) {
     EXPECT_NE(report.failure.find("thread 0: atomic 1 load seq_cst finds 0"), std::string::npos) << report.failure;
 }
 
+// ---------------------------------------------------------------------------------------------- random runs
+
+/// One of the threads overtakes the other between its two steps.
+std::vector<Litmus::Body> overtaking() {
+    const auto twice = [](Vars& v) {
+        const int before = v.x.load();
+        v.x.store(before + 1);
+    };
+    return { twice, twice };
+}
+
+TEST(ModelSchedule, RandomRunsFindWhatAllRunsFind) {
+    const std::set<std::string> all = endsOf(overtaking());
+    EXPECT_EQ(endsOf(overtaking(), { .schedules = 200 }), all);
+    EXPECT_TRUE(contains(all, "0000 x1")); // an increment is lost
+}
+
+TEST(ModelSchedule, TheSameSeedGivesTheSameRuns) {
+    const auto failureOf = [](uint64_t seed) {
+        const auto make = [] {
+            struct Racing : Scenario {
+                int threads() const override { return 8; }
+                void run(int thread) override {
+                    if (thread == 7)
+                        require(x.fetch_add(1) > 3, "the eighth comes late");
+                    else
+                        x.fetch_add(1);
+                }
+                Atomic<int> x{ 0 };
+            };
+            return std::make_unique<Racing>();
+        };
+        return explore(make, { .schedules = 1000, .seed = seed }).failure;
+    };
+    EXPECT_NE(failureOf(1), "");
+    EXPECT_EQ(failureOf(1), failureOf(1));
+    EXPECT_NE(failureOf(1), failureOf(2));
+}
+
 } // namespace
 } // namespace filament_core::jobs::model

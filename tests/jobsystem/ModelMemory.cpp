@@ -6,19 +6,19 @@
 namespace filament_core::jobs::model {
 
 void ModelMemory::clear() {
-    mLocationCount = 0;
+    mLocationCount = mLastStored = 0;
     mViews = {};
 }
 
 int ModelMemory::create(int thread, uint64_t initial) {
     if (mLocationCount == kMaxLocations) return -1;
     Location& made = mLocations[mLocationCount];
-    made.stores[0] = { initial, View{}, false };
-    made.order[0] = made.rank[0] = 0;
+    made.stores.assign(1, { initial, View{}, false, true });
+    made.order.assign(1, 0);
+    made.rank.assign(1, 0);
     made.touchedAt = {};
     made.creator = thread;
     made.createdAt = thread < 0 ? uint16_t{ 0 } : mViews[thread].clock[thread];
-    made.count = 1;
     made.seqCstFloor = made.kernelFloor = 0;
     made.alive = true;
     return mLocationCount++;
@@ -28,7 +28,7 @@ bool ModelMemory::destroy(int thread, int location) {
     Location& ended = mLocations[location];
     ended.alive = false;
     if (thread < 0) return true; // after all threads
-    for (int other = 0; other < kMaxThreads; ++other) {
+    for (int other = 0; other < mThreads; ++other) {
         if (other != thread && !happenedBefore(thread, ended.touchedAt[other], other)) return false;
     }
     return true;
@@ -39,20 +39,22 @@ bool ModelMemory::isConstructedFor(int thread, int location) const {
     return at.creator < 0 || happenedBefore(thread, at.createdAt, at.creator);
 }
 
-void ModelMemory::raise(int location, uint8_t& floor, uint8_t store) const {
-    std::array<uint8_t, kMaxStores + 1> const& rank = mLocations[location].rank;
+void ModelMemory::raise(int location, StoreIndex& floor, StoreIndex store) const {
+    std::vector<StoreIndex> const& rank = mLocations[location].rank;
     if (rank[store] > rank[floor]) floor = store;
 }
 
 void ModelMemory::join(View& into, View const& from) const {
-    for (int i = 0; i < mLocationCount; ++i) raise(i, into.seen[i], from.seen[i]);
-    for (int i = 0; i < kMaxThreads; ++i) into.clock[i] = std::max(into.clock[i], from.clock[i]);
+    for (int i = 0; i < mLocationCount; ++i) {
+        if (into.seen[i] != from.seen[i]) raise(i, into.seen[i], from.seen[i]);
+    }
+    for (int i = 0; i < mThreads; ++i) into.clock[i] = std::max(into.clock[i], from.clock[i]);
 }
 
 // Coherence: nothing older than what the thread has seen. Total order: otherwise a seq_cst operation would be
 // coherence-ordered before what an earlier seq_cst operation on the same object read or wrote.
-uint8_t ModelMemory::floor(int thread, int location, std::memory_order order) const {
-    uint8_t floor = mViews[thread].seen[location];
+StoreIndex ModelMemory::floor(int thread, int location, std::memory_order order) const {
+    StoreIndex floor = mViews[thread].seen[location];
     if (order == std::memory_order_seq_cst) raise(location, floor, mLocations[location].seqCstFloor);
     return floor;
 }
@@ -60,16 +62,17 @@ uint8_t ModelMemory::floor(int thread, int location, std::memory_order order) co
 Choices ModelMemory::readable(int thread, int location, std::memory_order order) const {
     Location const& at = mLocations[location];
     Choices choices;
-    for (int rank = at.count - 1; rank >= at.rank[floor(thread, location, order)]; --rank) {
+    for (int rank = at.count() - 1; rank >= at.rank[floor(thread, location, order)]; --rank) {
         choices.stores[choices.count++] = at.order[rank];
     }
     return choices;
 }
 
-bool ModelMemory::mayBeModified(int location, uint8_t store) const {
+bool ModelMemory::mayBeModified(int location, StoreIndex store) const {
     Location const& at = mLocations[location];
     const int next = at.rank[store] + 1;
-    return next == at.count || !at.stores[at.order[next]].isModification; // which would no longer follow its own store
+    return next == at.count() ||
+           !at.stores[at.order[next]].isModification; // which would no longer follow its own store
 }
 
 Choices ModelMemory::followable(int thread, int location, std::memory_order order) const {
@@ -81,56 +84,57 @@ Choices ModelMemory::followable(int thread, int location, std::memory_order orde
     return choices;
 }
 
-uint64_t ModelMemory::load(int thread, int location, uint8_t from, std::memory_order order) {
+uint64_t ModelMemory::load(int thread, int location, StoreIndex from, std::memory_order order) {
     Location& at = mLocations[location];
     View& view = mViews[thread];
     raise(location, view.seen[location], from);
-    if (isAcquire(order)) join(view, at.stores[from].released);
+    if (isAcquire(order) && !at.stores[from].isInitial) join(view, at.stores[from].released);
     if (order == std::memory_order_seq_cst) raise(location, at.seqCstFloor, from);
     at.touchedAt[thread] = view.clock[thread];
     return at.stores[from].value;
 }
 
-bool ModelMemory::insert(int thread, int location, uint8_t after, Store const& store, std::memory_order order) {
+bool ModelMemory::insert(int thread, int location, StoreIndex after, Store const& store, std::memory_order order) {
     Location& at = mLocations[location];
-    if (at.count > kMaxStores) return false;
-    const uint8_t made = at.count++;
+    if (at.stores.size() == kMaxStores) return false;
+    const auto made = static_cast<StoreIndex>(at.stores.size());
     const int rank = at.rank[after] + 1;
-    std::copy_backward(at.order.begin() + rank, at.order.begin() + made, at.order.begin() + made + 1);
-    at.order[rank] = made;
-    for (int i = rank; i < at.count; ++i) at.rank[at.order[i]] = static_cast<uint8_t>(i);
+    at.order.insert(at.order.begin() + rank, made);
+    at.rank.push_back(made);
+    for (int i = rank; i <= made; ++i) at.rank[at.order[i]] = static_cast<StoreIndex>(i);
 
+    mLastStored = location;
     View& view = mViews[thread];
     view.seen[location] = made;
     at.touchedAt[thread] = view.clock[thread];
-    at.stores[made] = store;
+    at.stores.push_back(store);
     if (isRelease(order)) join(at.stores[made].released, view);
     at.stores[made].released.seen[location] = made;
     if (order == std::memory_order_seq_cst) raise(location, at.seqCstFloor, made);
     return true;
 }
 
-bool ModelMemory::store(int thread, int location, uint8_t after, uint64_t value, std::memory_order order) {
+bool ModelMemory::store(int thread, int location, StoreIndex after, uint64_t value, std::memory_order order) {
     return insert(thread, location, after, { value, View{}, false }, order);
 }
 
 // A modification passes on what the store that it read had released: it continues that release sequence.
-bool ModelMemory::modify(int thread, int location, uint8_t from, uint64_t value, std::memory_order order) {
+bool ModelMemory::modify(int thread, int location, StoreIndex from, uint64_t value, std::memory_order order) {
     load(thread, location, from, order);
     return insert(thread, location, from, { value, mLocations[location].stores[from].released, true }, order);
 }
 
 bool ModelMemory::isSettled(int location) const {
     Location const& at = mLocations[location];
-    return at.rank[at.seqCstFloor] == at.count - 1;
+    return at.rank[at.seqCstFloor] == at.count() - 1;
 }
 
 Choices ModelMemory::readableByKernel(int thread, int location) const {
     Location const& at = mLocations[location];
-    uint8_t floor = mViews[thread].seen[location];
+    StoreIndex floor = mViews[thread].seen[location];
     raise(location, floor, at.kernelFloor);
     Choices choices;
-    for (int rank = at.count - 1; rank >= at.rank[floor]; --rank) choices.stores[choices.count++] = at.order[rank];
+    for (int rank = at.count() - 1; rank >= at.rank[floor]; --rank) choices.stores[choices.count++] = at.order[rank];
     return choices;
 }
 
@@ -138,26 +142,32 @@ void ModelMemory::notePassedThroughKernel(int thread, int location) {
     raise(location, mLocations[location].kernelFloor, mViews[thread].seen[location]);
 }
 
+bool ModelMemory::hasUnseenStores(int thread, int location) const {
+    Location const& at = mLocations[location];
+    return at.alive && at.rank[mViews[thread].seen[location]] != at.count() - 1;
+}
+
 bool ModelMemory::hasUnseenStores(int thread) const {
+    if (mLocationCount == 0) return false;
+    if (hasUnseenStores(thread, mLastStored)) return true; // most often
     for (int i = 0; i < mLocationCount; ++i) {
-        Location const& at = mLocations[i];
-        if (at.alive && at.rank[mViews[thread].seen[i]] != at.count - 1) return true;
+        if (hasUnseenStores(thread, i)) return true;
     }
     return false;
 }
 
 void ModelMemory::seeEverything(int thread) {
-    for (int i = 0; i < mLocationCount; ++i) mViews[thread].seen[i] = mLocations[i].order[mLocations[i].count - 1];
+    for (int i = 0; i < mLocationCount; ++i) mViews[thread].seen[i] = mLocations[i].order[mLocations[i].count() - 1];
 }
 
 uint64_t ModelMemory::latest(int location) const {
     Location const& at = mLocations[location];
-    return at.stores[at.order[at.count - 1]].value;
+    return at.stores[at.order[at.count() - 1]].value;
 }
 
 void ModelMemory::replaceLatest(int location, uint64_t value) {
     Location& at = mLocations[location];
-    at.stores[at.order[at.count - 1]].value = value;
+    at.stores[at.order[at.count() - 1]].value = value;
 }
 
 } // namespace filament_core::jobs::model

@@ -11,29 +11,33 @@
 ///           that differ from the order of execution. This covers all behaviours of x86, and all of ARMv8 except:
 ///   Limits  a load never reads from a store that is later in its own thread's future (load buffering), and the order
 ///           of seq_cst operations is the order of execution, hence consistent with happens-before, which does not hold
-///           on POWER. No fences. 4 threads, 32 objects, 64 stores to each.
+///           on POWER. No fences. 20 threads, 416 objects, 1024 stores to each.
 ///   Thread  one.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 namespace filament_core::jobs::model {
 
-inline constexpr int kMaxThreads = 4;
-inline constexpr int kMaxLocations = 32;
-inline constexpr int kMaxStores = 63;
+inline constexpr int kMaxThreads = 20; // sixteen workers and what they work for
+inline constexpr int kMaxLocations = 416;
+inline constexpr uint32_t kMaxStores = 1024;
+
+/// A store to an object, by the order of execution.
+using StoreIndex = uint16_t;
 
 /// A thread's knowledge: by location the oldest store it may read, and by thread how far the others have come.
 struct View {
-    std::array<uint8_t, kMaxLocations> seen{};
+    std::array<StoreIndex, kMaxLocations> seen{};
     std::array<uint16_t, kMaxThreads> clock{};
 };
 
 /// The stores to pick from, newest first.
 struct Choices {
-    std::array<uint8_t, kMaxStores + 1> stores;
+    std::array<StoreIndex, kMaxStores> stores;
     uint32_t count = 0;
 };
 
@@ -48,7 +52,10 @@ constexpr bool isRelease(std::memory_order order) {
 
 class ModelMemory {
 public:
+    /// Before every run.
     void clear();
+    /// Of the run, before any of them makes a step.
+    void setThreads(int threads) { mThreads = threads; }
 
     /// `thread` < 0: before all threads. Negative if there are too many locations.
     int create(int thread, uint64_t initial);
@@ -64,12 +71,12 @@ public:
     /// The stores that a new store may directly follow in the modification order.
     Choices followable(int thread, int location, std::memory_order order) const;
     /// True if a read-modify-write may read this store.
-    bool mayBeModified(int location, uint8_t store) const;
+    bool mayBeModified(int location, StoreIndex store) const;
 
-    uint64_t load(int thread, int location, uint8_t from, std::memory_order order);
+    uint64_t load(int thread, int location, StoreIndex from, std::memory_order order);
     /// False if the location is full.
-    bool store(int thread, int location, uint8_t after, uint64_t value, std::memory_order order);
-    bool modify(int thread, int location, uint8_t from, uint64_t value, std::memory_order order);
+    bool store(int thread, int location, StoreIndex after, uint64_t value, std::memory_order order);
+    bool modify(int thread, int location, StoreIndex from, uint64_t value, std::memory_order order);
 
     /// True if a seq_cst load can read nothing but the last store.
     bool isSettled(int location) const;
@@ -81,7 +88,7 @@ public:
     bool hasUnseenStores(int thread) const;
     void seeEverything(int thread); ///< without synchronising
 
-    uint64_t value(int location, uint8_t store) const { return mLocations[location].stores[store].value; }
+    uint64_t value(int location, StoreIndex store) const { return mLocations[location].stores[store].value; }
     uint64_t latest(int location) const;
     void replaceLatest(int location, uint64_t value); ///< before and after all threads
     View const& view(int thread) const { return mViews[thread]; }
@@ -92,28 +99,32 @@ private:
         uint64_t value;
         View released; // what an acquire load that reads this store learns
         bool isModification;
+        bool isInitial = false; // its view is empty
     };
     struct Location {
-        std::array<Store, kMaxStores + 1> stores;
-        std::array<uint8_t, kMaxStores + 1> order;   // store by rank in the modification order
-        std::array<uint8_t, kMaxStores + 1> rank;    // and back
+        std::vector<Store> stores;
+        std::vector<StoreIndex> order;               // store by rank in the modification order
+        std::vector<StoreIndex> rank;                // and back
         std::array<uint16_t, kMaxThreads> touchedAt; // the last access of each thread, in its own time
         int creator;                                 // negative: before all threads
         uint16_t createdAt;
-        uint8_t count;       // of stores
-        uint8_t seqCstFloor; // the latest store that a seq_cst operation wrote or read
-        uint8_t kernelFloor; // the latest store known to a thread that was in the kernel with this word
+        StoreIndex seqCstFloor; // the latest store that a seq_cst operation wrote or read
+        StoreIndex kernelFloor; // the latest store known to a thread that was in the kernel with this word
         bool alive;
+
+        int count() const { return static_cast<int>(stores.size()); }
     };
 
-    bool insert(int thread, int location, uint8_t after, Store const& store, std::memory_order order);
-    void raise(int location, uint8_t& floor, uint8_t store) const;
+    bool insert(int thread, int location, StoreIndex after, Store const& store, std::memory_order order);
+    void raise(int location, StoreIndex& floor, StoreIndex store) const;
     void join(View& into, View const& from) const;
-    uint8_t floor(int thread, int location, std::memory_order order) const;
+    bool hasUnseenStores(int thread, int location) const;
+    StoreIndex floor(int thread, int location, std::memory_order order) const;
 
     std::array<Location, kMaxLocations> mLocations;
     std::array<View, kMaxThreads> mViews;
-    int mLocationCount = 0;
+    int mLocationCount = 0, mThreads = kMaxThreads;
+    int mLastStored = 0; // the location of the last store
 };
 
 } // namespace filament_core::jobs::model

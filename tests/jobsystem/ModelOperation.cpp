@@ -27,6 +27,7 @@ uint64_t Operation::result(uint64_t before) const {
 }
 
 bool areIndependent(Operation const& a, Operation const& b, bool settled) {
+    if (a.kind == Kind::Yield || b.kind == Kind::Yield) return true;
     if (a.kind == Kind::Pause) return onlyReads(b.kind) || b.kind == Kind::Pause;
     if (b.kind == Kind::Pause) return onlyReads(a.kind);
     if (a.location != b.location || a.location < 0) return true;
@@ -38,8 +39,8 @@ bool areIndependent(Operation const& a, Operation const& b, bool settled) {
 }
 
 const char* nameOf(Kind kind) {
-    constexpr const char* kNames[] = { "resume",  "load",   "store", "exchange",  "add",       "and",  "or",
-                                       "compare", "assume", "wait",  "notifyOne", "notifyAll", "pause" };
+    constexpr const char* kNames[] = { "resume",  "load",   "store", "exchange",  "add",       "and",   "or",
+                                       "compare", "assume", "wait",  "notifyOne", "notifyAll", "pause", "yield" };
     return kNames[static_cast<int>(kind)];
 }
 

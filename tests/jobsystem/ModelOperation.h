@@ -24,7 +24,8 @@ enum class Kind : uint8_t {
     Wait,
     NotifyOne,
     NotifyAll,
-    Pause
+    Pause,
+    Yield
 };
 
 struct Operation {
