@@ -58,7 +58,7 @@ void Scheduler::endThreads() {
     if (mBackground) mBackground->stop(); // background jobs may still need the workers and the whole system
     // Before the bell rings: a worker that is about to sleep sees one or the other (ParkingLot.h).
     mStopping.store(true, std::memory_order_seq_cst);
-    mIdle.wakeAll();
+    mWaking.idle().wakeAll();
     for (std::thread& thread : mThreads) thread.join();
 }
 
@@ -105,13 +105,7 @@ void Scheduler::runWorker(uint32_t index, std::string const& name) {
 
 void Scheduler::sleepUntilWork(Hunt& hunt) {
     stopWatching(hunt);
-    const ParkingLot::Ticket ticket = mIdle.prepare();
-    // Once more after announcing the sleep. A push from here on sees a sleeper and wakes it.
-    if (visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
-        mIdle.cancel();
-    } else {
-        mIdle.park(ticket);
-    }
+    mWaking.sleepUnless([this] { return visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst); });
     hunt.now = nanosecondsNow();
     watch(hunt);
 }
@@ -151,13 +145,7 @@ void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
 }
 
 void Scheduler::wakeSomebody(Priority priority) {
-    // A thread is looking for work, and will see this.
-    if (mWatched.load(std::memory_order_seq_cst)) return;
-    if (mIdle.hasSleepers()) {
-        mIdle.wakeOne();
-    } else {
-        wakeAWaiter(priority);
-    }
+    mWaking.wakeSomebody([&] { wakeAWaiter(priority); });
 }
 
 void Scheduler::wakeAWaiter(Priority priority) {

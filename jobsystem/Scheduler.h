@@ -2,9 +2,9 @@
 /// Scheduler: decides which thread runs which job and when; the implementation of JobSystem.
 ///   Search  own critical jobs (newest first); critical jobs of others, if there is a hint of any; own normal jobs;
 ///           then the injection queues and the deques of all others (oldest first), from a random seat on.
-///   Sleep   after a short spin, workers sleep in mIdle, and threads inside wait() at the bell of their seat. New work
-///           wakes one thread, a worker before a waiting thread; a woken thread that sees more work than it took wakes
-///           the next. The last job of a group wakes the one thread that waits for it.
+///   Sleep   after a short spin, workers sleep in mWaking, and threads inside wait() at the bell of their seat. New
+///           work wakes one thread, a worker before a waiting thread; a woken thread that sees more work than it took
+///           wakes the next. The last job of a group wakes the one thread that waits for it.
 ///   Thread  all functions: any.
 ///   Memory  SeatTable, 64 jobs of 72 bytes per seat, and 4096 more; the queues grow only for threads without a seat.
 ///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
@@ -20,6 +20,7 @@
 #include "jobsystem/JobTrace.h"
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/Seat.h"
+#include "jobsystem/Waking.h"
 
 #include <atomic>
 #include <memory>
@@ -94,9 +95,7 @@ private:
     void sleepUntilWork(Hunt& hunt);
     void enqueue(Seat* seat, Job& job, Priority priority);
     void notifyWork(Priority priority) {
-        const bool anybody = mIdle.hasSleepers() || mSleepingWaiters.load(std::memory_order_seq_cst) != 0;
-        if (anybody) [[unlikely]]
-            wakeSomebody(priority);
+        mWaking.notify([&] { wakeSomebody(priority); });
     }
     void pushBackground(Job& job);
     void endThreads();
@@ -140,9 +139,7 @@ private:
     const std::unique_ptr<JobTrace> mTrace; // null: not requested
     JobStorage mStorage;
     InjectionQueue mInjected[2]; // by priority
-    alignas(kCacheLineBytes) ParkingLot mIdle;
-    std::atomic<uint32_t> mSleepingWaiters{ 0 };
-    std::atomic<bool> mWatched{ false };               // some thread's Hunt::watches
+    alignas(kCacheLineBytes) Waking mWaking;
     alignas(kCacheLineBytes) ParkingLot mUnseatedBell; // for threads that wait without a seat
     // Set by the push of a critical job, cleared by a search that finds none. Normal work pays one load for it.
     alignas(kCacheLineBytes) std::atomic<bool> mCriticalHint{ false };

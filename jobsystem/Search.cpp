@@ -85,17 +85,14 @@ std::optional<Priority> Scheduler::visibleWork(Priority least) {
     return least == Priority::FrameCritical ? std::nullopt : seen;
 }
 
-// Once no thread watches, a push wakes one. Earlier pushes are seen by later searches, because both the
-// flag and the search are in the total order of seq_cst operations.
 void Scheduler::stopWatching(Hunt& hunt) {
-    if (hunt.watches) mWatched.store(false, std::memory_order_seq_cst);
+    if (hunt.watches) mWaking.stopWatching();
     hunt.watches = false;
 }
 
 void Scheduler::watch(Hunt& hunt) {
     hunt.passesOn = true;
-    if (!hunt.watches && !mWatched.load(std::memory_order_relaxed))
-        hunt.watches = !mWatched.exchange(true, std::memory_order_seq_cst);
+    if (!hunt.watches) hunt.watches = mWaking.watch();
 }
 
 // One wake-up may stand for several pushes: a woken thread that leaves work behind wakes the next one.

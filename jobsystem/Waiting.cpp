@@ -63,9 +63,7 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion, 
     ParkingLot& bell = seat ? seat->bell : mUnseatedBell;
     if (seat) {
         seat->waitsFor.store(static_cast<uint8_t>(least), std::memory_order_relaxed);
-        // Counted before the last look for work, as a push reads the count after it is published: one of the two sees
-        // the other.
-        mSleepingWaiters.fetch_add(1, std::memory_order_seq_cst);
+        mWaking.beginSleepInWait(); // before the last look for work
     }
     const ParkingLot::Ticket ticket = bell.prepare();
     if (!completion.announceSleeper(bell) || visibleWork(least)) {
@@ -74,7 +72,7 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion, 
         bell.park(ticket);
     }
     completion.withdrawSleeper();
-    if (seat) mSleepingWaiters.fetch_sub(1, std::memory_order_seq_cst);
+    if (seat) mWaking.endSleepInWait();
     hunt.now = 0;
     hunt.passesOn = true;
 }
