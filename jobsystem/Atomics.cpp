@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Atomics.h"
 
+#include "jobsystem/Contention.h"
+
 #include <climits>
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -18,8 +20,19 @@ void futex(std::atomic<uint32_t>& word, int operation, uint32_t value) {
 
 } // namespace
 
-void StdAtomics::wait(std::atomic<uint32_t>& word, uint32_t old) { futex(word, FUTEX_WAIT, old); }
-void StdAtomics::notifyOne(std::atomic<uint32_t>& word) { futex(word, FUTEX_WAKE, 1); }
-void StdAtomics::notifyAll(std::atomic<uint32_t>& word) { futex(word, FUTEX_WAKE, INT_MAX); }
+void StdAtomics::wait(std::atomic<uint32_t>& word, uint32_t old) {
+    count(Contention::Sleep);
+    futex(word, FUTEX_WAIT, old);
+}
+
+void StdAtomics::notifyOne(std::atomic<uint32_t>& word) {
+    count(Contention::WakeUp);
+    futex(word, FUTEX_WAKE, 1);
+}
+
+void StdAtomics::notifyAll(std::atomic<uint32_t>& word) {
+    count(Contention::WakeUp);
+    futex(word, FUTEX_WAKE, INT_MAX);
+}
 
 } // namespace filament_core::jobs

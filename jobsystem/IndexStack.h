@@ -11,6 +11,7 @@
 #pragma once
 
 #include "jobsystem/Atomics.h"
+#include "jobsystem/Contention.h"
 
 #include <atomic>
 #include <cstdint>
@@ -27,23 +28,24 @@ public:
 
     void push(uint32_t index) {
         uint64_t head = mHead.load(std::memory_order_relaxed);
-        do {
+        for (;; countLostRace<Policy>()) {
             mNext[index].store(static_cast<uint32_t>(head), std::memory_order_relaxed);
-        } while (!mHead.compare_exchange_weak(head, follow(head, index), std::memory_order_release,
-                                              std::memory_order_relaxed));
+            if (mHead.compare_exchange_weak(head, follow(head, index), std::memory_order_release,
+                                            std::memory_order_relaxed))
+                return;
+        }
     }
 
     uint32_t pop() {
         uint64_t head = mHead.load(std::memory_order_acquire);
-        uint32_t index = kNone;
-        uint32_t next = kNone;
-        do {
-            index = static_cast<uint32_t>(head);
+        for (;; countLostRace<Policy>()) {
+            const auto index = static_cast<uint32_t>(head);
             if (index == kNone) return kNone;
-            next = mNext[index].load(std::memory_order_relaxed);
-        } while (!mHead.compare_exchange_weak(head, follow(head, next), std::memory_order_acquire,
-                                              std::memory_order_acquire));
-        return index;
+            const uint32_t next = mNext[index].load(std::memory_order_relaxed);
+            if (mHead.compare_exchange_weak(head, follow(head, next), std::memory_order_acquire,
+                                            std::memory_order_acquire))
+                return index;
+        }
     }
 
 private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/JobStorage.h"
 
+#include "jobsystem/Contention.h"
+
 namespace filament_core::jobs {
 
 JobStorage::JobStorage(uint32_t capacity)
@@ -15,12 +17,14 @@ JobStorage::JobStorage(uint32_t capacity)
 }
 
 void JobStorage::refill(Cache& cache) {
+    count(Contention::SharedPool);
     for (uint32_t job = mBatches.pop(); job != kNone; job = mNextInBatch[job].load(std::memory_order_relaxed)) {
         cache.free[cache.count++] = job;
     }
 }
 
 void JobStorage::flush(Cache& cache) {
+    count(Contention::SharedPool);
     // Evict the jobs released longest ago, so that the next allocation is still warm in this core's cache.
     for (uint32_t i = 0; i + 1 < kBatch; ++i) {
         mNextInBatch[cache.free[i]].store(cache.free[i + 1], std::memory_order_relaxed);

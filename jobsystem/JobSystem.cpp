@@ -20,6 +20,8 @@ uint32_t JobSystem::workerCount() const { return mScheduler->workerCount(); }
 uint64_t JobSystem::busyNanoseconds() const { return mScheduler->busyNanoseconds(); }
 JobTrace* JobSystem::trace() const { return mScheduler->trace(); }
 
+ContentionCounts contentionOf(JobSystem& jobs) { return jobs.scheduler().contention(); }
+
 AdoptedThread::AdoptedThread(Scheduler& scheduler) : mSeat(scheduler.adoptThread()) {}
 AdoptedThread::~AdoptedThread() {
     if (mSeat) mSeat->scheduler->releaseThread(*mSeat);

@@ -68,6 +68,15 @@ uint64_t Scheduler::busyNanoseconds() {
     return sum;
 }
 
+ContentionCounts Scheduler::contention() {
+    ContentionCounts sum;
+    for (uint32_t seat = 0, end = mSeats.inUse(); seat < end; ++seat) {
+        for (size_t kind = 0; kind < kContentionKinds; ++kind)
+            sum.by[kind] += mSeats[seat].contention.by[kind].load(std::memory_order_relaxed);
+    }
+    return sum;
+}
+
 Seat* Scheduler::adoptThread() {
     if (workerCount() == 0 || tThread.seatOf(*this) || tThread.background == mBackground.get()) return nullptr;
     Seat* seat = mSeats.sitDown();

@@ -43,6 +43,7 @@ public:
     /// 0 also if the operating system refuses every thread.
     uint32_t workerCount() const { return mHasWorkers ? mSeats.workers() : 0; }
     uint64_t busyNanoseconds();
+    ContentionCounts contention();
 
     /// An empty job, or null: there are no workers, or no free job.
     Job* allocate(Priority priority);

@@ -4,12 +4,13 @@
 /// ThreadState: what the job system knows about the calling thread.
 ///   Thread  any thread may steal from a seat's deques, ring its bell and read `waitsFor`; the rest belongs to its
 ///           occupant. SeatTable: any.
-///   Memory  11 KiB per seat.
+///   Memory  11 KiB per seat, in cache lines of its own.
 ///   Limits  kGuestSeats threads besides the workers.
 ///   Fails   sitDown() returns null when every guest seat is taken.
 #pragma once
 
 #include "jobsystem/Completion.h"
+#include "jobsystem/Contention.h"
 #include "jobsystem/Job.h"
 #include "jobsystem/JobStorage.h"
 #include "jobsystem/ParkingLot.h"
@@ -42,7 +43,13 @@ struct alignas(kCacheLineBytes) Seat {
     alignas(kCacheLineBytes) ParkingLot bell;     ///< rung when the group waited for is done, or when there is work
     std::atomic<uint8_t> waitsFor{ kNotWaiting }; ///< priority of the group whose wait() may sleep
     std::atomic<bool> taken{ false };
+
+    ContentionCells contention; ///< written by the occupant; survives it
 };
+
+// What one thread writes often and others read lies in lines of its own.
+static_assert(alignof(WorkStealingDeque<Job, 256>) == kCacheLineBytes && alignof(ContentionCells) == kCacheLineBytes);
+static_assert(alignof(Seat) == kCacheLineBytes && sizeof(Seat) % kCacheLineBytes == 0);
 
 class SeatTable {
 public:
@@ -65,8 +72,8 @@ private:
 
     const uint32_t mWorkers;
     std::unique_ptr<Seat[]> mSeats;
-    std::atomic<uint32_t> mInUse;
-    std::atomic<Occupant> mLastOccupant;
+    std::atomic<uint32_t> mInUse;                                 // read by every search
+    alignas(kCacheLineBytes) std::atomic<Occupant> mLastOccupant; // written by every thread that sits down
 };
 
 struct ThreadState {

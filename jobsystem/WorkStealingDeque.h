@@ -13,6 +13,7 @@
 #pragma once
 
 #include "jobsystem/Atomics.h"
+#include "jobsystem/Contention.h"
 #include "jobsystem/Job.h"
 
 #include <array>
@@ -58,6 +59,7 @@ public:
             // outdated by then fails the claim.
             T* item = slot(top).load(std::memory_order_relaxed);
             if (mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) return item;
+            countLostRace<Policy>();
         }
         return nullptr;
     }
@@ -81,7 +83,9 @@ private:
     // The thread that moves top owns the item.
     T* claim(int64_t top) {
         T* item = slot(top).load(std::memory_order_relaxed);
-        return mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst) ? item : nullptr;
+        if (mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) return item;
+        countLostRace<Policy>();
+        return nullptr;
     }
 
     Atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }

@@ -122,6 +122,14 @@ nlohmann::json jsonOf(Measured const& measured) {
     return json;
 }
 
+Result<void> write(std::filesystem::path const& path, nlohmann::json const& json) {
+    std::ofstream file(path);
+    file << json.dump(1) << '\n';
+    file.close();
+    if (!file) return fail(ErrorCode::Unreadable, "{}: cannot be written; is the directory there?", path.string());
+    return {};
+}
+
 } // namespace
 
 void printMachine(MachineDescription const& machine, Settings const& settings) {
@@ -164,11 +172,23 @@ Result<void> writeJson(std::filesystem::path const& path, MachineDescription con
                          { "quick", settings.quick },      { "workloads", nlohmann::json::array() } };
     for (auto const& [name, value] : machine) json["machine"][name] = value;
     for (Measured const& measured : results) json["workloads"].push_back(jsonOf(measured));
-    std::ofstream file(path);
-    file << json.dump(1) << '\n';
-    file.close();
-    if (!file) return fail(ErrorCode::Unreadable, "{}: cannot be written; is the directory there?", path.string());
-    return {};
+    return write(path, json);
+}
+
+Result<void> writeJson(std::filesystem::path const& path, MachineDescription const& machine,
+                       std::span<const ContentionRow> rows) {
+    nlohmann::json json{ { "program", "threading_bench" },
+                         { "version", 1 },
+                         { "contention", nlohmann::json::array() } };
+    for (auto const& [name, value] : machine) json["machine"][name] = value;
+    for (ContentionRow const& row : rows) {
+        nlohmann::json counts;
+        for (size_t kind = 0; kind < jobs::kContentionKinds; ++kind)
+            counts[jobs::nameOf(static_cast<jobs::Contention>(kind))] = row.counts.by[kind];
+        json["contention"].push_back(
+                { { "work", row.workload }, { "workers", row.workers }, { "jobs", row.jobs }, { "counts", counts } });
+    }
+    return write(path, json);
 }
 
 } // namespace filament_core::bench

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Result.h"
+#include "bench/threading/Contention.h"
 #include "bench/threading/Workload.h"
 
 #include <filesystem>
@@ -32,5 +33,7 @@ private:
 
 Result<void> writeJson(std::filesystem::path const& path, MachineDescription const& machine, Settings const& settings,
                        std::span<const Measured> results);
+Result<void> writeJson(std::filesystem::path const& path, MachineDescription const& machine,
+                       std::span<const ContentionRow> rows);
 
 } // namespace filament_core::bench

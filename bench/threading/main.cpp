@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // threading_bench [--filter REGEX] [--rounds N] [--workers N] [--json FILE] [--plot FILE] [--quick] [--list]
+//                 [--contention]
 // Compares the job system with oneTBB, OpenMP, std::async and a serial loop, measured in turns. README.md says how to
 // read the results.
 // Google Benchmark registers, filters and runs. A workload is one benchmark, and each of its iterations is a round:
 // every contender once, in order, timed separately. (Google Benchmark's random interleaving shuffles whole repetitions;
 // figures of different contenders would not belong together, and ratios within a round could not be formed.)
+#include "bench/threading/Contention.h"
 #include "bench/threading/Placement.h"
 #include "bench/threading/Report.h"
 #include "bench/threading/Workloads.h"
@@ -30,7 +32,7 @@ struct Options {
     Settings settings;
     std::string filter = ".";
     std::string json, plot;
-    bool list = false;
+    bool list = false, contention = false;
 };
 
 /// A terminal line that is overwritten; prints nothing if the output is not a terminal.
@@ -84,11 +86,11 @@ void runWorkload(benchmark::State& state, WorkloadEntry const& entry, Settings c
 }
 
 /// tools/plot draws FILE.json. Its messages go to the same streams as ours.
-bool plot(std::string const& json, std::string const& picture) {
+bool plot(std::string const& json, std::string const& picture, const char* what = "bench") {
     const std::string python = tools::plotPython(), script = tools::sourceDir() / "tools/plot/plot.py";
     const pid_t child = fork();
     if (child == 0) {
-        execl(python.c_str(), python.c_str(), script.c_str(), "bench", json.c_str(), "-o", picture.c_str(), nullptr);
+        execl(python.c_str(), python.c_str(), script.c_str(), what, json.c_str(), "-o", picture.c_str(), nullptr);
         _exit(127);
     }
     int status = -1;
@@ -113,6 +115,19 @@ int finish(Options const& options, MachineDescription const& machine, Reporter c
     return 1;
 }
 
+int runContention(Options const& options, MachineDescription const& machine) {
+    const std::vector<ContentionRow> rows = measureContention(options.settings.quick);
+    if (options.json.empty() && options.plot.empty()) return 0;
+    const std::string json = options.json.empty() ? options.plot + ".json" : options.json;
+    if (Result<void> written = writeJson(json, machine, rows); !written) {
+        fmt::print(stderr, "threading_bench: error: {}\n", written.error().message);
+        return 1;
+    }
+    if (options.plot.empty() || plot(json, options.plot, "contention")) return 0;
+    fmt::print(stderr, "threading_bench: error: no plot; the counts are in {}\n", json);
+    return 1;
+}
+
 int run(Options const& options) {
     Reporter reporter;
     const WorkloadList workloads = allWorkloads(options.settings);
@@ -128,6 +143,7 @@ int run(Options const& options) {
     }
     MachineDescription machine = tools::machineFacts();
     machine.emplace_back("allowed", fmt::format("cores {}", fmt::join(allowedCores(), ",")));
+    if (options.contention) return runContention(options, machine);
     printMachine(machine, options.settings);
     benchmark::RunSpecifiedBenchmarks(&reporter, options.filter);
     return finish(options, machine, reporter);
@@ -148,6 +164,8 @@ int main(int argc, char** argv) {
     app.option("--json", options.json, "write all figures to this file");
     app.option("--plot", options.plot, "draw the figures into this .png or .svg (tools/plot)");
     app.flag("--quick", settings.quick, "three rounds of small sizes: takes seconds, only tests that it works");
+    app.flag("--contention", options.contention,
+             "instead: count what threads do to each other, by job, with 1 to 16 workers");
     app.flag("--list", options.list, "list the workloads and exit");
     if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
     settings.threads = static_cast<unsigned>(workers) + 1;

@@ -4,6 +4,7 @@
 
   plot.py bench   FILE.json  -o OUT   all figures of threading_bench --json: costs, wake-ups, scaling, frames
   plot.py scaling FILE.json  -o OUT   only their growth with workers and renderables
+  plot.py contention FILE.json -o OUT  counts by job over workers: threading_bench --contention --json
   plot.py jobs    TRACE.json -o OUT   timeline of the threads: a Chrome trace-event file from --trace-jobs
   plot.py materials FILE.json -o OUT  cost of the terms of a material: material_bench --json
   plot.py scale FILE.json -o OUT      time and memory over counts: scale_bench --json
@@ -27,6 +28,7 @@ import matplotlib.pyplot as plt
 import accuracy_page
 import accuracy_plot
 import bench_plot
+import contention_plot
 import jobs_plot
 import materials_plot
 import scale_plot
@@ -58,7 +60,8 @@ def parse_arguments(words):
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, help_text in (("bench", "all figures of threading_bench"), ("scaling", "scaling figures only"),
                             ("jobs", "a timeline of jobs"), ("materials", "what the terms of a material cost"),
-                            ("scale", "time and memory over counts")):
+                            ("scale", "time and memory over counts"),
+                            ("contention", "counts by job over workers")):
         command = commands.add_parser(name, help=help_text)
         command.add_argument("input", type=pathlib.Path, metavar="FILE.json")
         command.add_argument("-o", "--output", type=output_path, required=True, metavar="OUT")
@@ -97,6 +100,8 @@ def draw(arguments):
         return materials_plot.draw(arguments.input, arguments.title)
     if arguments.command == "scale":
         return scale_plot.draw(arguments.input, arguments.title)
+    if arguments.command == "contention":
+        return contention_plot.draw(arguments.input, arguments.title)
     return bench_plot.draw(arguments.input, arguments.title, only_scaling=arguments.command == "scaling")
 
 
