@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Scheduler: decides which thread runs which job and when; the implementation of JobSystem.
 ///   Search  own critical jobs (newest first); critical jobs of others, if there is a hint of any; own normal jobs;
-///           then the injection queues and the deques of all others (oldest first), from a random seat on.
+///           then the injection queues and the deques of others (oldest first): where it saw work last, and a few more.
 ///   Sleep   after a short spin, workers sleep in mWaking, and threads inside wait() at the bell of their seat. New
 ///           work wakes one thread, a worker before a waiting thread; a woken thread that sees more work than it took
 ///           wakes the next. The last job of a group wakes the one thread that waits for it.
@@ -124,6 +124,8 @@ private:
     Found stealNormal(Seat* thief, Patience& patience);
     template <class Visit>
     Job* visitOthers(Seat* thief, Visit&& visit);
+    template <class Visit>
+    Job* visitSome(Seat& thief, Visit&& visit);
     std::optional<Priority> visibleWork(Priority least);
     Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, Hunt& hunt);
     void watch(Hunt& hunt);

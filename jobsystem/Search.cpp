@@ -5,12 +5,22 @@
 namespace filament_core::jobs {
 namespace {
 
+constexpr uint32_t kVictims = 4; // of a look, besides the favourite
+
 // Marsaglia 2003, "Xorshift RNGs": period 2^32 - 1. The first victim affects only the speed.
 uint32_t nextRandom(uint32_t& state) {
     state ^= state << 13;
     state ^= state >> 17;
     state ^= state << 5;
     return state;
+}
+
+template <class Deque>
+Job* steal(Deque& deque) {
+    count(Contention::StealTry);
+    Job* job = deque.steal();
+    if (job) count(Contention::Steal);
+    return job;
 }
 
 } // namespace
@@ -45,7 +55,9 @@ Scheduler::Found Scheduler::searchCritical(Seat* thief) {
 }
 
 Scheduler::Found Scheduler::popInjected(Priority priority) {
-    return { mInjected[static_cast<int>(priority)].pop(), priority, true };
+    Job* job = mInjected[static_cast<int>(priority)].pop();
+    if (job) count(Contention::SharedQueue);
+    return { job, priority, true };
 }
 
 /// Calls visit(seat) for all other seats in use, starting at a random one, until it returns a job.
@@ -56,25 +68,54 @@ Job* Scheduler::visitOthers(Seat* thief, Visit&& visit) {
     for (uint32_t i = 0; i < seats; ++i) {
         Seat& victim = mSeats[start + i < seats ? start + i : start + i - seats];
         if (&victim == thief) continue;
-        if (Job* job = visit(victim)) return job;
+        if (Job* job = visit(victim)) {
+            count(Contention::Look, i + 1);
+            return job;
+        }
     }
+    count(Contention::Look, seats);
+    return nullptr;
+}
+
+/// Calls visit(seat) for the thief's favourite and for kVictims random neighbours, until it returns a job.
+template <class Visit>
+Job* Scheduler::visitSome(Seat& thief, Visit&& visit) {
+    const uint32_t seats = mSeats.inUse();
+    const uint32_t favourite = thief.favourite, start = nextRandom(thief.random) % seats;
+    for (uint32_t i = 0; i <= kVictims; ++i) {
+        const uint32_t at = i == 0 ? favourite : (start + i) % seats;
+        Seat& victim = mSeats[at];
+        if (&victim == &thief || (i > 0 && at == favourite)) continue;
+        if (Job* job = visit(victim)) {
+            count(Contention::Look, i + 1);
+            return job;
+        }
+    }
+    count(Contention::Look, kVictims + 1);
     return nullptr;
 }
 
 Scheduler::Found Scheduler::stealCritical(Seat* thief) {
-    return { visitOthers(thief, [](Seat& victim) { return victim.critical.steal(); }), Priority::FrameCritical, true };
+    const auto stealIfAny = [](Seat& victim) { return victim.critical.isEmpty() ? nullptr : steal(victim.critical); };
+    return { visitOthers(thief, stealIfAny), Priority::FrameCritical, true };
 }
 
+// Where work was seen last, and a few more: a look at all seats would cost their owners more cache lines the more seats
+// there are. What is missed is found by a later look, or by the last one before the thread sleeps, which sees all.
 Scheduler::Found Scheduler::stealNormal(Seat* thief, Patience& patience) {
-    const auto stealWhatStayed = [&](Seat& victim) {
+    const auto stealWhatStayed = [&](Seat& victim) -> Job* {
         const auto items = victim.normal.extent();
-        const bool take = !items.isEmpty() && patience.isStillThere(&victim, items.oldest, items.end);
-        return take ? victim.normal.steal() : nullptr;
+        if (items.isEmpty()) return nullptr;
+        if (thief) thief->favourite = mSeats.indexOf(victim);
+        return patience.isStillThere(&victim, items.oldest, items.end) ? steal(victim.normal) : nullptr;
     };
-    return { visitOthers(thief, stealWhatStayed), Priority::Normal, true };
+    Job* job = thief && mSeats.inUse() > kVictims + 1 ? visitSome(*thief, stealWhatStayed)
+                                                      : visitOthers(thief, stealWhatStayed);
+    return { job, Priority::Normal, true };
 }
 
 std::optional<Priority> Scheduler::visibleWork(Priority least) {
+    count(Contention::Look, mSeats.inUse());
     std::optional<Priority> seen;
     if (!mInjected[0].isEmpty()) return Priority::FrameCritical;
     if (!mInjected[1].isEmpty()) seen = Priority::Normal;

@@ -37,7 +37,8 @@ struct alignas(kCacheLineBytes) Seat {
     Seat* outer = nullptr; ///< the seat of the same thread in another system, further down its stack
     Occupant occupant = 0;
     Patience patience;
-    uint32_t random = 0; ///< state of the victim generator, not 0
+    uint32_t random = 0;    ///< state of the victim generator, not 0
+    uint32_t favourite = 0; ///< the seat where the occupant saw work last
     std::atomic<uint64_t> busyNanoseconds{ 0 };
 
     alignas(kCacheLineBytes) ParkingLot bell;     ///< rung when the group waited for is done, or when there is work

@@ -4,11 +4,17 @@
 #include <algorithm>
 
 namespace filament_core::jobs::model {
+namespace {
+
+constexpr uint32_t kVictims = 4;
+
+} // namespace
 
 ModelSystem::ModelSystem(SystemPlan const& plan)
         : mPlan(plan), mInUse(static_cast<uint32_t>(plan.workers)), mLastOccupant(static_cast<Occupant>(plan.workers)) {
     for (int i = 0; i < plan.workers + plan.guests; ++i) {
         Seat& seat = mSeats.emplace_back();
+        seat.random = static_cast<uint32_t>(i);
         if (i < plan.workers) seat.occupant = static_cast<Occupant>(i) + 1;
     }
     for (int i = 0; i < plan.guests; ++i) {
@@ -194,23 +200,46 @@ ModelSystem::Found ModelSystem::searchOthers(Seat& thief, Priority least) {
         if (const Found found = searchCritical(thief)) return found;
     }
     if (least == Priority::FrameCritical && mPlan.defect != Defect::WaitsRunAnything) return {};
-    return { visitOthers(thief,
-                         [&](Seat& victim) -> Task* {
-                             const auto items = victim.normal.extent();
-                             const bool take =
-                                     !items.isEmpty() && thief.patience.isStillThere(&victim, items.oldest, items.end);
-                             if (!take) return nullptr;
-                             ++CountingAtomics::counts.stealTries;
-                             Task* task = victim.normal.steal();
-                             if (task) ++CountingAtomics::counts.steals;
-                             return task;
-                         }),
-             true };
+    const auto visit = [&](Seat& victim) { return stealWhatStayed(thief, victim); };
+    const bool areMany = mInUse.load(std::memory_order_seq_cst) > kVictims + 1;
+    return { areMany ? visitSome(thief, visit) : visitOthers(thief, visit), true };
+}
+
+ModelSystem::Task* ModelSystem::stealWhatStayed(Seat& thief, Seat& victim) {
+    const auto items = victim.normal.extent();
+    if (items.isEmpty()) return nullptr;
+    for (uint32_t i = 0; i < mSeats.size(); ++i) {
+        if (&mSeats[i] == &victim) thief.favourite = i;
+    }
+    if (!thief.patience.isStillThere(&victim, items.oldest, items.end)) return nullptr;
+    ++CountingAtomics::counts.stealTries;
+    Task* task = victim.normal.steal();
+    if (task) ++CountingAtomics::counts.steals;
+    return task;
+}
+
+template <class Visit>
+ModelSystem::Task* ModelSystem::visitSome(Seat& thief, Visit&& visit) {
+    const uint32_t seats = mInUse.load(std::memory_order_seq_cst);
+    const uint32_t favourite = thief.favourite;
+    thief.random = thief.random * 1664525 + 1013904223; // Knuth and Lewis, in "Numerical Recipes" 1992, 7.1
+    const uint32_t start = (thief.random >> 16) % seats;
+    for (uint32_t i = 0; i <= kVictims; ++i) {
+        const uint32_t at = i == 0 ? favourite : (start + i) % seats;
+        Seat& victim = mSeats[at];
+        if (&victim == &thief || (i > 0 && at == favourite)) continue;
+        ++CountingAtomics::counts.looks;
+        if (Task* task = visit(victim)) return task;
+    }
+    return nullptr;
 }
 
 ModelSystem::Found ModelSystem::searchCritical(Seat& thief) {
     if (mCriticalHint.load(std::memory_order_relaxed)) mCriticalHint.exchange(false, std::memory_order_seq_cst);
-    const Found found{ visitOthers(thief, [](Seat& victim) { return victim.critical.steal(); }), true };
+    const Found found{
+        visitOthers(thief, [](Seat& victim) { return victim.critical.isEmpty() ? nullptr : victim.critical.steal(); }),
+        true
+    };
     if (found) mCriticalHint.store(true, std::memory_order_seq_cst);
     return found;
 }

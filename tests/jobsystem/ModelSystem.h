@@ -54,6 +54,7 @@ struct SystemCounts {
 struct CountingAtomics : ModelAtomics {
     static inline SystemCounts counts;
 
+    static void lostRace() { ++counts.lostRaces; }
     static void wait(Atomic<uint32_t>& word, uint32_t old) {
         ++counts.sleeps;
         ModelAtomics::wait(word, old);
@@ -94,6 +95,7 @@ private:
         Occupant occupant = 0;
         Plain<int> visits; // written by each occupant: seats pass from thread to thread
         Patience patience;
+        uint32_t random = 0, favourite = 0;
     };
     struct Guest {
         std::optional<Group> normal, critical;
@@ -130,6 +132,9 @@ private:
     Found searchCritical(Seat& thief);
     template <class Visit>
     Task* visitOthers(Seat& thief, Visit&& visit);
+    template <class Visit>
+    Task* visitSome(Seat& thief, Visit&& visit);
+    Task* stealWhatStayed(Seat& thief, Seat& victim);
     std::optional<Priority> visibleWork(Priority least);
     Found spin(Seat& seat, Priority least, Group const* until, Hunt& hunt);
     void watch(Hunt& hunt);

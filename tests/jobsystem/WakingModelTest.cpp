@@ -139,5 +139,31 @@ TEST(WakingModel, DefectsThatManyWorkersHideAreFoundInLongerRuns) {
     }
 }
 
+// ---------------------------------------------------------------------------------------------- contention
+
+// On as many cores as threads: in walks, all threads advance about as fast. Sixteen workers may cost a job more than
+// four do, but not four times as much.
+TEST(WakingModel, WhatThreadsDoToEachOtherByJobGrowsLessThanTheWorkers) {
+    const auto countsOf = [](int workers) {
+        CountingAtomics::counts = {};
+        const SystemPlan plan{ .workers = workers, .guests = 2, .jobs = 4, .rounds = 2, .meet = false };
+        EXPECT_EQ(firstLineOf(check(plan, randomRuns(20)).failure), "");
+        SystemCounts const& counts = CountingAtomics::counts;
+        const auto byJob = [&](uint64_t n) { return static_cast<double>(n) / static_cast<double>(counts.jobs); };
+        std::printf("[ COUNTED  ] %2d workers, by job: %.2f lost races, %.1f looks, %.2f steal tries, %.2f steals, "
+                    "%.2f wake-ups, %.2f sleeps\n",
+                    workers, byJob(counts.lostRaces), byJob(counts.looks), byJob(counts.stealTries),
+                    byJob(counts.steals), byJob(counts.wakeUps), byJob(counts.sleeps));
+        return counts;
+    };
+    for (const int workers : { 1, 2 }) countsOf(workers);
+    const SystemCounts four = countsOf(4);
+    countsOf(8);
+    const SystemCounts sixteen = countsOf(16);
+    EXPECT_LT(sixteen.looks, 4 * four.looks);
+    EXPECT_LT(sixteen.wakeUps, 4 * four.wakeUps);
+    EXPECT_LT(sixteen.lostRaces, 4 * four.lostRaces + four.jobs);
+}
+
 } // namespace
 } // namespace filament_core::jobs::model::waking
