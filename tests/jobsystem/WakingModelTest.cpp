@@ -127,18 +127,6 @@ TEST(WakingModel, AJobThatIsStolenTwiceOrByTheWrongThreadIsFoundAmongSixteenWork
               "");
 }
 
-// Among sixteen workers, fifteen may still hear what one has missed: such a defect needs many runs.
-TEST(WakingModel, DefectsThatManyWorkersHideAreFoundInLongerRuns) {
-    if (stressFactor() == 0) GTEST_SKIP() << "minutes: set FILAMENT_STRESS=1";
-    EXPECT_EQ(findingOf({ "a watcher that sleeps", meeting(16, Defect::WatchesInItsSleep) }, 10'000), kLost);
-    for (Seeded seeded : kMissingFences) {
-        seeded.plan = meeting(8);
-        EXPECT_EQ(findingOf(seeded, 10'000), kLost);
-        seeded.plan = meeting(16);
-        EXPECT_EQ(findingOf(seeded, 10'000), kLost);
-    }
-}
-
 // ---------------------------------------------------------------------------------------------- contention
 
 // On as many cores as threads: in walks, all threads advance about as fast. Sixteen workers may cost a job more than
