@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// api_bench [--frames N] [--size WxH] [--only TEXT] [--api NAME]: the same frames on Vulkan and OpenGL ES in turns, first
-// one, then the other first. The ratio of wall time and that of processor time are medians of the pairs, with the interval
-// in which the true median lies with 95 % certainty. With --api only that API draws, for profilers.
+// api_bench [--frames N] [--size WxH] [--only TEXT] [--api NAME]: the same frames on Vulkan and OpenGL ES in turns,
+// first one, then the other first. The ratio of wall time and that of processor time are medians of the pairs, with the
+// interval in which the true median lies with 95 % certainty. With --api only that API draws, for profilers.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
 #include "toolkit/paths/Paths.h"
