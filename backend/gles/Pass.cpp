@@ -30,12 +30,22 @@ void Pass::begin(PassDesc const& desc) {
     if (!isUsable()) return;
     ContextState& state = mDevice.state;
     state.bindFramebuffers(mFramebuffer, mFramebuffer);
-    state.setScissor(desc.area);
-    state.setViewport({ static_cast<float>(desc.area.x), static_cast<float>(desc.area.y),
-                        static_cast<float>(desc.area.width), static_cast<float>(desc.area.height) });
+    coverArea();
     // At the start: a tiled device then need not load what is discarded.
     invalidate(discardedByLoad());
     clear();
+}
+
+void Pass::nextSubpass() {
+    ++mSubpass;
+    if (isUsable()) coverArea();
+}
+
+void Pass::coverArea() {
+    Rect const& area = mDesc.area;
+    mDevice.state.setScissor(area);
+    mDevice.state.setViewport({ static_cast<float>(area.x), static_cast<float>(area.y), static_cast<float>(area.width),
+                                static_cast<float>(area.height) });
 }
 
 void Pass::end() {

@@ -16,7 +16,7 @@ public:
     Pass(Device& device, Textures const& textures, Framebuffers& framebuffers);
 
     void begin(PassDesc const& desc);
-    void nextSubpass() { ++mSubpass; }
+    void nextSubpass();
     void end();
 
     bool isOpen() const { return mOpen; }
@@ -36,6 +36,7 @@ private:
     bool add(FramebufferKey& key, Attachment const& attachment, bool isDepth);
     GLenum depthPoint() const;
     void clear();
+    void coverArea(); ///< by viewport and scissor
     void clearColor(uint32_t index);
     void clearDepth();
     void invalidate(Points const& points);

@@ -391,10 +391,15 @@ Merged makeMerged(Gpu& gpu, Format format, bool transient) {
     return merged;
 }
 
-void recordMerged(Gpu& gpu, Merged const& merged) {
+/// `scissor`: of another draw in the first subpass.
+void recordMerged(Gpu& gpu, Merged const& merged, std::optional<Rect> scissor = {}) {
     gpu.record(CmdBeginPass{ merged.pass });
     gpu.record(CmdBindPipeline{ merged.draw });
     gpu.record(CmdDraw{ .vertexCount = 3 });
+    if (scissor) {
+        gpu.record(CmdSetScissor{ *scissor });
+        gpu.record(CmdDraw{ .vertexCount = 3 });
+    }
     gpu.record(CmdNextSubpass{});
     gpu.record(CmdBindPipeline{ merged.read });
     gpu.record(CmdBindGroup{ .group = merged.group, .index = 1 });
@@ -414,6 +419,17 @@ DRIVER_TEST(Pass, ALaterSubpassReadsTheSamePixelOfAnEarlierOne) {
                 ASSERT_EQ(texels[i], expected) << i;
             }
         }
+    }
+}
+
+DRIVER_TEST(Pass, ALaterSubpassIsNotCutByTheScissorOfAnEarlierOne) {
+    if (!gpu.info().features.mergedPasses) GTEST_SKIP() << "this device cannot merge passes";
+    const Merged merged = makeMerged(gpu, Format::RGBA16F, true);
+    recordMerged(gpu, merged, Rect{ 1, 1, 2, 2 });
+    const std::vector<Rgba> texels = gpu.readAs<Rgba>(merged.second, { 0, 0, 6, 4 });
+    for (uint32_t i = 0; i < texels.size(); ++i) {
+        const Rgba expected{ static_cast<float>(i % 6) * 0.5f, static_cast<float>(i / 6) * 0.5f, 2, 2 };
+        ASSERT_EQ(texels[i], expected) << i;
     }
 }
 
