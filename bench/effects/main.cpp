@@ -207,6 +207,7 @@ void addAntiAliasing(std::vector<Pair>& all, const char* file) {
     };
     const auto off = smoothed(AntiAliasing::Off), taa = smoothed(AntiAliasing::Taa);
     all.push_back({ "fxaa", file, off, smoothed(AntiAliasing::Fxaa) });
+    all.push_back({ "sraa", file, off, smoothed(AntiAliasing::Sraa) });
     all.push_back({ "taa", file, off, taa });
     all.push_back(
             { .name = "taa, and the model turns", .file = file, .plain = off, .effect = taa, .moving = Moving::Model });

@@ -149,6 +149,7 @@ struct Renderer::Impl final : engine::Dependent {
     prepare::ViewInput inputFor(Scene const& scene, View const& view, Effects effects, bool hasDepthTarget) const {
         effects.resolution.scale = shares.scale(effects.resolution);
         prepare::ViewInput input = prepare::viewInput(view, effects, contentsOf(scene));
+        input.maxTextureSize = engine.device.maxTextureSize;
         const auto looksBeside = [&] {
             return prepare::looksBesidePicture(scene.impl().upToDate(), input.quality, effects);
         };

@@ -82,23 +82,25 @@ PassSlot depthSlot(DepthRange range, ShadingKey shading) {
     return slot;
 }
 
-void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    if (!context.packet.demand.needs(prepare::Effect::DepthPrepass)) return;
-    prepare::FrameSettings const& settings = context.settings();
-    const framegraph::GraphTextureDesc desc{
-        .width = settings.size.x, .height = settings.size.y, .format = Format::D32F, .name = "depth"
-    };
-    targets.depth = targets.prepassDepth = graph.createTexture(desc);
+TextureId addDepthOfView(FrameGraph& graph, FrameContext const& context, uint2 size, std::string_view name) {
+    const framegraph::GraphTextureDesc desc{ .width = size.x, .height = size.y, .format = Format::D32F, .name = name };
+    const TextureId depth = graph.createTexture(desc);
     graph.addPass(
-            "depth",
+            name,
             [&](PassBuilder& pass) {
-                pass.writeDepth(targets.depth,
-                                { .clear = settings.quality.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
+                const bool isReversed = context.settings().quality.depthRange == DepthRange::Reversed;
+                pass.writeDepth(depth, { .clear = isReversed ? 0.0f : 1.0f });
             },
             [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
                 return chooseDepths(pass, *of, target);
             },
             [of = &context](PassContext& pass, ChosenDraws const& chosen) { recordDepths(pass, *of, chosen); });
+    return depth;
+}
+
+void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::DepthPrepass)) return;
+    targets.depth = targets.prepassDepth = addDepthOfView(graph, context, context.settings().size, "depth");
     if (isDistanceRead(context.packet.demand)) addDistances(graph, context, targets);
 }
 

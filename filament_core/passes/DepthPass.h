@@ -22,6 +22,10 @@ PassSlot depthSlot(DepthRange range, ShadingKey shading);
 /// if there are several.
 uint8_t pyramidLevels(uint2 view);
 
+/// A pass that draws the opaque list of the main view to depth, in an image of `size` pixels.
+framegraph::TextureId addDepthOfView(framegraph::FrameGraph& graph, FrameContext const& context, uint2 size,
+                                     std::string_view name);
+
 void addDepthPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 } // namespace filament_core::passes

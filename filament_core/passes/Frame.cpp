@@ -16,6 +16,7 @@
 #include "filament_core/passes/MotionBlurPass.h"
 #include "filament_core/passes/MotionPass.h"
 #include "filament_core/passes/PostProcessPass.h"
+#include "filament_core/passes/ReconstructionPass.h"
 #include "filament_core/passes/SceneColorCopyPass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/TargetMips.h"
@@ -95,6 +96,7 @@ void addSurfacePasses(FrameGraph& graph, FrameContext const& context, FrameTarge
         addAmbientOcclusionPass(graph, context, targets);
         addReflectedSceneColor(graph, context, targets);
         addColorPass(graph, context, targets);
+        addReconstructionPasses(graph, context, targets);
     }
     if (prepare::showsEdges(shown)) addTrianglePass(graph, context, targets);
 }

@@ -182,6 +182,14 @@ void draw(CommandBuffer& commands, FrameContext const& context, std::span<const 
 
 } // namespace
 
+std::array<Rect, 4> rectsAround(Rect const& inside, uint2 size) {
+    const auto x = static_cast<uint32_t>(inside.x), y = static_cast<uint32_t>(inside.y);
+    const uint32_t right = x + inside.width, below = y + inside.height;
+    return { Rect{ 0, 0, size.x, y }, Rect{ 0, inside.y, x, inside.height },
+             Rect{ static_cast<int32_t>(right), inside.y, size.x - right, inside.height },
+             Rect{ 0, static_cast<int32_t>(below), size.x, size.y - below } };
+}
+
 framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& context, FullScreenPass const& pass) {
     const Declared declared{ &pass.material, boundInputs(graph.arena(), pass),
                              declareParts(graph.arena(), context, pass),

@@ -63,6 +63,9 @@ struct FullScreenTile {
     scene::Material const* material = nullptr; ///< none: that of the pass; otherwise one of the same package
 };
 
+/// The pixels of a target around `inside`, which lies in it; some rectangles may be empty.
+std::array<backend::Rect, 4> rectsAround(backend::Rect const& inside, uint2 size);
+
 struct FullScreenPass {
     std::string_view name;
     scene::Material const& material;

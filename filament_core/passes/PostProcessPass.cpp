@@ -224,15 +224,6 @@ Rect pixelsWithEdges(prepare::FramePacket const& packet, PostProcessSteps const&
     return isKnown ? packet.covered : Rect{ 0, 0, size.x, size.y };
 }
 
-/// Those of a target around `inside`, which lies in it; some may be empty.
-std::array<Rect, 4> around(Rect const& inside, uint2 size) {
-    const auto x = static_cast<uint32_t>(inside.x), y = static_cast<uint32_t>(inside.y);
-    const uint32_t right = x + inside.width, below = y + inside.height;
-    return { Rect{ 0, 0, size.x, y }, Rect{ 0, inside.y, x, inside.height },
-             Rect{ static_cast<int32_t>(right), inside.y, size.x - right, inside.height },
-             Rect{ 0, static_cast<int32_t>(below), size.x, size.y - below } };
-}
-
 scene::Material const& fxaaMaterial(FrameContext const& context, PostProcessSteps const& steps, bool smooths) {
     const std::array constants{ EffectConstant{ "isSceneLinear", steps.isSceneLinear },
                                 EffectConstant{ "smooths", smooths },
@@ -252,7 +243,7 @@ void addFxaaPass(FrameGraph& graph, FrameContext const& context, PostProcessStep
     std::array<FullScreenTile, 5> tiles{ FullScreenTile{ withEdges, values } };
     size_t count = 1;
     // Pixels that cannot have edges are copied by the same pass: a copy reads one texel, the filter many.
-    for (Rect const& rect : around(withEdges, size)) {
+    for (Rect const& rect : rectsAround(withEdges, size)) {
         if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &fxaaMaterial(context, steps, false) };
     }
     addFullScreenPass(graph, context,

@@ -13,7 +13,8 @@ constexpr std::string_view kResolveInputs[] = { "samples" };
 constexpr FullScreenParameter kResolveValues[] = { { "perHalfWhite", ParameterType::Float } };
 constexpr FullScreenInterface kResolve{ .pass = "msaa resolve", .inputs = kResolveInputs, .values = kResolveValues };
 
-/// Of the light before the grading, which scales it. What auto exposure will make of it is not known yet.
+} // namespace
+
 float halfWhiteOf(FrameContext const& context) {
     // Samples are weighed by what they display, so that a bright one does not outshine the others: Karis 2013, "Tone
     // Mapping".
@@ -21,8 +22,6 @@ float halfWhiteOf(FrameContext const& context) {
     const bool isGraded = context.packet.demand.needs(prepare::Effect::ColorGrading);
     return isGraded ? half * elementary::exp2(-context.settings().effects.colorGrading.exposure) : half;
 }
-
-} // namespace
 
 void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId samples,
                     framegraph::TextureId color) {

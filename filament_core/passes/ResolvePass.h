@@ -11,6 +11,10 @@
 
 namespace filament_core::passes {
 
+/// The light that is displayed at half of white, before the grading, which scales it. What auto exposure will make of
+/// it is not known yet.
+float halfWhiteOf(FrameContext const& context);
+
 /// `samples` has the size of `color`, which every pixel is written of.
 void addResolvePass(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId samples,
                     framegraph::TextureId color);

@@ -89,6 +89,8 @@ constexpr std::array kReasons{
     ReasonRow{ R::NothingMoves, "nothing in view moves by itself" },
     ReasonRow{ R::NothingVisible, "nothing is visible, not even a sky" },
     ReasonRow{ R::NoSurface, "no surface is visible" },
+    ReasonRow{ R::HasSamples, "{count} samples a pixel smooth edges already" },
+    ReasonRow{ R::TooLarge, "the view is too large for {count} depths a pixel on this device" },
     ReasonRow{ R::InFocus, "everything visible is in focus" },
     ReasonRow{ R::NoOverlap, "{count} in view that may be composed in any order" },
 };

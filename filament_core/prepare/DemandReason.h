@@ -80,6 +80,8 @@ enum class DemandReason : uint8_t {
     NothingMoves,   ///< by itself, in view
     NothingVisible, ///< not even a sky
     NoSurface,      ///< in view
+    HasSamples,     ///< `count` a pixel, which smooth edges as well
+    TooLarge,       ///< the view, for a texture of `count` texels for each of its pixels
     InFocus,        ///< everything visible is
     NoOverlap,      ///< `count` objects, 0 or 1, need no order
     Count,          ///< no reason: how many there are

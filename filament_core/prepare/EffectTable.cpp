@@ -314,6 +314,19 @@ EffectDemand demandOfResolve(DemandInput const& input) {
     return { true, R::ResolvesSamples, input.settings.samples };
 }
 
+EffectDemand demandOfReconstruction(DemandInput const& input) {
+    FrameSettings const& settings = input.settings;
+    const EffectDemand demand =
+            demandOfImageEffect(input, settings.quality.antiAliasing == AntiAliasing::Sraa, R::SmoothsEdges);
+    if (!demand.isNeeded) return demand;
+    if (input.counts.opaqueDraws == 0) return { .reason = R::NoOpaqueSurface };
+    if (settings.samples > 1) return { false, R::HasSamples, settings.samples };
+    constexpr uint32_t kDepths = 2; // a side of each pixel
+    if (std::max(settings.size.x, settings.size.y) > settings.maxTextureSize / kDepths)
+        return { false, R::TooLarge, kDepths * kDepths };
+    return demand;
+}
+
 EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& demand) {
     ViewCounts const& counts = input.counts;
     const uint32_t lights = counts.litDraws ? counts.lights : 0; // otherwise no list is made
@@ -388,6 +401,8 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::LensFlare, "lens flare", Stage::PostProcess, demandOfFlare, "lensFlare=off", kChangesColor },
         { Effect::MsaaResolve, "msaa resolve", Stage::PostProcess, demandOfResolve, "msaaResolve=average", 0,
           "pixels have one sample" }, // by the colour pass
+        { Effect::Sraa, "sraa", Stage::PostProcess, demandOfReconstruction, "antiAliasing",
+          kReadsDepth | kChangesColor },
         { Effect::MipBias, "mip bias", Stage::Geometry, demandOfMipBias, "mipBias=off", 0,
           "no frames are accumulated into more pixels than they have" },
         { Effect::GuardBand, "guard band", Stage::Geometry, demandOfBand, "guardBand=off", kChangesColor,

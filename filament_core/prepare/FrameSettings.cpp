@@ -112,6 +112,7 @@ FrameSettings resolve(ViewInput const& main) {
                             .shownSize = main.shown(),
                             .band = main.band,
                             .samples = isImage ? main.samples : uint8_t{ 1 },
+                            .maxTextureSize = main.maxTextureSize,
                             .clearColor = main.clearColor,
                             .viewport = main.viewport,
                             .accumulatesFrames = accumulates,
@@ -125,7 +126,8 @@ FrameSettings resolve(ViewInput const& main) {
     // Positions that are not relative to the camera are rounded by more than the margin of occluders.
     const bool isPrecise = settings.quality.depthRange == DepthRange::Reversed && settings.quality.cameraRelative;
     // Occluders are tested at the centres of pixels: with more samples a pixel they may leave some of them open.
-    settings.cullsOccluded = main.occlusionCulling && isImage && settings.samples == 1 && isPrecise;
+    const bool isSampledOnce = settings.samples == 1 && settings.quality.antiAliasing != AntiAliasing::Sraa;
+    settings.cullsOccluded = main.occlusionCulling && isImage && isSampledOnce && isPrecise;
     settings.cullsCasters = main.occlusionCulling && main.quality.cameraRelative;
     return settings;
 }

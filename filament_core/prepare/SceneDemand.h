@@ -56,6 +56,7 @@ enum class Effect : uint8_t {
     Sharpening,
     LensFlare,
     MsaaResolve, ///< by what is displayed
+    Sraa,        ///< subpixel reconstruction of edges, from depths
     MipBias,     ///< of materials' textures
     GuardBand,   ///< pixels around the image
     DebugView,   ///< instead of the image

@@ -45,11 +45,12 @@ struct ViewInput {
     /// From the camera along its axis: whatever is farther is left out; 0: nothing is. For lamps, whose near plane
     /// leaves nothing out.
     float farMeters = 0;
-    uint2 size{ 1, 1 };       ///< pixels that are drawn, >= 1
-    uint2 shownSize{ 0, 0 };  ///< of the image that is made of them; 0: the same
-    uint32_t band = 0;        ///< of `size`, on each side, that the image does not show
-    float2 jitterPixels{ 0 }; ///< the image moves by so much, to the right and down
-    uint8_t samples = 1;      ///< a pixel
+    uint2 size{ 1, 1 };              ///< pixels that are drawn, >= 1
+    uint2 shownSize{ 0, 0 };         ///< of the image that is made of them; 0: the same
+    uint32_t band = 0;               ///< of `size`, on each side, that the image does not show
+    float2 jitterPixels{ 0 };        ///< the image moves by so much, to the right and down
+    uint8_t samples = 1;             ///< a pixel
+    uint32_t maxTextureSize = 16384; ///< texels a side that the device allows
     bool occlusionCulling = true;
     float lodPixels = 0; ///< View::lod, of the image that is made; [0, 64]
     double timeSeconds = 0;

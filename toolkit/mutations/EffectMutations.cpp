@@ -161,6 +161,8 @@ constexpr Mutation kEffectMutations[] = {
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("bloom_down", 1); } },
     { "fxaaBrightness", "FXAA takes the picture's values for light",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("fxaa", 0); } },
+    { "subpixelEdges", "subpixel reconstruction beside objects instead of their edges",
+      []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("subpixel_reconstruction", 0); } },
     { "upscaleFilter", "another filter makes the picture larger",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("upscale", 0); } },
     { "sharpenedLight", "sharpening takes the picture's values for light",

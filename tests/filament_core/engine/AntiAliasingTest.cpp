@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FXAA and temporal anti-aliasing beside supersampling: how near they come to it, still and in motion, and that they
-// cost nothing and change nothing where there is nothing to smooth.
+// FXAA, subpixel reconstruction and temporal anti-aliasing beside supersampling: how near they come to it, still and in
+// motion, and that they cost nothing and change nothing where there is nothing to smooth.
 #include "tests/filament_core/engine/Fan.h"
 
 #include <cmath>
@@ -139,9 +139,69 @@ TEST(Fxaa, HasTheSameBitsOnBothApisForDisplays) {
     }
 }
 
+/// Edges of every slope, some of bars thinner than a pixel.
+TEST(Sraa, IsNearerToSupersamplingThanFourSamples) {
+    std::vector<Image> smooth;
+    for (const Backend backend : test::kBothApis) {
+        Fan fan(backend);
+        const Image exact = fan.supersampled();
+        fan.view.samples = 4;
+        const double ofSamples = rmsBetween(fan.draw(), exact);
+        fan.view.samples = 1;
+        fan.view.quality.antiAliasing = AntiAliasing::Sraa;
+        smooth.push_back(fan.draw());
+        const double error = rmsBetween(smooth.back(), exact);
+        EXPECT_LT(error, ofSamples);
+        EXPECT_GT(ofSamples, 0.02) << "not all edges are gone";
+        RecordProperty(toString(backend), fmt::format("four samples {:.4f}, sraa {:.4f}", ofSamples, error));
+    }
+    EXPECT_EQ(test::differingPixels(smooth[0], smooth[1]), 0u);
+}
+
+/// In motion, too, and whichever way depths grow.
+TEST(Sraa, HasTheSameBitsOnBothApisWithEitherDepthRange) {
+    for (const DepthRange range : { DepthRange::Reversed, DepthRange::Ordinary }) {
+        std::vector<Image> images;
+        for (const Backend backend : test::kBothApis) {
+            Fan fan(backend);
+            fan.view.quality.antiAliasing = AntiAliasing::Sraa;
+            fan.view.quality.depthRange = range;
+            fan.turnBars(2);
+            images.push_back(fan.draw());
+            fan.view.quality.antiAliasing = AntiAliasing::Off;
+            const Image off = fan.draw(), exact = fan.supersampled();
+            EXPECT_LT(rmsBetween(images.back(), exact), 0.5 * rmsBetween(off, exact));
+        }
+        EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u);
+    }
+}
+
+/// What is shaded is not blurred: pixels of one surface keep their bits.
+TEST(Sraa, LeavesPixelsOfOneSurfaceAlone) {
+    Fan fan(Backend::Gles);
+    const Image off = fan.draw();
+    fan.view.quality.antiAliasing = AntiAliasing::Sraa;
+    const Image smooth = fan.draw();
+    EXPECT_EQ(halfPixel(smooth, 2, 2), halfPixel(off, 2, 2)) << "the wall";
+    EXPECT_LT(test::differingPixels(smooth, off), test::kFanSize.x * test::kFanSize.y / 3);
+}
+
+TEST(Sraa, DoesNothingBesideSeveralSamplesAndInViewsThatAreTooLarge) {
+    Fan fan(Backend::Vulkan);
+    fan.view.samples = 4;
+    const Image samples = fan.draw();
+    fan.view.quality.antiAliasing = AntiAliasing::Sraa;
+    EXPECT_EQ(test::differingPixels(fan.draw(), samples), 0u);
+    EXPECT_NE(fan.renderer.explain().find("4 samples a pixel smooth edges already"), std::string::npos);
+    fan.view.samples = 1;
+    fan.view.size = { 16384, 1 };
+    fan.draw();
+    EXPECT_NE(fan.renderer.explain().find("too large for 4 depths a pixel on this device"), std::string::npos);
+}
+
 /// One texel of the scene colour that is NaN, or the largest number.
 TEST(AntiAliasing, ContainsBrokenTexels) {
-    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa }) {
+    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa, AntiAliasing::Sraa }) {
         for (const char* light : { "1e30", "log(-1.0 - getUserTime().x)", "1.0 / getUserTime().x" }) {
             std::vector<Image> images;
             for (const Backend backend : test::kBothApis) {
@@ -180,7 +240,7 @@ TEST(AntiAliasing, ContainsBrokenTexels) {
 }
 
 TEST(AntiAliasing, IsFiniteInAllSizes) {
-    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa }) {
+    for (const AntiAliasing antiAliasing : { AntiAliasing::Fxaa, AntiAliasing::Taa, AntiAliasing::Sraa }) {
         for (const uint2 size : { uint2(1, 1), uint2(2, 3), uint2(16384, 1), uint2(1, 300) }) {
             Fan fan(Backend::Gles);
             fan.view.quality.antiAliasing = antiAliasing;
@@ -211,6 +271,7 @@ TEST(AntiAliasing, CostsNothingWithoutEdges) {
         Fan fan(backend);
         Scene empty(fan.engine);
         expectNothing(fan, empty, AntiAliasing::Taa, "nothing is visible, not even a sky");
+        expectNothing(fan, empty, AntiAliasing::Sraa, "nothing is visible, not even a sky");
         expectNothing(fan, empty, AntiAliasing::Fxaa, "nothing is visible, not even a sky");
         expectNothing(fan, fan.scene, AntiAliasing::Off, "switched off: antiAliasing");
     }

@@ -128,6 +128,28 @@ TEST(MsaaResolve, EdgesOfLampsAreAsSmoothAsSupersamplingOfWhatIsDisplayed) {
 }
 
 /// The lamp enters each row of pixels a little further to the right, and displays rise from the wall to it.
+/// With one sample a pixel, whose edges are reconstructed and weighted in the same way.
+TEST(MsaaResolve, WeighsReconstructedEdgesOfLampsAsThoseOfFourSamples) {
+    for (const float nits : { 2e2f, 1e4f, 1e6f }) {
+        std::vector<Image> images;
+        for (const Backend backend : kBothApis) {
+            LampEdge lamp(backend, nits);
+            const std::vector<double> exact = supersampled(lamp);
+            const double ofSamples = rmsBeside(exact, lamp.draw(MsaaResolve::ToneAware));
+            lamp.view.samples = 1;
+            lamp.view.quality.antiAliasing = AntiAliasing::Sraa;
+            const double average = rmsBeside(exact, lamp.draw(MsaaResolve::Average));
+            images.push_back(lamp.draw(MsaaResolve::ToneAware));
+            const double aware = rmsBeside(exact, images.back());
+            RecordProperty(fmt::format("{} nits", nits),
+                           fmt::format("samples {:.3f}, sraa {:.3f}, averaged {:.3f}", ofSamples, aware, average));
+            EXPECT_LT(aware, 1.2 * ofSamples) << nits;
+            EXPECT_LT(aware, average) << nits;
+        }
+        EXPECT_EQ(images[0].pixels, images[1].pixels) << nits;
+    }
+}
+
 TEST(MsaaResolve, StepsOfAnEdgeAreMonotonicAndThoseOfFourSamples) {
     for (const float nits : { 1e4f, 1e6f }) {
         LampEdge lamp(Backend::Vulkan, nits);

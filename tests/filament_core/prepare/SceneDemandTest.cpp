@@ -234,6 +234,8 @@ TEST(SceneDemand, NeedsAntiAliasingOnlyWhereThereIsSomethingToSmooth) {
     EXPECT_TRUE(demandFor(input).needs(Effect::Taa)) << "a sky has details";
     input.hasSky = false;
     EXPECT_EQ(words(Effect::Taa, input), "nothing is visible, not even a sky");
+    input = { .counts = { .visible = 3, .opaqueDraws = 1 }, .quality = { .antiAliasing = AntiAliasing::Sraa } };
+    EXPECT_TRUE(demandFor(input).needs(Effect::Sraa) && demandFor(input).needs(Effect::DepthPrepass));
 }
 
 TEST(SceneDemand, NeedsWhatFinishesThePictureUnlessItChangesNothing) {
