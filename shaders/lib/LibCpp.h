@@ -53,6 +53,7 @@ namespace {
 #include "shaders/lib/occlusion.glsl"
 #include "shaders/lib/parallax.glsl"
 #include "shaders/lib/plausible.glsl"
+#include "shaders/lib/probes.glsl"
 #include "shaders/lib/profiles.glsl"
 #include "shaders/lib/reflection.glsl"
 #include "shaders/lib/refraction.glsl"

@@ -108,6 +108,7 @@ std::vector<Row> toneRows();    ///< tone, and night in grading
 std::vector<Row> resolutionRows();
 std::vector<Row> transparencyRows();
 std::vector<Row> splatRows();
+std::vector<Row> probeRows();
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

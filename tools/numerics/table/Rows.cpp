@@ -6,9 +6,10 @@ namespace filament_core::shader::numerics {
 std::span<const Row> rows() {
     static const std::vector<Row> all = [] {
         std::vector<Row> joined;
-        for (auto const& source : { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(),
-                                    imageRows(), areaRows(), geometryRows(), screenRows(), temporalRows(),
-                                    gradingRows(), toneRows(), resolutionRows(), transparencyRows(), splatRows() })
+        for (auto const& source :
+             { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(), imageRows(), areaRows(),
+               geometryRows(), screenRows(), temporalRows(), gradingRows(), toneRows(), resolutionRows(),
+               transparencyRows(), splatRows(), probeRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();
