@@ -20,6 +20,10 @@ enum Op : uint32_t {
     OpUndef = 1,
     OpName = 5,
     OpMemberName = 6,
+    OpCapability = 17,
+    OpTypeImage = 25,
+    OpTypeSampledImage = 27,
+    OpTypePointer = 32,
     OpConstantTrue = 41,
     OpConstantFalse = 42,
     OpConstant = 43,
@@ -29,6 +33,9 @@ enum Op : uint32_t {
     OpSpecConstantOp = 52,
     OpFunction = 54,
     OpFunctionEnd = 56,
+    OpFunctionCall = 57,
+    OpVariable = 59,
+    OpLoad = 61,
     OpDecorate = 71,
     OpMemberDecorate = 72,
     OpIAdd = 128,
@@ -366,6 +373,52 @@ Id resultOf(Words it) {
     return isControl || std::ranges::count(kWithout, op) > 0 ? 0 : wordAt(it, 2);
 }
 
+/// Arrays of cubes whose look-ups were all left out, with what only they need: a device may lack them, and another
+/// variable may have their binding.
+class UnusedCubeArrays {
+public:
+    explicit UnusedCubeArrays(Words globals) {
+        forEach(globals, [&](Words it) {
+            constexpr uint32_t kCube = 3; // SPIR-V specification 1.3, 3.8
+            const Id to = opOf(it) == OpTypePointer ? wordAt(it, 3) : wordAt(it, opOf(it) == OpVariable ? 1 : 2);
+            const bool follows = opOf(it) == OpTypeSampledImage || opOf(it) == OpTypePointer || opOf(it) == OpVariable;
+            if (opOf(it) == OpTypeImage && wordAt(it, 3) == kCube && wordAt(it, 5) == 1) mIds.insert(wordAt(it, 1));
+            if (!follows || !mIds.contains(to)) return;
+            mIds.insert(wordAt(it, opOf(it) == OpVariable ? 2 : 1));
+            if (opOf(it) == OpVariable) mVariables.insert(wordAt(it, 2));
+        });
+    }
+
+    /// A variable of a texture is loaded, or handed to a function.
+    void read(Words it) {
+        if (opOf(it) != OpLoad && opOf(it) != OpFunctionCall) return;
+        for (size_t i = 3; i < it.size(); ++i) mIsUsed |= mVariables.contains(it[i]);
+    }
+
+    bool leavesOut(Words it) const {
+        constexpr uint32_t kSampledCubeArray = 45; // 3.31
+        if (mIsUsed || mVariables.empty()) return false;
+        switch (opOf(it)) {
+        case OpCapability:
+            return wordAt(it, 1) == kSampledCubeArray;
+        case OpVariable:
+            return mIds.contains(wordAt(it, 2));
+        case OpTypeImage:
+        case OpTypeSampledImage:
+        case OpTypePointer:
+        case OpName:
+        case OpDecorate:
+            return mIds.contains(wordAt(it, 1));
+        default:
+            return false;
+        }
+    }
+
+private:
+    std::unordered_set<Id> mIds, mVariables;
+    bool mIsUsed = false;
+};
+
 bool isAnnotation(uint32_t op) {
     return op == OpName || op == OpMemberName || op == OpDecorate || op == OpMemberDecorate;
 }
@@ -404,10 +457,16 @@ std::vector<uint32_t> foldConstants(std::vector<uint32_t> words, std::span<const
         function.forEachDropped([&](Words it) { dropped.insert(resultOf(it)); });
     std::vector<uint32_t> out(module.globals.begin(), module.globals.begin() + kHeaderWords);
     out.reserve(words.size());
+    std::vector<uint32_t> functions;
+    functions.reserve(words.size());
+    for (Function const& function : module.functions) function.write(functions);
+    UnusedCubeArrays arrays(module.globals.subspan(kHeaderWords));
+    forEach(functions, [&](Words it) { arrays.read(it); });
     forEach(module.globals.subspan(kHeaderWords), [&](Words it) {
-        if (!isAnnotation(opOf(it)) || !dropped.contains(wordAt(it, 1))) out.insert(out.end(), it.begin(), it.end());
+        const bool isLeft = isAnnotation(opOf(it)) && dropped.contains(wordAt(it, 1));
+        if (!isLeft && !arrays.leavesOut(it)) out.insert(out.end(), it.begin(), it.end());
     });
-    for (Function const& function : module.functions) function.write(out);
+    out.insert(out.end(), functions.begin(), functions.end());
     return out;
 }
 

@@ -68,6 +68,27 @@ TEST(FoldConstants, LeavesOneSideOfABranch) {
     EXPECT_EQ(countOf(folded(words, { on(true) }), kBranchConditional), 0u);
 }
 
+/// Two textures with one binding, of which each program reads one.
+TEST(FoldConstants, ArraysOfCubesThatNothingReadsAreGoneWithTheirCapability) {
+    constexpr uint32_t kCapability = 17, kTypeImage = 25, kVariable = 59;
+    const Words words = spirvFromGlsl(ShaderStage::Fragment, R"(
+        layout(constant_id = 0) const bool on = false;
+        layout(set = 0, binding = 0) uniform samplerCube one;
+        layout(set = 0, binding = 0) uniform samplerCubeArray many;
+        layout(location = 0) in vec4 v;
+        layout(location = 0) out vec4 color;
+        void main() {
+            if (on) { color = textureLod(many, v, 0.0); } else { color = textureLod(one, v.xyz, 0.0); }
+        })");
+    const size_t capabilities = countOf(words, kCapability), variables = countOf(words, kVariable);
+    const Words with = folded(words, { on(true) }), without = folded(words, { on(false) });
+    EXPECT_EQ(countOf(with, kCapability), capabilities);
+    EXPECT_EQ(countOf(with, kVariable), variables);
+    EXPECT_EQ(countOf(without, kCapability), capabilities - 1);
+    EXPECT_EQ(countOf(without, kVariable), variables - 1);
+    EXPECT_EQ(countOf(without, kTypeImage), countOf(words, kTypeImage) - 1);
+}
+
 TEST(FoldConstants, FollowsComparisonsAndLogic) {
     const auto left = [](std::string const& condition, int value, bool flag) {
         const Words words = moduleOf("if (" + condition + ") color.x = sin(v.x);");
