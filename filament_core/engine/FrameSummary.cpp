@@ -141,6 +141,31 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
     return text;
 }
 
+void keepProbes(scene::Probes const& probes, prepare::ProbePacket const& packet, std::vector<ProbeLine>& lines) {
+    lines.resize(packet.uses.size());
+    for (size_t i = 0; i < lines.size(); ++i) {
+        lines[i].name = probes.records[i].name; // keeps its memory
+        lines[i].use = packet.uses[i];
+    }
+}
+
+std::string explainProbes(std::span<const ProbeLine> lines) {
+    constexpr std::array<const char*, 6> kWords{
+        "used",
+        "not used: its box is out of view",
+        "not used: others in view are nearer",
+        "not used: its cube has another size, format, mapping or number of levels than the environment's",
+        "not used: cubes of the environment's format cannot be copied; RGBA16F and RGBM can",
+        "not used: the device lacks arrays of cubes",
+    };
+    std::string text;
+    for (size_t i = 0; i < lines.size(); ++i) {
+        const std::string name = lines[i].name.empty() ? fmt::format("{}", i) : fmt::format("'{}'", lines[i].name);
+        text += fmt::format("reflection probe {}: {}\n", name, kWords[static_cast<size_t>(lines[i].use)]);
+    }
+    return text;
+}
+
 } // namespace filament_core::engine
 
 namespace filament_core {} // namespace filament_core

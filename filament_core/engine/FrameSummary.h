@@ -39,4 +39,13 @@ std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::C
 std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
                     std::span<const PassTiming> times = {});
 
+/// A reflection probe of the scene in the last frame.
+struct ProbeLine {
+    std::string name;
+    prepare::ProbeUse use{};
+};
+/// Memory of `lines` is kept from frame to frame.
+void keepProbes(scene::Probes const& probes, prepare::ProbePacket const& packet, std::vector<ProbeLine>& lines);
+std::string explainProbes(std::span<const ProbeLine> lines);
+
 } // namespace filament_core::engine

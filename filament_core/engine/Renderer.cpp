@@ -9,6 +9,7 @@
 #include "filament_core/engine/ImageTarget.h"
 #include "filament_core/engine/Picker.h"
 #include "filament_core/engine/PixelReads.h"
+#include "filament_core/engine/ProbeTexture.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
 #include "filament_core/passes/DebugDrawPass.h"
@@ -114,8 +115,9 @@ struct Renderer::Impl final : engine::Dependent {
             : engine(ofEngine.impl()), link(ofEngine), options(rendererOptions), resources(engine),
               data(*engine.stream), blocks(*engine.stream),
               debugBuffers(*engine.stream, sizeof(prepare::DebugVertex), "debug draw"),
-              splatBuffers(*engine.stream, sizeof(prepare::SplatVertex), "splats"), shadows(engine), graph(arena),
-              transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine), imageTarget(engine) {
+              splatBuffers(*engine.stream, sizeof(prepare::SplatVertex), "splats"), shadows(engine), probes(engine),
+              graph(arena), transients(*engine.stream), ranges(engine.jobs), timings(engine), pixels(engine),
+              imageTarget(engine) {
         engine.dependents.push_back(this);
     }
 
@@ -132,6 +134,7 @@ struct Renderer::Impl final : engine::Dependent {
         debugBuffers.destroy(engine.pending);
         splatBuffers.destroy(engine.pending);
         shadows.destroy();
+        probes.destroy();
         transients.destroyAll(engine.pending);
         imageTarget.destroy();
         picker.reset();
@@ -182,12 +185,12 @@ struct Renderer::Impl final : engine::Dependent {
         graph.reset();
         plan = {};
         const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
-        const prepare::FramePacket packet =
-                prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views, shadows.held(), last);
+        const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views,
+                                                                  shadows.held(), last, probes.held());
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
         addDebugQuads(context, view, effects, output);
-        useShadows(context, pipelines);
+        useKept(context, pipelines);
         blocks.begin();
         context.blocks = &blocks;
         passes::describeFrame(graph, context, output);
@@ -195,12 +198,15 @@ struct Renderer::Impl final : engine::Dependent {
         return context;
     }
 
-    /// An expected frame does not change the maps: any texture replaces them.
-    void useShadows(FrameContext& context, PipelineSource const& pipelines) {
+    /// An expected frame changes neither maps nor probes: any texture replaces them.
+    void useKept(FrameContext& context, PipelineSource const& pipelines) {
         passes::FrameResources& used = context.resources;
         if (!pipelines.isRequesting()) shadows.use(context.packet.shadows);
         used.shadowAtlas = pipelines.isRequesting() ? used.white : shadows.depths();
         used.shadowMoments = pipelines.isRequesting() ? used.white : shadows.moments();
+        if (context.packet.probes.empty()) return;
+        if (!pipelines.isRequesting()) probes.use(context.packet.probes);
+        used.lighting.probes = pipelines.isRequesting() ? used.lighting.specular : probes.texture();
     }
 
     void addDebugQuads(FrameContext& context, View const& view, Effects const& effects, FrameOutput const& output) {
@@ -239,9 +245,11 @@ struct Renderer::Impl final : engine::Dependent {
         context.deformations = data.deformations();
         context.lastDeformations = data.lastDeformations();
         shadows.forget(context.packet.shadows);
+        probes.copy(context.packet.probes, *commands);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
         if (target.generatesMips && !target.isSrgb()) commands->record(CmdGenerateMips{ target.color.handle });
         shadows.keep(context.packet.shadows);
+        probes.keep(context.packet.probes);
     }
 
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
@@ -270,6 +278,7 @@ struct Renderer::Impl final : engine::Dependent {
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
+        engine::keepProbes(scene.impl().data.probes, context.packet.probes, probeLines);
         return {};
     }
 
@@ -389,6 +398,7 @@ struct Renderer::Impl final : engine::Dependent {
     passes::PassBlocks blocks;
     passes::QuadBuffers debugBuffers, splatBuffers;
     engine::ShadowTexture shadows;
+    engine::ProbeTexture probes;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;
@@ -403,6 +413,7 @@ struct Renderer::Impl final : engine::Dependent {
     prepare::LastFrame last; ///< that was drawn
     ResolutionController shares;
     engine::FrameSummary summary;
+    std::vector<engine::ProbeLine> probeLines;
 };
 
 Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(std::make_shared<Impl>(engine, options)) {}
@@ -513,7 +524,8 @@ std::vector<EffectDecision> Renderer::decisions() const {
 
 std::string Renderer::explain() const {
     const PublicCall call(mImpl, "Renderer::explain()");
-    return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses());
+    return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses()) +
+           engine::explainProbes(mImpl->probeLines);
 }
 
 std::string Renderer::graphviz() const {

@@ -26,6 +26,7 @@ void Uses::add(scene::SceneData const& scene) {
     add(scene.indirectLight.specular);
     add(scene.indirectLight.irradiance);
     add(scene.skybox.cube);
+    for (scene::ProbeRecord const& probe : scene.probes.records) add(probe.cube);
 }
 
 void Uses::add(scene::MaterialInstance const& instance) {

@@ -223,6 +223,8 @@ IndirectLight Engine::create(IndirectLightDesc const& desc) {
         state.light.storage = { .isRgbm = mImpl->textures.get(desc.specular).desc.format == Format::RGBA8,
                                 .hasIrradianceCube = static_cast<bool>(desc.irradiance),
                                 .mapping = desc.mapping };
+        DeviceTextureDesc const& cube = mImpl->textures.get(desc.specular).desc;
+        state.light.shape = { .format = cube.format, .size = cube.width, .levels = cube.levels };
         state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
         state.light.irradianceSh = desc.irradianceSh;
         state.light.worldFromCube = desc.worldFromCube;

@@ -34,7 +34,8 @@ ShadedLights lightsOf(prepare::FramePacket const& packet) {
     return { .hasAreas = packet.mainView().hasAreaLights,
              .hasProfiles = !packet.mainView().profiles.empty(),
              .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows),
-             .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows) };
+             .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows),
+             .hasProbes = packet.demand.needs(prepare::Effect::ReflectionProbes) };
 }
 
 /// What there is to compute: the colour of an environment, and light of a sun, if there is one.
@@ -108,7 +109,9 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
     context->packet = packet;
     context->resources = resources;
     Quality const& quality = packet.settings.quality;
-    context->shading = shadingKey(quality, packet.environment.storage, lightsOf(packet), screenOf(packet));
+    scene::EnvironmentStorage const& storage =
+            packet.probes.empty() ? packet.environment.storage : packet.probes.storage;
+    context->shading = shadingKey(quality, storage, lightsOf(packet), screenOf(packet));
     if (resources.hasHalfFloats) context->precision = quality.shadingPrecision;
     context->arena = &arena;
     return context;

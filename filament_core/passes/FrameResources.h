@@ -12,9 +12,10 @@
 
 namespace filament_core::passes {
 
-/// The textures that lit materials read of their surroundings; every handle is set.
+/// The textures that lit materials read of their surroundings; every handle but the last is set.
 struct LightingTextures {
     backend::TextureHandle specular, dfg, irradiance;
+    backend::TextureHandle probes; ///< array of cubes, the environment's first; none: no probe is in view
 };
 
 /// Bloom::dirt.

@@ -100,7 +100,9 @@ std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameCo
               .sampler = shadows.hasMoments ? samplers.trilinear : samplers.nearest },
             // Without shadows most programs do not read it: any block will do.
             context.blocks->entry(shader::kBindingShadows, shadows.block.bytes > 0 ? shadows.block : target),
-            { .binding = shader::kBindingSpecular, .texture = light.specular, .sampler = samplers.trilinear },
+            { .binding = shader::kBindingSpecular,
+              .texture = light.probes ? light.probes : light.specular,
+              .sampler = samplers.trilinear },
             { .binding = shader::kBindingDfg, .texture = light.dfg, .sampler = samplers.bilinear },
             { .binding = shader::kBindingIrradiance, .texture = light.irradiance, .sampler = samplers.bilinear },
             { .binding = shader::kBindingOcclusion,

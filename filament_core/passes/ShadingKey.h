@@ -24,6 +24,7 @@ struct ShadedLights {
     bool hasProfiles = false;
     bool hasColoredShadows = false; ///< some shadow map has three channels
     bool hasContactShadows = false;
+    bool hasProbes = false; ///< Effect::ReflectionProbes
 };
 
 /// What shading reads of the scene colour, and what lies between it and the camera.

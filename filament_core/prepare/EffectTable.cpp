@@ -71,6 +71,14 @@ EffectDemand demandOfIndirectLight(DemandInput const& input) {
     return demand;
 }
 
+EffectDemand demandOfProbes(DemandInput const& input) {
+    ProbeCounts const& probes = input.probes;
+    if (probes.inScene == 0) return { .reason = R::NotInScene };
+    if (input.counts.litDraws == 0) return { false, R::NoLitSurface, 0, probes.inScene };
+    if (probes.used) return { true, R::ProbesInView, probes.used, probes.outOfView, probes.leftOut };
+    return { false, probes.leftOut ? R::ProbesUnusable : R::ProbesOutOfView, 0, probes.outOfView, probes.leftOut };
+}
+
 EffectDemand demandOfSky(DemandInput const& input) {
     return input.hasSky ? EffectDemand{ true, R::BackgroundVisible } : EffectDemand{};
 }
@@ -360,6 +368,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::Shadows, "shadows", Stage::Lighting, demandOfShadows, "shadows=off" },
         { Effect::ColoredShadows, "coloured shadows", Stage::Lighting, demandOfColoredShadows, "coloredShadows=off" },
         { Effect::IndirectLight, "indirect light", Stage::Lighting, demandOfIndirectLight },
+        { Effect::ReflectionProbes, "reflection probes", Stage::Lighting, demandOfProbes },
         { Effect::Sky, "sky", Stage::Lighting, demandOfSky },
         { Effect::SunDisc, "sun disc", Stage::Lighting, demandOfDiscs },
         { Effect::Blending, "blending", Stage::Geometry, demandOfBlending },

@@ -10,6 +10,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/FrameSettings.h"
+#include "filament_core/prepare/ProbePacket.h"
 #include "filament_core/prepare/SceneColorCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/ShadowMaps.h"
@@ -199,6 +200,7 @@ struct FramePacket {
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;
     SplatPacket splats; ///< of the main view
+    ProbePacket probes; ///< of the main view
     SceneDemand demand; ///< of the main view
 
     /// Of the view that the user asked for.

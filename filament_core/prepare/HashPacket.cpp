@@ -54,6 +54,12 @@ uint64_t hashSplats(SplatPacket const& splats, uint64_t seed) {
     return seed;
 }
 
+uint64_t hashProbes(ProbePacket const& probes, uint64_t seed) {
+    seed = hashBytes(std::as_bytes(probes.records), seed);
+    for (ProbeCube const& cube : probes.cubes) seed = hashWords(seed, cube.texture.bits, cube.version);
+    return seed;
+}
+
 } // namespace
 
 uint64_t hashPacket(FramePacket const& packet) {
@@ -63,6 +69,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     if (!packet.shadows.maps.empty()) hash = hashShadows(packet.shadows, hash);
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
     if (packet.splats.inScene > 0) hash = hashSplats(packet.splats, hash);
+    if (!packet.probes.empty()) hash = hashProbes(packet.probes, hash);
     hash = hashEffects(packet.settings.effects, hash);
     hash = hashBytes(std::as_bytes(std::span(&packet.last.clipFromWorld, 1)), hash);
     hash = hashWords(hash, packet.motionView, packet.accumulation.isFixed, packet.last.isExposed,

@@ -6,6 +6,7 @@
 #include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/HideOccluded.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PlaceProbes.h"
 #include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
 #include "filament_core/prepare/PrepareSplats.h"
@@ -47,10 +48,11 @@ uint32_t movedObjects(FramePacket const& packet) {
     return packet.motionView == kNowhere ? 0 : static_cast<uint32_t>(packet.views[packet.motionView].opaque.size());
 }
 
-SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, float blurRadius) {
+SceneDemand demandOf(scene::SceneData const& scene, FramePacket const& packet, ShadowCounts const& shadows,
+                     float blurRadius) {
     return findDemand({ .counts = packet.mainView().counts,
                         .shadows = shadows,
-                        .hasIndirectLight = static_cast<bool>(packet.environment.specular),
+                        .hasIndirectLight = packet.environment.specular || !packet.probes.empty(),
                         .hasSky = static_cast<bool>(packet.environment.sky),
                         .deformed = countDeformed(packet.deformations),
                         .copiedPixels = copiedPixels(packet.mainView().pictures),
@@ -63,7 +65,11 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, flo
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
                         .discsOutOfView = packet.discsOutOfView,
                         .splats = packet.splats.count(),
-                        .splatClouds = packet.splats.inScene });
+                        .splatClouds = packet.splats.inScene,
+                        .probes = { .inScene = static_cast<uint32_t>(scene.probes.records.size()),
+                                    .used = packet.probes.used,
+                                    .outOfView = packet.probes.outOfView,
+                                    .leftOut = packet.probes.leftOut } });
 }
 
 /// The views of the maps follow those that were asked for.
@@ -150,7 +156,8 @@ void hideFromMainView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData cons
 } // namespace
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                         std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& kept) {
+                         std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& kept,
+                         HeldProbes const& heldProbes) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
     ViewInput const& main = views[0]; // without jitter, so that shadow maps and places of the last frame stay
     const FrameSettings settings = resolve(main);
@@ -165,10 +172,12 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // Shadows need the receivers of the main view, and give its lights their maps; lists by channel copy these lights.
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 
+    const ProbePacket probes = placeProbes(arena, scene, main, heldProbes, asked[0].packet);
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
     packet.environment = environmentOf(scene);
+    packet.probes = probes;
     packet.settings = settings;
     packet.last = last.seenFrom(makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (settings.readsMotion(packet.mainView().counts)) addMotion(arena, scene, last, packet);
@@ -178,7 +187,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.splats = splatsOf(jobs, arena, scene, drawn[0], settings);
     packet.focus = focusOf(main.camera, settings.effects.depthOfField, settings.insideSize().y);
     // The demand comes after all that it counts; what only an effect needs, after the demand.
-    packet.demand = demandOf(packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
+    packet.demand = demandOf(scene, packet, shadows.counts, largestBlur(jobs, arena, scene, main, packet));
     packet.covered = coveredPixelsIn(jobs, arena, scene, drawn[0], packet);
     if (packet.demand.needs(Effect::Taa)) packet.accumulation = last.accumulation(scene, main, packet);
     // Last: receivers of shadows, blur and the rest follow from what is in view, hidden or not, as without.

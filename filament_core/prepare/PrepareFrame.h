@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// prepareFrame: scene and views -> FramePacket, on the job system. The table of contents of this room.
-///   In      the scene as it is now; the views, the main one first, one at least; what the atlas of shadow maps holds;
-///           the previous frame of the same renderer.
+///   In      the scene as it is now; the views, the main one first, one at least; what the atlas of shadow maps and the
+///           array of probes hold; the previous frame of the same renderer.
 ///   Out     one FramePacket in `arena`: its views in the same order, then those of the shadow maps that are drawn,
 ///           then that of moving objects, if an effect needs it.
 ///   Thread  the app thread, which takes part in the work until all is done.
@@ -22,6 +22,7 @@
 namespace filament_core::prepare {
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                         std::span<const ViewInput> views, ShadowAtlas const& held = {}, LastFrame const& last = {});
+                         std::span<const ViewInput> views, ShadowAtlas const& held = {}, LastFrame const& last = {},
+                         HeldProbes const& probes = {});
 
 } // namespace filament_core::prepare

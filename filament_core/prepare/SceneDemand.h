@@ -27,6 +27,7 @@ enum class Effect : uint8_t {
     Shadows,        ///< of suns, points, spots and areas
     ColoredShadows, ///< of what transmits light
     IndirectLight,
+    ReflectionProbes, ///< boxes of light, in place of the environment
     Sky,
     SunDisc, ///< discs of suns, and their halos
     Blending,
@@ -82,6 +83,11 @@ struct SceneDemand {
     friend bool operator==(SceneDemand const&, SceneDemand const&) = default;
 };
 
+/// Reflection probes; those that are left out are in view.
+struct ProbeCounts {
+    uint32_t inScene = 0, used = 0, outOfView = 0, leftOut = 0;
+};
+
 /// What findDemand() reads of a frame.
 struct DemandInput {
     ViewCounts counts; ///< of the main view
@@ -96,6 +102,7 @@ struct DemandInput {
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
     uint32_t splats = 0, splatClouds = 0;         ///< in view; in the scene
+    ProbeCounts probes{};
 };
 
 SceneDemand findDemand(DemandInput const& input);

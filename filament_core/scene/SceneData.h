@@ -9,6 +9,7 @@
 #include "filament_core/scene/Deformations.h"
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/PickRules.h"
+#include "filament_core/scene/Probes.h"
 #include "filament_core/scene/Renderables.h"
 #include "filament_core/scene/SplatData.h"
 #include "filament_core/scene/Transforms.h"
@@ -69,17 +70,11 @@ struct NodeContents {
     PickRules pickRules;
 };
 
-/// What shaders must know to read an environment.
-struct EnvironmentStorage {
-    bool isRgbm = false;            ///< the specular cube: RGBA8 as RGBM
-    bool hasIrradianceCube = false; ///< else: the coefficients only
-    RoughnessMapping mapping = RoughnessMapping::Quadratic;
-};
-
 struct IndirectLightRecord {
     backend::TextureHandle specular;
     backend::TextureHandle irradiance; ///< none: the coefficients only
     EnvironmentStorage storage{};
+    CubeShape shape{}; ///< of `specular`
     float levelOfRoughnessOne = 0;
     std::array<float4, 9> irradianceSh{};
     float3x3 worldFromCube{ 1.0f }; ///< before `rotationRadians`
@@ -113,6 +108,7 @@ struct SceneData {
     uint64_t serial = newOwnerSerial();
     Renderables renderables{ ownerTag(serial) };
     Lights lights{ ownerTag(serial) };
+    Probes probes{ ownerTag(serial) };
     Transforms transforms{ ownerTag(serial) }; ///< of the nodes
     NodeContents atNodes;
     Deformations deformations{ ownerTag(serial) };

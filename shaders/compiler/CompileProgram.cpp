@@ -10,6 +10,7 @@
 #include "shaders/compiler/ForbidReordering.h"
 #include "shaders/compiler/FullPrecision.h"
 #include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/compiler/KeepCalls.h"
 #include "shaders/compiler/OpaqueOutputs.h"
 #include "shaders/compiler/ReflectLayout.h"
 #include "shaders/compiler/SpirvToEssl.h"
@@ -35,6 +36,7 @@ Result<std::vector<uint32_t>> lowerStage(std::string_view glsl, backend::ShaderS
     Result<std::vector<uint32_t>> spirv = spirvFromGlsl(glsl, stage, name);
     // Before inlining: the functions of texture_bias.glsl are found by their names.
     if (spirv && stage == backend::ShaderStage::Fragment) spirv = biasTextures(*spirv);
+    if (spirv && !isHalf(stage, options)) spirv = keepCalls(*spirv);
     if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
     // Before the optimiser, for which a variable without a value may have another one at each use.
     if (spirv && options.exact) spirv = clampIndices(initializeVariables(*spirv));

@@ -308,8 +308,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     declareQuality(out);
     declareVariants(out);
     const bool hasLightList = mayHave(definition, kVariantPunctual);
-    Result<void> done =
-            includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
+    Result<void> done = includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl",
+                                          "shaders/lib/probes.glsl" });
     if (done && isStandard(definition)) done = out.include("shaders/lib/look_ups.glsl");
     if (done && hasLightList) done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");

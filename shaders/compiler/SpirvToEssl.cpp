@@ -3,6 +3,7 @@
 
 #include "shaders/compiler/EsslConditions.h"
 #include "shaders/compiler/FetchOutputs.h"
+#include "shaders/interface/ShaderInterface.h"
 
 #include <spirv_cross/spirv_glsl.hpp>
 
@@ -87,13 +88,29 @@ void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
     }
 }
 
+/// passProbes has the texture unit of passSpecular, and the device may lack arrays of cubes: only programs that
+/// read it declare it.
+constexpr std::string_view kProbes = "passProbes";
+
+std::string ifProbes(std::string_view lines) {
+    return fmt::format("#ifdef SPIRV_CROSS_CONSTANT_ID_{0}\n#if SPIRV_CROSS_CONSTANT_ID_{0} != 0\n{1}\n#endif\n#endif",
+                       uint32_t{ kQualityReflectionProbes }, lines);
+}
+
+std::string declareProbesOnDemand(std::string essl) {
+    const size_t name = essl.find(fmt::format("samplerCubeArray {};\n", kProbes));
+    if (name == std::string::npos) return essl;
+    const size_t begin = essl.rfind('\n', name) + 1, end = essl.find('\n', name);
+    return essl.replace(begin, end - begin, ifProbes(essl.substr(begin, end - begin)));
+}
+
 /// ESSL 3.20 has arrays of cubes; 3.10 has them with an extension, of which SPIRV-Cross does not know.
 void requireCubeArrays(CompilerGLSL& compiler) {
     for (auto const& image : compiler.get_shader_resources(compiler.get_active_interface_variables()).sampled_images) {
         const auto type = compiler.get_type(image.type_id).image;
         if (type.dim != spv::DimCube || !type.arrayed) continue;
-        compiler.add_header_line("#extension GL_EXT_texture_cube_map_array : require");
-        return;
+        constexpr std::string_view kRequire = "#extension GL_EXT_texture_cube_map_array : require";
+        compiler.add_header_line(image.name == kProbes ? ifProbes(kRequire) : std::string(kRequire));
     }
 }
 
@@ -115,7 +132,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
         requireCubeArrays(compiler);
         requirePrimitiveId(compiler);
         compiler.nameSampleMask();
-        return preprocessConditions(compiler.compile());
+        return declareProbesOnDemand(preprocessConditions(compiler.compile()));
     } catch (std::exception const& error) {
         return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());
     }

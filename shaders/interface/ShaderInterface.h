@@ -50,7 +50,8 @@ enum PassBinding : uint8_t {
     kBindingPass = 0,        ///< PassUniforms
     kBindingShadowMaps = 1,  ///< sampler2D: the atlas of shadow maps: depths, or moments of vsm and evsm
     kBindingShadows = 2,     ///< ShadowUniforms
-    kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
+    kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness; with probes in view
+                             ///< samplerCubeArray: first the environment, then the cubes of probes
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
     kBindingOcclusion = 6,   ///< sampler2D: where surfaces are peeled (TransparencyTerm), the depth of a layer;
@@ -86,7 +87,9 @@ struct FrameUniforms {
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
     float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: first word of the profiles of the
                                  ///< view, if it has some
-    std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
+    std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients; w of a
+                                 ///< view with probes: first word of its ReflectionProbe records, and the word after
+                                 ///< their last
     float4x4 worldFromEnvironment;       ///< rotation of the environment
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
     float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice,
@@ -199,6 +202,19 @@ inline constexpr uint32_t kProfiledLightWords = 4;
 inline constexpr uint32_t kProfileHeaderWords = 3;
 inline constexpr uint32_t kMaxProfileWords = 1u << 22; ///< of the tables of a view: 16 MiB
 
+/// A reflection probe of a view, as words behind the profiles: 14 float4. Positions are relative to the camera.
+struct ReflectionProbe {
+    std::array<float4, 3> axes; ///< xyz: sides of the box, unit; w: half the length of each, metres
+    float4 center;              ///< xyz: of the box; w: 1 / the blend distance in metres
+    float4 capture;             ///< xyz: where the cube was captured; w: what its texels are multiplied by, before
+                                ///< FrameUniforms::ambient.x
+    /// rgb: as FrameUniforms::irradianceSh; w: of the first, the layer of passProbes; of the second, 1 if the
+    /// coefficients count, otherwise the diffuse light inside is that of the others
+    std::array<float4, 9> irradianceSh;
+};
+inline constexpr uint32_t kProbeWords = sizeof(ReflectionProbe) / sizeof(uint32_t);
+inline constexpr uint32_t kMaxProbesOfView = 8;
+
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
 enum DeformationBinding : uint8_t {
     kBindingBones = 0,           ///< sampler2D, RGBA32F: see kBonesPerRow
@@ -262,6 +278,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
     kQualityMipBias = 1021, ///< 1: materials' textures are read at biased mip levels; all surfaces
                             ///< have this one
+    kQualityReflectionProbes = 1022, ///< 1: some reflection probe reaches into the view
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -309,10 +326,12 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "shadowFilter", kQualityShadowFilter },
     QualityConstant{ "transparency", kQualityTransparency },
     QualityConstant{ "mipBias", kQualityMipBias },
+    QualityConstant{ "reflectionProbes", kQualityReflectionProbes },
 };
 
 // clang-format on
 static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 16384);
+static_assert(sizeof(ReflectionProbe) == 224);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
 static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);

@@ -17,6 +17,7 @@ const int kObjectsPerWindow = 256;
 const int kFroxelCountBits = 9;
 const int kMaxShadowMaps = 128;
 const int kContactShadowBit = 128;
+const int kProbeWords = 56;
 const int kProfiledLightWords = 4;
 const int kProfileHeaderWords = 3;
 
@@ -98,6 +99,7 @@ layout(set = 1, binding = 2, std140) uniform ShadowUniforms {
 } shadowUniforms;
 
 layout(set = 1, binding = 3) uniform samplerCube passSpecular;
+layout(set = 1, binding = 3) uniform samplerCubeArray passProbes; // instead, where quality_reflectionProbes is 1
 layout(set = 1, binding = 4) uniform sampler2D passDfg;
 layout(set = 1, binding = 5) uniform samplerCube passIrradiance;
 layout(set = 1, binding = 6) uniform sampler2D passOcclusion;

@@ -49,10 +49,11 @@ struct Compilation {
     uint64_t id = 0;
     explicit operator bool() const { return id != 0; }
 };
-using Renderable = ObjectHandle<struct RenderableObject>; ///< of one Scene
-using Light = ObjectHandle<struct LightObject>;           ///< of one Scene
-using Skin = ObjectHandle<struct SkinObject>;             ///< of one Scene
-using Node = ObjectHandle<struct NodeObject>;             ///< of one Scene
+using Renderable = ObjectHandle<struct RenderableObject>;           ///< of one Scene
+using Light = ObjectHandle<struct LightObject>;                     ///< of one Scene
+using Skin = ObjectHandle<struct SkinObject>;                       ///< of one Scene
+using Node = ObjectHandle<struct NodeObject>;                       ///< of one Scene
+using ReflectionProbe = ObjectHandle<struct ReflectionProbeObject>; ///< of one Scene
 
 /// What a pick is for. Nodes can be left out of picks of the first two aims: Scene::setPickable().
 enum class PickAim : uint8_t { Select, Hover, Anything };

@@ -15,6 +15,7 @@
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Node.h>
 #include <filament_core/Occluder.h>
+#include <filament_core/ReflectionProbe.h>
 #include <filament_core/Splats.h>
 
 #include <memory>
@@ -198,11 +199,17 @@ public:
     void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0);
     void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0); ///< {}: none
 
+    /// Surfaces in its box reflect it from the next frame on.
+    ReflectionProbe add(ReflectionProbeDesc const& desc);
+    void remove(ReflectionProbe probe);
+    void set(ReflectionProbe probe, ReflectionProbeDesc const& desc);
+
     Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
     Box bounds(Renderable renderable) const; ///< in world space; conservative, like bounds()
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;
+    uint32_t reflectionProbeCount() const;
 
     struct Impl;
     Impl& impl() { return *mImpl; }

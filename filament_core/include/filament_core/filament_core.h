@@ -39,6 +39,7 @@
 #include <filament_core/Quality.h>
 #include <filament_core/QualityBudget.h>
 #include <filament_core/QualityCosts.h>
+#include <filament_core/ReflectionProbe.h>
 #include <filament_core/RenderPreset.h>
 #include <filament_core/Renderer.h>
 #include <filament_core/ResolutionController.h>

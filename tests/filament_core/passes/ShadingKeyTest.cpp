@@ -50,6 +50,14 @@ TEST(ShadingKey, EveryStorageOfAnEnvironmentIsAKeyOfItsOwn) {
     EXPECT_EQ(keys.size(), 6u);
 }
 
+TEST(ShadingKey, ProbesSelectAProgramOfLitMaterialsAlone) {
+    const ShadingKey key = shadingKey({}, {}, { .hasProbes = true });
+    EXPECT_EQ(bitsOf(key, shader::kQualityReflectionProbes), 1u);
+    EXPECT_EQ(ofUnlit(key), 0);
+    EXPECT_EQ(depthOfViewKey(key), 0);
+    EXPECT_EQ(ofLights(key), 0);
+}
+
 TEST(ShadingKey, AnIrradianceCubeIsReadOnlyWhereThereIsOne) {
     const Quality cube{ .diffuseIrradiance = DiffuseIrradiance::Cube };
     EXPECT_EQ(shadingKey(cube, { .hasIrradianceCube = false }), shadingKey({}));

@@ -153,7 +153,8 @@ TEST_F(Interface, ShadowUniformsAgree) {
 TEST_F(Interface, EveryResourceIsInTheLayoutOfItsGroup) {
     const std::array groups{ viewGroupLayout(), passGroupLayout(PassKind::LitScreen) };
     const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
-    ASSERT_EQ(size_t{ groups[0].count } + groups[1].count,
+    constexpr size_t kShared = 1; // passProbes has the binding of passSpecular: a program reads one of them
+    ASSERT_EQ(groups[0].count + groups[1].count + kShared,
               resources.uniform_buffers.size() + resources.storage_buffers.size() + resources.sampled_images.size());
     for (auto const& list : { resources.uniform_buffers, resources.storage_buffers, resources.sampled_images }) {
         for (auto const& resource : list) {
@@ -271,6 +272,7 @@ TEST(InterfaceLocations, AttributeLocationsAgree) {
 TEST(InterfaceLimits, ArraySizesAgree) {
     const std::string text = interfaceText();
     EXPECT_NE(text.find("kObjectsPerWindow = " + std::to_string(kObjectsPerWindow) + ";"), std::string::npos);
+    EXPECT_NE(text.find("kProbeWords = " + std::to_string(kProbeWords) + ";"), std::string::npos);
     EXPECT_NE(text.find("kFroxelCountBits = " + std::to_string(kFroxelCountBits) + ";"), std::string::npos);
 }
 

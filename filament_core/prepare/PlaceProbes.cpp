@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PlaceProbes.h"
+
+#include "backend/api/Format.h"
+#include "filament_core/prepare/ViewConstants.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+namespace filament_core::prepare {
+namespace {
+
+using scene::ProbeRecord;
+
+/// Points on a wall that is a face of the box are beside it by their rounding.
+constexpr float kLeastBlendMeters = 1e-3f;
+/// Half the side of the environment's box, metres: as far away as everything else.
+constexpr float kEverywhere = 1e30f;
+
+float3 relativeCenter(ProbeRecord const& probe, ViewSpace const& space) {
+    return float3(probe.centerWorld - space.cameraWorld);
+}
+
+bool reachesInto(ProbeRecord const& probe, ViewSpace const& space) {
+    float3 reach(0); // along the axes of the world
+    const float3 lit = probe.halfExtent + std::max(probe.blendMeters, kLeastBlendMeters);
+    for (int axis = 0; axis < 3; ++axis) reach += glm::abs(probe.worldFromBox[axis]) * lit[axis];
+    return intersects(space.frustum, relativeCenter(probe, space), reach);
+}
+
+/// From the camera to the box, squared.
+float distance2ToBox(ProbeRecord const& probe, ViewSpace const& space) {
+    const float3 local = -relativeCenter(probe, space) * probe.worldFromBox;
+    const float3 outside = glm::max(glm::abs(local) - probe.halfExtent, float3(0));
+    return glm::dot(outside, outside);
+}
+
+/// The environment decides, or else the smallest probe.
+struct ProbeStandard {
+    scene::CubeShape shape{};
+    scene::EnvironmentStorage storage{};
+    float levelOfRoughnessOne = 0;
+};
+
+ProbeStandard standardOf(scene::SceneData const& scene, std::span<const uint32_t> inView) {
+    scene::IndirectLightRecord const& light = scene.indirectLight;
+    if (light.specular) return { light.shape, light.storage, light.levelOfRoughnessOne };
+    ProbeRecord const& probe = scene.probes.records[inView.front()];
+    return { probe.shape, probe.storage, probe.levelOfRoughnessOne };
+}
+
+ProbeUse useOf(ProbeRecord const& probe, ProbeStandard const& standard, HeldProbes const& held) {
+    if (!held.hasArrays) return ProbeUse::NoArrays;
+    if (!backend::isWritable(standard.shape.format)) return ProbeUse::NotCopyable;
+    const bool isAlike = probe.shape == standard.shape && probe.storage.mapping == standard.storage.mapping &&
+                         probe.levelOfRoughnessOne == standard.levelOfRoughnessOne;
+    return isAlike ? ProbeUse::Used : ProbeUse::OtherShape;
+}
+
+/// Those in view, the smallest first; equal ones by their place, so that the order of adding does not count.
+std::span<uint32_t> findInView(Arena& arena, scene::Probes const& probes, ViewSpace const& space) {
+    const auto found = arena.arrayForOverwrite<uint32_t>(probes.records.size());
+    size_t count = 0;
+    for (uint32_t i = 0; i < probes.records.size(); ++i)
+        if (reachesInto(probes.records[i], space)) found[count++] = i;
+    std::ranges::sort(found.first(count), {}, [&](uint32_t i) {
+        ProbeRecord const& probe = probes.records[i];
+        const double3 at = probe.centerWorld;
+        return std::tuple(probe.volume(), at.x, at.y, at.z, probes.index.handleAt(i).index());
+    });
+    return found.first(count);
+}
+
+/// Keeps the nearest kMaxProbesOfView of those that can be used, in their order.
+std::span<const uint32_t> chooseProbes(Arena& arena, scene::Probes const& probes, ViewSpace const& space,
+                                       std::span<const uint32_t> inView, std::span<ProbeUse> uses) {
+    const auto near = arena.arrayForOverwrite<uint32_t>(inView.size());
+    size_t count = 0;
+    for (const uint32_t i : inView)
+        if (uses[i] == ProbeUse::Used) near[count++] = i;
+    const std::span usable = near.first(count);
+    std::ranges::stable_sort(usable, {}, [&](uint32_t i) { return distance2ToBox(probes.records[i], space); });
+    for (size_t i = shader::kMaxProbesOfView; i < count; ++i) uses[usable[i]] = ProbeUse::OverLimit;
+    const auto chosen = arena.arrayForOverwrite<uint32_t>(count);
+    size_t kept = 0;
+    for (const uint32_t i : inView)
+        if (uses[i] == ProbeUse::Used) chosen[kept++] = i;
+    return chosen.first(kept);
+}
+
+/// Cubes stay in their layers, and others take the free ones.
+class CubeLayers {
+public:
+    CubeLayers(HeldProbes const& held, scene::CubeShape const& shape) {
+        if (held.shape == shape) mHeld = held.cubes;
+    }
+
+    void keep(ProbeCube const& cube) {
+        const auto at = std::find(mHeld.begin() + 1, mHeld.end(), cube);
+        if (at != mHeld.end()) mCubes[static_cast<size_t>(at - mHeld.begin())] = cube;
+    }
+    /// After all that stay.
+    uint32_t layerOf(ProbeCube const& cube) {
+        auto at = std::find(mCubes.begin() + 1, mCubes.end(), cube);
+        if (at == mCubes.end()) at = std::find(mCubes.begin() + 1, mCubes.end(), ProbeCube{});
+        *at = cube;
+        return static_cast<uint32_t>(at - mCubes.begin());
+    }
+    /// What no probe uses stays for later frames.
+    ProbeCubes finish(ProbeCube const& environment) {
+        for (size_t i = 1; i < mCubes.size(); ++i)
+            if (!mCubes[i].texture) mCubes[i] = mHeld[i];
+        mCubes[0] = environment;
+        return mCubes;
+    }
+
+private:
+    ProbeCubes mHeld{}, mCubes{};
+};
+
+ProbeCube cubeOf(scene::SceneData const& scene, backend::TextureHandle texture) {
+    return { texture, texture && scene.versions ? scene.versions->of(texture) : 0 };
+}
+
+/// Bands that the view leaves out are 0.
+std::array<float4, 9> withBands(std::array<float4, 9> irradianceSh, uint32_t bands) {
+    const size_t kept = std::min<size_t>(size_t{ bands } * bands, irradianceSh.size());
+    std::fill(irradianceSh.begin() + static_cast<std::ptrdiff_t>(kept), irradianceSh.end(), float4(0));
+    return irradianceSh;
+}
+
+/// `factor`: from a texel to what the shader multiplies by FrameUniforms::ambient.x.
+shader::ReflectionProbe probeRecord(ProbeRecord const& probe, ViewSpace const& space, float factor, uint32_t bands,
+                                    uint32_t layer) {
+    shader::ReflectionProbe record{};
+    for (int axis = 0; axis < 3; ++axis)
+        record.axes[static_cast<size_t>(axis)] = float4(probe.worldFromBox[axis], probe.halfExtent[axis]);
+    record.center = float4(relativeCenter(probe, space), 1.0f / std::max(probe.blendMeters, kLeastBlendMeters));
+    record.capture = float4(probe.captureInBox, factor);
+    record.irradianceSh = withBands(probe.irradianceSh, bands);
+    record.irradianceSh[0].w = static_cast<float>(layer);
+    record.irradianceSh[1].w = probe.lightsDiffuse ? 1.0f : 0.0f;
+    return record;
+}
+
+/// The same around everything.
+shader::ReflectionProbe environmentRecord(shader::FrameUniforms const& frame, uint32_t bands) {
+    shader::ReflectionProbe record{};
+    for (int axis = 0; axis < 3; ++axis)
+        record.axes[static_cast<size_t>(axis)] = float4(float3(frame.worldFromEnvironment[axis]), kEverywhere);
+    record.center = float4(0, 0, 0, 1);
+    record.capture = float4(0, 0, 0, 1);
+    record.irradianceSh = withBands(frame.irradianceSh, bands);
+    record.irradianceSh[0].w = 0;
+    record.irradianceSh[1].w = 1;
+    return record;
+}
+
+} // namespace
+
+ProbePacket placeProbes(Arena& arena, scene::SceneData const& scene, ViewInput const& view, HeldProbes const& held,
+                        ViewPacket& packet) {
+    std::vector<ProbeRecord> const& records = scene.probes.records;
+    if (records.empty() || packet.counts.litDraws == 0) return {};
+    ProbePacket probes;
+    const ViewSpace space = makeViewSpace(view);
+    const std::span<ProbeUse> uses = arena.arrayForOverwrite<ProbeUse>(records.size());
+    std::ranges::fill(uses, ProbeUse::OutOfView);
+    probes.uses = uses;
+    const std::span<const uint32_t> inView = findInView(arena, scene.probes, space);
+    probes.outOfView = static_cast<uint32_t>(records.size() - inView.size());
+    if (inView.empty()) return probes;
+    const ProbeStandard standard = standardOf(scene, inView);
+    for (const uint32_t i : inView) uses[i] = useOf(records[i], standard, held);
+    const std::span<const uint32_t> chosen = chooseProbes(arena, scene.probes, space, inView, uses);
+    probes.used = static_cast<uint32_t>(chosen.size());
+    probes.leftOut = static_cast<uint32_t>(inView.size() - chosen.size());
+    if (probes.empty()) return probes;
+
+    shader::FrameUniforms& frame = packet.uniforms;
+    const bool hasEnvironment = frame.ambient.x > 0;
+    if (!hasEnvironment) frame.ambient.x = space.exposure, frame.ambient.y = standard.levelOfRoughnessOne;
+    const float unit = space.exposure / frame.ambient.x;
+    probes.shape = standard.shape;
+    probes.storage = standard.storage;
+    const uint32_t bands = view.quality.shBands;
+    CubeLayers layers(held, standard.shape);
+    for (const uint32_t i : chosen) layers.keep(cubeOf(scene, records[i].cube));
+    const auto placed = arena.arrayForOverwrite<shader::ReflectionProbe>(chosen.size() + (hasEnvironment ? 1 : 0));
+    for (size_t i = 0; i < chosen.size(); ++i) {
+        ProbeRecord const& probe = records[chosen[i]];
+        const uint32_t layer = layers.layerOf(cubeOf(scene, probe.cube));
+        placed[i] = probeRecord(probe, space, probe.intensity * unit, bands, layer);
+    }
+    if (hasEnvironment) placed.back() = environmentRecord(frame, bands);
+    probes.records = placed;
+    probes.cubes = layers.finish(hasEnvironment ? cubeOf(scene, scene.indirectLight.specular) : ProbeCube{});
+    return probes;
+}
+
+} // namespace filament_core::prepare
