@@ -36,6 +36,7 @@
 #include <filament_core/Options.h>
 #include <filament_core/Photometry.h>
 #include <filament_core/Primitives.h>
+#include <filament_core/ProbeCapture.h>
 #include <filament_core/Quality.h>
 #include <filament_core/QualityBudget.h>
 #include <filament_core/QualityCosts.h>

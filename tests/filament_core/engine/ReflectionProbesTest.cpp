@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflection probes on both APIs: mirrored rays against the walls of a box by their closed form, shares of boxes,
-// and what a view leaves out.
+// captures, and what a view leaves out.
 #include "tests/filament_core/engine/SkyStage.h"
 
+#include <filament_core/ProbeCapture.h>
 #include <glm/ext/matrix_transform.hpp>
 
 #include <optional>
@@ -269,6 +270,43 @@ TEST(ReflectionProbes, CubesStayInTheArrayWhileOthersComeAndGo) {
     const std::optional<Image> fresh = last(false), kept = last(true);
     ASSERT_TRUE(fresh && kept);
     EXPECT_EQ(fresh->pixels, kept->pixels);
+}
+
+// ------------------------------------------------------------------------------------------------ capture
+
+TEST(ReflectionProbes, ACaptureSeesWhatIsThere) {
+    const Image image = onBothApis([&](MaterialStage& stage) {
+        // The sky alone, whose background shows directions as colours, captured along a turned box.
+        const auto sky = std::make_shared<SkyObjects>(stage.engine, kDirectionSky);
+        stage.keep(sky);
+        const auto skybox =
+                std::make_shared<Owned<Skybox>>(stage.engine.own(stage.engine.create(SkyboxDesc{ .cube = sky->cube })));
+        stage.keep(skybox);
+        Scene around(stage.engine);
+        around.setSkybox(*skybox, Lux{ nitsOfOne(stage) });
+        ReflectionProbeDesc place = probeOf({ .halfExtent = float3(1e6f) }, *sky);
+        place.worldFromBox = float3x3(double3x3(glm::rotate(double4x4(1.0), 0.7, double3(0, 1, 0))));
+        const Result<ProbeCapture> captured = captureProbe(stage.engine, around, place, { .faceSize = 64 });
+        ASSERT_TRUE(captured) << captured.error().message;
+        EXPECT_FLOAT_EQ(captured->intensity, nitsOfOne(stage));
+        Result<Environment> light =
+                loadEnvironment(stage.engine, captured->ktx2, "capture", { .faceSize = 64, .samples = 64 });
+        ASSERT_TRUE(light) << light.error().message;
+        const auto kept = std::make_shared<Environment>(std::move(*light));
+        stage.keep(kept);
+        stage.view.size = uint2(kMirrorSide);
+        stage.add(stage.material(whiteMirror(), kNoLights), { {} });
+        place.light = kept->indirectLight();
+        place.intensity = captured->intensity;
+        stage.scene.add(place);
+    });
+    for (uint32_t y = 0; y < kMirrorSide; ++y) {
+        for (uint32_t x = 0; x < kMirrorSide; ++x) {
+            const float3 view = directionThrough(x, y, kMirrorSide);
+            const float3 expected = kDirectionSky.radiance(float3(view.x, view.y, -view.z));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(halfPixel(image, x, y)[c], expected[c], 0.04f) << x << ' ' << y;
+        }
+    }
 }
 
 } // namespace
