@@ -3,6 +3,7 @@
 
 #include "shaders/interface/ShaderInterface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -39,6 +40,25 @@ class SkyGroundEdit final : public FrameEdit {
         Bytes& bytes = copy(command.bytes);
         const size_t at = offsetof(shader::FrameUniforms, skyGround) + 3 * sizeof(float);
         writeFloat(bytes, at, 1.03f * readFloat(bytes, at));
+    }
+};
+
+/// The box of a view's smallest reflection probe, and where its cube was captured.
+class ProbeShiftEdit final : public FrameEdit {
+    static bool isProbes(Bytes const& bytes) {
+        if (bytes.empty() || bytes.size() % sizeof(shader::ReflectionProbe) != 0) return false;
+        shader::ReflectionProbe first;
+        std::memcpy(&first, bytes.data(), sizeof(first));
+        return std::ranges::all_of(first.axes, [](float4 const& axis) {
+            return std::abs(glm::dot(float3(axis), float3(axis)) - 1) < 1e-3f && axis.w > 0;
+        });
+    }
+
+    void changeFroxels(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        if (!isProbes(bytes)) return;
+        const size_t at = offsetof(shader::ReflectionProbe, center);
+        writeFloat(bytes, at, readFloat(bytes, at) + 0.02f);
     }
 };
 
@@ -191,6 +211,7 @@ constexpr Mutation kEffectMutations[] = {
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
     { "skyGround", "the camera of the panorama 3 % higher above its ground", make<SkyGroundEdit> },
+    { "probeShift", "a reflection probe 2 cm beside its place", make<ProbeShiftEdit> },
     { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
 };
 

@@ -126,6 +126,9 @@ std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
     for (std::string const& profile : spec.lightProfiles) {
         if (std::string name = profile.empty() ? profile : missing(profile); !name.empty()) return name;
     }
+    for (ProbeSpec const& probe : spec.probes) {
+        if (std::string name = isBuiltIn(probe.file) ? std::string() : missing(probe.file); !name.empty()) return name;
+    }
     return isBuiltIn(spec.environment) ? std::string() : missing(spec.environment);
 }
 

@@ -230,6 +230,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.raw("features");
     readModel(reader, spec);
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
+    reader.objects("probes", [&](JsonReader& r) { readProbe(r, spec.probes.emplace_back()); });
     reader.object("geometry", [&](JsonReader& r) { readOptions(r, spec.modelOptions); });
     reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });
     readLights(reader, spec);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "toolkit/json/JsonReader.h"
+#include "toolkit/scenes/SceneProbes.h"
 #include "toolkit/scenes/SceneRaster.h"
 
 #include <filament_core/Camera.h>
@@ -53,6 +54,7 @@ struct SceneSpec {
     std::string environment;                 ///< "sky", "asset:...", a path; empty: that of the model, if it has one
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
+    std::vector<ProbeSpec> probes;
     GltfLoadOptions modelOptions{};
     std::optional<double> animationSeconds; ///< none: the rest pose
     uint32_t animation = 0;                 ///< index in the file

@@ -83,6 +83,30 @@ Result<void> SceneLoader::loadSky(ShownScene& shown, SceneSpec const& spec, Envi
     return {};
 }
 
+/// All capture the scene before any of them lights it.
+Result<void> SceneLoader::addProbes(ShownScene& shown, SceneSpec const& spec, EnvironmentLoadOptions const& options) {
+    std::vector<ProbeSpec> probes = spec.probes;
+    View view{ .quality = spec.view.quality };
+    view.camera.exposure = spec.exposure;
+    for (ProbeSpec& probe : probes) {
+        probe.place.centerWorld += spec.origin;
+        SceneSpec named = spec;
+        named.environment = probe.file;
+        const Result<std::filesystem::path> path = environmentFile(named, mFolders);
+        if (!path) return path.error();
+        Result<std::shared_ptr<Environment>> light =
+                path->empty() ? capturedLight(mEngine, shown.scene, probe, view, options)
+                              : load(mEnvironments, *path, options, [](auto&... a) { return loadEnvironment(a...); });
+        if (!light) return light.error();
+        shown.probes.push_back(std::move(*light));
+    }
+    for (size_t i = 0; i < probes.size(); ++i) {
+        probes[i].place.light = shown.probes[i]->indirectLight();
+        shown.scene.add(probes[i].place);
+    }
+    return {};
+}
+
 Result<void> SceneLoader::place(ShownScene& shown, SceneSpec const& spec) {
     if (!shown.material) return placeModel(shown, spec);
     Result<std::vector<Node>> added = addMaterialCopies(mEngine, shown.scene, spec, *shown.material);
@@ -102,6 +126,7 @@ Result<ShownScene> SceneLoader::show(SceneSpec const& spec, GltfLoadOptions cons
         shown.scene.setEnvironment(*shown.environment, spec.environmentSettings);
     else if (shown.model && shown.model->environment())
         shown.scene.setEnvironment(*shown.model->environment(), spec.environmentSettings);
+    if (Result<void> added = addProbes(shown, spec, environmentOptions); !added) return added.error();
     return shown;
 }
 

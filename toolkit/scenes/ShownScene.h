@@ -17,6 +17,7 @@
 
 #include <map>
 #include <memory>
+#include <vector>
 
 namespace filament_core::tools {
 
@@ -25,7 +26,8 @@ struct ShownScene {
     std::shared_ptr<Model> model{};             ///< or
     std::shared_ptr<MaterialStand> material{};  ///< where the scene's model is a material
     std::shared_ptr<Environment> environment{}; ///< none: the model's, if it has one
-    Scene scene;                                ///< ends before model and environment
+    std::vector<std::shared_ptr<Environment>> probes{};
+    Scene scene; ///< ends before model, environment and probes
     std::vector<Node> copies{};
 };
 
@@ -57,6 +59,7 @@ private:
     Result<void> loadSky(ShownScene& shown, SceneSpec const& spec, EnvironmentLoadOptions const& options);
     Result<void> place(ShownScene& shown, SceneSpec const& spec);
     Result<void> placeModel(ShownScene& shown, SceneSpec const& spec);
+    Result<void> addProbes(ShownScene& shown, SceneSpec const& spec, EnvironmentLoadOptions const& options);
 
     Engine& mEngine;
     const SceneFolders mFolders;
