@@ -20,7 +20,7 @@ struct Words {
                 occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
                 energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads,
                 specularLight = "integral", diffuseLight = "integral", solidTint = "each-interface",
-                occlusionRadius = "0", occlusionRays = "64", tile, samplesOfPart, shard;
+                occlusionRadius = "0", occlusionRays = "64", probe = "0", tile, samplesOfPart, shard;
     std::vector<std::string> merge;
 };
 
@@ -148,6 +148,11 @@ Result<void> convertNumbers(Words const& words, Options& options) {
     if (!rays) return invalidOption("--ao-rays", words.occlusionRays, "a whole number from 1 to 65536");
     options.settings.occlusionRays = *rays;
 
+    const auto probe = wholeNumber(words.probe, 0, 4096);
+    if (!probe || (*probe > 0 && *probe < 16))
+        return invalidOption("--probe", words.probe, "a whole number from 16 to 4096, or 0");
+    options.probeSize = *probe;
+
     const auto seed = wholeNumber(words.seed, 0, ~0u);
     if (!seed) return invalidOption("--seed", words.seed, "a whole number from 0 to 4294967295");
     options.settings.seed = *seed;
@@ -205,6 +210,9 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--shard", words.shard, "render part I of N; or auto, from the scheduler").typeName("I/N");
     app.option("--merge", words.merge, "do not render: write the picture of parts, files or folders of them")
             .typeName("FILE...");
+    app.option(
+            "--probe", words.probe,
+            "write DIR/probe.ktx2 instead: what a reflection probe sees from the camera's place; texels of a side (0)");
     app.flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
 }
 

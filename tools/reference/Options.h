@@ -15,6 +15,7 @@ struct Options : tools::SceneOptions {
     ReferenceSettings settings{};
     int workers = -1;                         ///< as JobSystemOptions::workers
     bool writesErrors = false;                ///< error.exr
+    uint32_t probeSize = 0;                   ///< --probe: texels of a side of probe.ktx2, instead of an image; 0: none
     double rotationDegrees = 0;               ///< of the environment around +Y
     std::optional<FilmRegion> part;           ///< --tile, --samples, --shard: this instead of the whole image
     std::optional<tools::Shard> shard;        ///< --shard: that this part is

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
 // Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C; a part is then not written.
+#include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/machine/Machine.h"
 #include "toolkit/program/Console.h"
 #include "toolkit/program/Program.h"
@@ -8,6 +9,7 @@
 #include "tools/reference/LoadScene.h"
 #include "tools/reference/Merge.h"
 #include "tools/reference/Output.h"
+#include "tools/reference/ProbeCube.h"
 
 #include <fmt/format.h>
 
@@ -90,6 +92,19 @@ int renderPicture(Options const& options, Job const& job, jobs::JobSystem& jobs)
     return tools::kInterruptedStatus;
 }
 
+int renderProbe(Options const& options, Job const& job, jobs::JobSystem& jobs) {
+    const auto file =
+            traceProbe(*job.scene, viewOf(options), options.probeSize, options.settings, jobs, progressOf(options));
+    tools::clearProgress();
+    if (!file) return failed(file.error());
+    for (std::string const& note : job.notes) tools::printWarning(note);
+    const std::filesystem::path path = options.out / "probe.ktx2";
+    if (auto written = assets::replaceFile(path, *file); !written) return failed(written.error());
+    std::printf("%s: %u texels a side; intensity %.6g\n", path.c_str(), options.probeSize,
+                1 / double{ viewOf(options).camera.exposure.factor() });
+    return tools::isInterrupted() ? tools::kInterruptedStatus : 0;
+}
+
 int renderOnePart(Options const& options, Job const& job, jobs::JobSystem& jobs) {
     const Result<PartialFilm> part =
             renderPart(*job.scene, viewOf(options), options.settings, *options.part, jobs, progressOf(options));
@@ -136,6 +151,7 @@ int run(Options const& options) {
     const Result<Job> job = prepareJob(options, jobs);
     if (!job) return failed(job.error());
     const tools::StopOnInterrupt scope;
+    if (options.probeSize > 0) return renderProbe(options, *job, jobs);
     return options.part ? renderOnePart(options, *job, jobs) : renderPicture(options, *job, jobs);
 }
 
