@@ -45,6 +45,7 @@ struct Pair {
     std::function<void(Scene&, View&)> effect{}; ///< the scene with the effect
     bool isUnseen = false;
     bool hasMirror = false; ///< a floor with screen-space reflections
+    bool hasProbe = false;  ///< the effect is a reflection probe around the model
     Moving moving = Moving::Nothing;
 };
 
@@ -380,6 +381,8 @@ std::vector<Pair> pairs() {
         };
     };
     all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
+    all.push_back(
+            { .name = "reflection probe", .file = kHelmet, .plain = nothing, .effect = nothing, .hasProbe = true });
     addFogPairs(all, kHelmet);
     addVolumetricFogPairs(all, kHelmet);
     addContactPairs(all, kHelmet);
@@ -436,6 +439,10 @@ public:
         mEngine.waitIdle();
         return std::chrono::duration<double>(Clock::now() - begin).count();
     }
+    /// With the light of the environment, around the model.
+    void addProbe(Environment const& light) {
+        mScene.add(ReflectionProbeDesc{ .halfExtentMeters = float3(1.5f), .light = light.indirectLight() });
+    }
     Result<Image> picture() { return mRenderer.renderToImage(mScene, mView); }
     Renderer const& renderer() const { return mRenderer; }
     std::vector<FrameTimings> takeTimings() { return mRenderer.takeTimings(); }
@@ -488,6 +495,7 @@ Result<Measured> measure(Backend backend, Pair const& pair, Options const& optio
     if (!subject) return subject.error();
     Side plain(*engine, *subject, pair, pair.plain, options.size);
     Side effect(*engine, *subject, pair, pair.effect, options.size);
+    if (pair.hasProbe) effect.addProbe(subject->environment);
     Measured measured;
     measured.isSame = haveSameFrames(plain, effect);
     std::vector<double> ratios, times;

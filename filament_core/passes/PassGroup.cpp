@@ -118,7 +118,7 @@ std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameCo
               .range = { .levelCount = textures.sceneColorLevels } },
             { .binding = shader::kBindingFogCells,
               .buffer = textures.fogCells ? pass.buffer(textures.fogCells) : context.resources.noFogCells,
-              .size = textures.fogCells ? fogCellBytes(context) : sizeof(float4) },
+              .size = textures.fogCells ? fogCellBytes(context) : uint32_t{ sizeof(float4) } },
     } };
 }
 

@@ -94,11 +94,13 @@ LanesOf<V, Lanes...> lanesOf(V& v) {
 
 /// Only the split-sum table is looked up; all other textures are white: a white furnace.
 struct samplerCube {};
+struct samplerCubeArray {};
 struct sampler2D {
     vec4 (*texel)(vec2 uv) = nullptr; ///< null: white
 };
 
 inline vec4 textureLod(samplerCube, vec3, double) { return vec4(1.0); }
+inline vec4 textureLod(samplerCubeArray, vec4, double) { return vec4(1.0); }
 inline vec4 texture(samplerCube, vec3) { return vec4(1.0); }
 inline vec4 textureLod(sampler2D const& map, vec2 uv, double) { return map.texel ? map.texel(uv) : vec4(1.0); }
 inline vec4 texture(sampler2D const& map, vec2 uv) { return textureLod(map, uv, 0.0); }
