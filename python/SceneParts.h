@@ -4,6 +4,10 @@
 
 #include "python/Bindings.h"
 
+#include <filament_core/Environment.h>
+
+#include <optional>
+
 namespace filament_core::python {
 
 using SceneClass = py::class_<SceneObject, std::shared_ptr<SceneObject>>;
@@ -29,6 +33,20 @@ struct LightObject {
     }
 };
 
+struct ProbeObject {
+    std::shared_ptr<SceneObject> scene;
+    ReflectionProbe probe{};                    ///< none: removed
+    std::optional<Environment> captured{};      ///< its light, if it is the probe's own
+    std::shared_ptr<EnvironmentObject> given{}; ///< otherwise
+
+    ReflectionProbe live() const {
+        if (!probe) raiseClosedError("the reflection probe was removed from its scene");
+        return probe;
+    }
+};
+
+/// Scene.add_reflection_probe(), and the class ReflectionProbe.
+void bindProbes(py::module_& module, SceneClass& scene);
 /// Scene.add(), and the class ModelCopy.
 void bindModelCopies(py::module_& module, SceneClass& scene);
 

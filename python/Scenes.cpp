@@ -195,8 +195,7 @@ void bindScene(py::module_& module) {
                  py::arg("ground_height") = 0.0, py::arg("ground_level") = 0.0, py::arg("ground_radius") = 50.0,
                  "Lights the scene by an Environment, or by the one that a Model brings; None: not any more. "
                  "`illuminance` is what radiance 1 of it stands for, in lux. With a ground_height in metres its "
-                 "background "
-                 "lies on the ground, so far below the panorama's camera.")
+                 "background lies on the ground, so far below the panorama's camera.")
             .def_property_readonly(
                     "bounds",
                     [](SceneObject const& self) {
@@ -217,6 +216,7 @@ void bindScene(py::module_& module) {
                     "How many renderables, lights and nodes the scene has.");
     bindLights(scene);
     bindModelCopies(module, scene);
+    bindProbes(module, scene);
 }
 
 } // namespace filament_core::python

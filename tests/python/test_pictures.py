@@ -123,6 +123,59 @@ class EnvironmentLights(unittest.TestCase):
                 engine.load_environment(path, sun="moon")
 
 
+class Surroundings(unittest.TestCase):
+    def setUp(self):
+        self.engine = fc.Engine("gles")
+        self.addCleanup(self.engine.close)
+        self.scene = fc.Scene(self.engine)
+
+    def test_a_mirror_shows_what_a_probe_captured(self):
+        walls = unlit(self.engine, (0.25, 0.5, 3))
+        walls.set_double_sided(True)
+        room = self.scene.add_mesh(self.engine.box((4, 4, 4)), walls)
+        probe = self.scene.add_reflection_probe((0, 0, 0), (2, 2, 2), face_size=16, name="room")
+        room.remove()
+        mirror = self.engine.built_in_material("lit").instance()
+        mirror.set("metallic", 1.0)
+        mirror.set("roughness", 0.3)
+        mirror.set("baseColor", (1, 1, 1))
+        self.scene.add_mesh(quad(self.engine), mirror)
+        renderer = fc.Renderer(self.engine)
+        picture = renderer.render(self.scene, flat_view(), output="light")
+        np.testing.assert_allclose(picture[32, 32, :3], (0.25, 0.5, 3), rtol=0.02)
+        self.assertIn("room", renderer.explain())
+        probe.remove()
+        self.assertEqual(renderer.render(self.scene, flat_view(), output="light")[32, 32, :3].tolist(), [0, 0, 0])
+        with self.assertRaises(fc.ClosedError):
+            probe.remove()
+        for wrong in ({"half_extent": (1, 0, 1)}, {"half_extent": (1, 1, 1), "capture": (0, 2, 0)},
+                      {"half_extent": (1, 1, 1), "face_size": 8}):
+            with self.assertRaises(fc.InvalidArgumentError):
+                self.scene.add_reflection_probe((0, 0, 0), **wrong)
+
+    def test_the_background_lies_on_the_ground(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sky = np.full((64, 128, 3), 1, np.float32)
+            sky[32:] = 0.25  # below the horizon
+            fc.save_picture(pathlib.Path(folder) / "sky.exr", sky)
+            light = self.engine.load_environment(pathlib.Path(folder) / "sky.exr", face_size=64, samples=16)
+        view = fc.View((64, 64))
+        view.look_at((0, 1, 0), (0, 1, -1), fov_degrees=90)
+        lower = []
+        for height in (0, 1):
+            # The level line of sight ends on the dome, 5 m away: 1 m above the ground, as the panorama was taken.
+            self.scene.set_environment(light, ground_height=height, ground_level=0, ground_radius=5)
+            picture = fc.Renderer(self.engine).render(self.scene, view, output="light")[..., 0]
+            lower.append(float((picture[:, 32] < 0.5 * picture.max()).mean()))
+        self.assertAlmostEqual(lower[0], 0.5, delta=0.05)
+        self.assertAlmostEqual(lower[1], 0.5, delta=0.05)
+        view.look_at((0, 3, 0), (0, 3, -1), fov_degrees=90)
+        picture = fc.Renderer(self.engine).render(self.scene, view, output="light")[..., 0]
+        # From 3 m the edge of the ground, 5 m away, is atan(3 / 5) below the level.
+        share = float((picture[:, 32] < 0.5 * picture.max()).mean())
+        self.assertLess(share, 0.4)
+
+
 class BothApis(unittest.TestCase):
     """One scene, one view: what Vulkan and OpenGL ES draw."""
 
