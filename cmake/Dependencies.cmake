@@ -79,6 +79,9 @@ if(FILAMENT_BUILD_BENCHES)
     find_package(benchmark REQUIRED)
     find_package(TBB REQUIRED) # these two: for the comparison in bench/threading
     find_package(OpenMP REQUIRED COMPONENTS CXX)
+    # and these two, if they are found; OFF leaves one out
+    find_path(EIGEN_THREADS_HEADERS unsupported/Eigen/CXX11/ThreadPool PATH_SUFFIXES eigen3)
+    find_path(BOOST_ASIO_HEADERS boost/asio/io_context.hpp)
 endif()
 
 # tools/plot runs under Debian's Python, which python3-matplotlib belongs to, even if another one comes first in PATH.

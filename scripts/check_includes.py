@@ -114,7 +114,7 @@ LIBRARIES = {
     r"imgui": ["tools", "tests"],
     r"pybind11/|numpy/|Python\.h": ["python"],
     r"gtest/|gmock/": ["tests"],
-    r"benchmark/|oneapi/|tbb/|omp\.h": ["bench"],
+    r"benchmark/|oneapi/|tbb/|omp\.h|Eigen/|boost/": ["bench"],
 }
 GENERATED = re.compile(r"generated/")  # written by the build, not part of the tree
 

@@ -23,16 +23,12 @@ Workload batch(Settings const& settings, std::string name, uint32_t jobs, std::v
                        .kind = "jobs",
                        .contenders = {},
                        .targets = std::move(targets) };
-    for (const RuntimeKind kind : kAllRuntimes) {
+    addRuntimes(workload, kAllRuntimes, Work::Jobs, [&](RuntimeKind kind) -> Contender {
         auto runtime = runtimeOf(kind, settings);
         const uint32_t count = std::min(jobs, runtime->affordableJobs());
-        workload.contenders.push_back(
-                { toString(kind),
-                  timed(
-                          runtime, [count](Runtime& r, uint64_t repeats) { r.emptyJobs(count, repeats); }, count,
-                          settings.sampleNs),
-                  scaledNote(count, jobs, "jobs") });
-    }
+        const auto work = [count](Runtime& r, uint64_t repeats) { r.emptyJobs(count, repeats); };
+        return { toString(kind), timed(runtime, work, count, settings.sampleNs), scaledNote(count, jobs, "jobs") };
+    });
     return workload;
 }
 
@@ -44,23 +40,23 @@ Workload forkJoinTree(Settings const& settings) {
                        .kind = "jobs",
                        .contenders = {},
                        .targets = { { .limit = 25 }, { .figure = Figure::Ratio, .other = "tbb", .limit = 0.7 } } };
-    for (const RuntimeKind kind : kAllRuntimes) {
+    addRuntimes(workload, kAllRuntimes, Work::Tree, [&](RuntimeKind kind) -> Contender {
         auto runtime = runtimeOf(kind, settings);
-        const uint32_t leaves = std::min(1u << depth, runtime->affordableJobs());
+        const uint32_t leaves = std::min(1u << depth, runtime->affordableLeaves());
         const auto work = [leaves](Runtime& r, uint64_t repeats) {
             for (uint64_t i = 0; i < repeats; ++i)
                 FILAMENT_ASSERT(r.tree(static_cast<uint32_t>(std::bit_width(leaves)) - 1) == leaves,
                                 "a fork-join tree has visited all of its leaves when it returns");
         };
-        workload.contenders.push_back({ toString(kind), timed(runtime, work, leaves - 1, settings.sampleNs),
-                                        scaledNote(leaves, 1u << depth, "leaves") });
-    }
+        return { toString(kind), timed(runtime, work, leaves - 1, settings.sampleNs),
+                 scaledNote(leaves, 1u << depth, "leaves") };
+    });
     return workload;
 }
 
 using ChainOf = void (Runtime::*)(uint32_t links, uint64_t repeats);
 
-Workload chain(Settings const& settings, const char* name, const char* of, ChainOf chainOf,
+Workload chain(Settings const& settings, const char* name, const char* of, Work kindOfWork, ChainOf chainOf,
                std::vector<Target> targets) {
     const uint32_t wanted = settings.quick ? 100 : 10'000;
     Workload workload{ .name = name,
@@ -69,13 +65,12 @@ Workload chain(Settings const& settings, const char* name, const char* of, Chain
                        .kind = "jobs",
                        .contenders = {},
                        .targets = std::move(targets) };
-    for (const RuntimeKind kind : kAllRuntimes) {
+    addRuntimes(workload, kAllRuntimes, kindOfWork, [&](RuntimeKind kind) -> Contender {
         auto runtime = runtimeOf(kind, settings);
         const uint32_t links = std::min(wanted, runtime->affordableJobs());
         const auto work = [=](Runtime& r, uint64_t repeats) { (r.*chainOf)(links, repeats); };
-        workload.contenders.push_back(
-                { toString(kind), timed(runtime, work, links, settings.sampleNs), scaledNote(links, wanted, "links") });
-    }
+        return { toString(kind), timed(runtime, work, links, settings.sampleNs), scaledNote(links, wanted, "links") };
+    });
     return workload;
 }
 
@@ -92,10 +87,14 @@ void addJobWorkloads(WorkloadList& list, Settings const& settings) {
              } });
     list.push_back({ "batch_64k", [=] { return batch(settings, "batch_64k", settings.quick ? 256 : 65'536, {}); } });
     list.push_back({ "tree_64k", [=] { return forkJoinTree(settings); } });
-    list.push_back({ "chain_10k",
-                     [=] { return chain(settings, "chain_10k", "continuations", &Runtime::chain, { notSlower }); } });
-    list.push_back({ "graph_10k", [=] { return chain(settings, "graph_10k", "groups", &Runtime::graph, {}); } });
-    list.push_back({ "relay_10k", [=] { return chain(settings, "relay_10k", "jobs", &Runtime::relay, {}); } });
+    list.push_back({ "chain_10k", [=] {
+                        return chain(settings, "chain_10k", "continuations", Work::Chain, &Runtime::chain,
+                                     { notSlower });
+                    } });
+    list.push_back(
+            { "graph_10k", [=] { return chain(settings, "graph_10k", "groups", Work::Graph, &Runtime::graph, {}); } });
+    list.push_back(
+            { "relay_10k", [=] { return chain(settings, "relay_10k", "jobs", Work::Relay, &Runtime::relay, {}); } });
 }
 
 } // namespace filament_core::bench

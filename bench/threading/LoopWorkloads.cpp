@@ -24,12 +24,11 @@ Workload makeLoop(Settings const& settings, Loop const& loop) {
                        .kind = "jobs",
                        .contenders = {},
                        .targets = loop.targets };
-    for (const RuntimeKind kind : kAllRuntimes)
-        workload.contenders.push_back(
-                { toString(kind), timed(
-                                          makeRuntime(kind, { .threads = settings.threads }),
-                                          [=](Runtime& r, uint64_t repeats) { r.loop(work, count, repeats); },
-                                          loop.whole ? 1e3 : static_cast<double>(count), settings.sampleNs) });
+    const auto repeated = [=](Runtime& r, uint64_t repeats) { r.loop(work, count, repeats); };
+    addRuntimes(workload, kAllRuntimes, Work::Loop, [&](RuntimeKind kind) -> Contender {
+        return { toString(kind), timed(makeRuntime(kind, { .threads = settings.threads }), repeated,
+                                       loop.whole ? 1e3 : static_cast<double>(count), settings.sampleNs) };
+    });
     return workload;
 }
 

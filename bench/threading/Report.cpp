@@ -5,6 +5,7 @@
 
 #include <fmt/color.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <unistd.h>
@@ -42,7 +43,7 @@ bool isVersus(Measured const& measured) { return measured.find("ours") != nullpt
 /// The contenders that "ours" is compared with, always in the same columns, so that rows line up.
 std::vector<std::string> versusColumns(Measured const& measured) {
     if (measured.kind == "commands") return { "copy" };
-    std::vector<std::string> columns{ "tbb", "openmp", "async", "serial" };
+    std::vector<std::string> columns{ "tbb", "openmp", "eigen", "asio", "async", "serial" };
     if (measured.kind == "wakeup") columns.back() = "futex";
     if (measured.kind == "uneven") columns.push_back(measured.find("ideal") ? "ideal" : "fair");
     return columns;
@@ -113,6 +114,7 @@ nlohmann::json jsonOf(Measured const& measured) {
     nlohmann::json json{ { "name", measured.name }, { "title", measured.title }, { "unit", measured.unit },
                          { "kind", measured.kind }, { "x", measured.x },         { "ratios", ratiosOf(measured) } };
     for (Series const& series : measured.series) json["contenders"].push_back(jsonOf(series));
+    for (LeftOut const& leftOut : measured.leftOut) json["leftOut"][leftOut.name] = leftOut.why;
     json["targets"] = nlohmann::json::array();
     for (Verdict const& verdict : measured.verdicts)
         json["targets"].push_back({ { "text", describe(verdict.target, measured.unit) },
@@ -144,6 +146,8 @@ void Table::print(Measured const& measured) {
         mColumns = columns;
     }
     printFigures(measured, mColumns);
+    for (LeftOut const& leftOut : measured.leftOut)
+        mLeftOut[fmt::format("{}: {}", leftOut.name, leftOut.why)].push_back(measured.name);
     if (measured.verdicts.empty()) fmt::print("  |\n");
     const int indent = kTitleWidth + 9 + static_cast<int>(mColumns.size()) * (kFigureWidth + 1) +
                        (isVersus(measured) ? kOursWidth + 1 + 10 + static_cast<int>(mColumns.size()) * 7 : 0);
@@ -161,6 +165,7 @@ void Table::print(Measured const& measured) {
 
 void Table::printSummary() const {
     fmt::print("\n*  scaled down and given per item: see the note in the JSON\n");
+    for (auto const& [why, workloads] : mLeftOut) fmt::print("-  {} ({})\n", why, fmt::join(workloads, ", "));
     if (mTargets > 0) fmt::print("{} of {} targets met\n", mTargets - static_cast<int>(mMissed.size()), mTargets);
     for (std::string const& missed : mMissed) fmt::print("  missed: {}\n", missed);
 }

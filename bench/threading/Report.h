@@ -9,6 +9,7 @@
 #include "bench/threading/Workload.h"
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,11 +24,12 @@ void printMachine(MachineDescription const& machine, Settings const& settings);
 class Table {
 public:
     void print(Measured const& measured);
-    void printSummary() const; ///< targets met and missed
+    void printSummary() const; ///< what was left out; targets met and missed
 
 private:
     std::vector<std::string> mColumns;
     std::vector<std::string> mMissed;
+    std::map<std::string, std::vector<std::string>> mLeftOut; // by contender and reason: workloads
     int mTargets = 0;
 };
 

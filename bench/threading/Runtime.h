@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runtime: the same workloads on one threading library. One file each: OursRuntime.cpp, OneTbbRuntime.cpp,
-/// OpenMpRuntime.cpp, StdAsyncRuntime.cpp, SerialRuntime.cpp; read them side by side.
+/// OpenMpRuntime.cpp, EigenRuntime.cpp, AsioRuntime.cpp, StdAsyncRuntime.cpp, SerialRuntime.cpp; read them side by
+/// side.
 ///   Use     enter(), then any of the workloads any number of times, then leave(); the caller measures time.
 ///   Thread  one thread, the same for all calls. `threads` includes it.
 ///   Rule    each is written as its users would write it: the calling thread takes part, groups are reused if the
 ///           library allows it, and nothing is tuned to the machine.
-///   Fails   makeRuntime() never; the return value says if a runtime does not support a workload.
+///   Limits  Eigen and Boost.Asio are optional when the program is built. whyLeftOut() says what a library cannot
+///           express.
+///   Fails   makeRuntime() never, for a runtime that isBuilt().
 #pragma once
 
 #include "bench/threading/SpinWork.h"
@@ -15,13 +18,25 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 namespace filament_core::bench {
 
-enum class RuntimeKind : uint8_t { Ours, OneTbb, OpenMp, StdAsync, Serial };
-inline constexpr RuntimeKind kAllRuntimes[] = { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp,
-                                                RuntimeKind::StdAsync, RuntimeKind::Serial };
-const char* toString(RuntimeKind kind); ///< "ours", "tbb", "openmp", "async", "serial"
+enum class RuntimeKind : uint8_t { Ours, OneTbb, OpenMp, Eigen, Asio, StdAsync, Serial };
+inline constexpr RuntimeKind kAllRuntimes[] = { RuntimeKind::Ours,  RuntimeKind::OneTbb, RuntimeKind::OpenMp,
+                                                RuntimeKind::Eigen, RuntimeKind::Asio,   RuntimeKind::StdAsync,
+                                                RuntimeKind::Serial };
+const char* toString(RuntimeKind kind); ///< "ours", "tbb", "openmp", "eigen", "asio", "async", "serial"
+
+/// False for a library that was not found when the program was configured.
+bool isBuilt(RuntimeKind kind);
+/// "eigen (libeigen3-dev)": the runtimes that are not built, and the packages that they need. Empty if there are none.
+std::string absentRuntimes();
+
+/// A function of Runtime, spinJobs() included in Jobs.
+enum class Work : uint8_t { Jobs, Tree, Loop, Chain, Graph, Relay, WakeUp };
+/// Why the library of a runtime cannot express the work; nullptr if it can.
+const char* whyLeftOut(RuntimeKind kind, Work work);
 
 struct RuntimeOptions {
     unsigned threads = 1; ///< that work, including the caller
@@ -55,6 +70,8 @@ public:
 
     /// More jobs at once would take too long or too much memory; workloads scale down to this number and report it.
     virtual uint32_t affordableJobs() const { return std::numeric_limits<uint32_t>::max(); }
+    /// The same for the leaves of a tree.
+    virtual uint32_t affordableLeaves() const { return affordableJobs(); }
 };
 
 std::unique_ptr<Runtime> makeRuntime(RuntimeKind kind, RuntimeOptions const& options);
@@ -62,6 +79,8 @@ std::unique_ptr<Runtime> makeRuntime(RuntimeKind kind, RuntimeOptions const& opt
 std::unique_ptr<Runtime> makeOursRuntime(RuntimeOptions const& options);
 std::unique_ptr<Runtime> makeOneTbbRuntime(RuntimeOptions const& options);
 std::unique_ptr<Runtime> makeOpenMpRuntime(RuntimeOptions const& options);
+std::unique_ptr<Runtime> makeEigenRuntime(RuntimeOptions const& options); ///< if it isBuilt()
+std::unique_ptr<Runtime> makeAsioRuntime(RuntimeOptions const& options);  ///< if it isBuilt()
 std::unique_ptr<Runtime> makeStdAsyncRuntime(RuntimeOptions const& options);
 std::unique_ptr<Runtime> makeSerialRuntime();
 

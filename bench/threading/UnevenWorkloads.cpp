@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -56,7 +57,7 @@ Workload powerLaw(Settings const& settings) {
                        .kind = "uneven",
                        .contenders = {},
                        .targets = { { .figure = Figure::Ratio, .other = "ideal", .limit = 1.03 } } };
-    const auto add = [&](RuntimeKind kind) {
+    const auto make = [&](RuntimeKind kind) -> Contender {
         std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads });
         const size_t affordable = std::min<size_t>(jobs->count, runtime->affordableJobs());
         const auto sample = [=](std::vector<double>& figures) {
@@ -65,16 +66,14 @@ Workload powerLaw(Settings const& settings) {
             if (kind == RuntimeKind::Serial) jobs->serialNs = ns;
             figures.push_back(ns * 1e-6 * jobs->total(jobs->count) / jobs->total(affordable));
         };
-        workload.contenders.push_back(
-                { toString(kind), sample, scaledNote(static_cast<uint32_t>(affordable), jobs->count, "jobs") });
+        return { toString(kind), sample, scaledNote(static_cast<uint32_t>(affordable), jobs->count, "jobs") };
     };
-    add(RuntimeKind::Serial);
+    workload.contenders.push_back(make(RuntimeKind::Serial));
     workload.contenders.push_back({ "ideal", [=](std::vector<double>& figures) {
                                        figures.push_back(jobs->idealNs(settings.threads) * 1e-6);
                                    } });
-    for (const RuntimeKind kind :
-         { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp, RuntimeKind::StdAsync })
-        add(kind);
+    using enum RuntimeKind;
+    addRuntimes(workload, std::array{ Ours, OneTbb, OpenMp, Eigen, Asio, StdAsync }, Work::Jobs, make);
     return workload;
 }
 
@@ -89,6 +88,7 @@ struct Hogged {
     const char* name;
     const char* title;
     bool pinned;
+    Work kind;
     std::function<void(Runtime&)> work;
     std::vector<RuntimeKind> against;
 };
@@ -110,14 +110,14 @@ Result<Workload> hoggedCore(Settings const& settings, Hogged const& hogged) {
     workload.contenders.push_back({ "fair", [=, left = coresLeft(settings)](std::vector<double>& figures) {
                                        figures.push_back(*serialNs * 1e-6 / left);
                                    } });
-    for (const RuntimeKind kind : hogged.against) {
+    addRuntimes(workload, hogged.against, hogged.kind, [&](RuntimeKind kind) -> Contender {
         std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads, .pinned = hogged.pinned });
-        workload.contenders.push_back({ toString(kind), [=](std::vector<double>& figures) {
-                                           hog->hog();
-                                           figures.push_back(timeOnce(*runtime, hogged.work) * 1e-6);
-                                           hog->relent();
-                                       } });
-    }
+        return { toString(kind), [=](std::vector<double>& figures) {
+                    hog->hog();
+                    figures.push_back(timeOnce(*runtime, hogged.work) * 1e-6);
+                    hog->relent();
+                } };
+    });
     return workload;
 }
 
@@ -136,12 +136,13 @@ void addUnevenWorkloads(WorkloadList& list, Settings const& settings) {
         runtime.loop(SpinWork::ofItems(20), static_cast<uint64_t>(wholeNs / 20), 1);
     };
     using enum RuntimeKind;
-    const std::vector<RuntimeKind> forJobs{ Ours, OneTbb, OpenMp }, forLoops{ Ours, OneTbb, OpenMp, StdAsync };
+    const std::vector<RuntimeKind> forJobs{ Ours, OneTbb, OpenMp, Eigen, Asio },
+            forLoops{ Ours, OneTbb, OpenMp, Eigen, Asio, StdAsync };
     for (Hogged const& hogged : {
-                 Hogged{ "hogged_jobs_pinned", "hogged core, jobs of 20 us, pinned", true, jobs, forJobs },
-                 Hogged{ "hogged_jobs", "hogged core, jobs of 20 us, unpinned", false, jobs, forJobs },
-                 Hogged{ "hogged_loop_pinned", "hogged core, parallel-for, pinned", true, loop, forLoops },
-                 Hogged{ "hogged_loop", "hogged core, parallel-for, unpinned", false, loop, forLoops },
+                 Hogged{ "hogged_jobs_pinned", "hogged core, jobs of 20 us, pinned", true, Work::Jobs, jobs, forJobs },
+                 Hogged{ "hogged_jobs", "hogged core, jobs of 20 us, unpinned", false, Work::Jobs, jobs, forJobs },
+                 Hogged{ "hogged_loop_pinned", "hogged core, parallel-for, pinned", true, Work::Loop, loop, forLoops },
+                 Hogged{ "hogged_loop", "hogged core, parallel-for, unpinned", false, Work::Loop, loop, forLoops },
          })
         list.push_back({ hogged.name, [=] { return hoggedCore(settings, hogged); } });
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 
 namespace filament_core::bench {
@@ -42,19 +43,20 @@ Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
     if (what.pinned) workload.targets = { { .limit = 50 }, { .figure = Figure::P99, .limit = 200 } };
     workload.targets.push_back({ .figure = Figure::Ratio, .other = "futex", .limit = 1.5 });
     const int wakeUps = settings.quick ? 2 : 20; // per round
-    for (const RuntimeKind kind :
-         { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp, RuntimeKind::StdAsync }) {
+    using enum RuntimeKind;
+    const std::array kinds{ Ours, OneTbb, OpenMp, Eigen, Asio, StdAsync };
+    addRuntimes(workload, kinds, Work::WakeUp, [&](RuntimeKind kind) -> Contender {
         std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads, .pinned = what.pinned });
-        workload.contenders.push_back({ toString(kind), [=](std::vector<double>& figures) {
-                                           runtime->enter();
-                                           runtime->emptyJobs(8, 1); // now the threads exist
-                                           for (int i = 0; i < wakeUps; ++i)
-                                               if (const auto latency = runtime->wakeUp(what.idleNs))
-                                                   figures.push_back(static_cast<double>(*latency) * 1e-3);
-                                           settle();
-                                           runtime->leave();
-                                       } });
-    }
+        return { toString(kind), [=](std::vector<double>& figures) {
+                    runtime->enter();
+                    runtime->emptyJobs(8, 1); // now the threads exist
+                    for (int i = 0; i < wakeUps; ++i)
+                        if (const auto latency = runtime->wakeUp(what.idleNs))
+                            figures.push_back(static_cast<double>(*latency) * 1e-3);
+                    settle();
+                    runtime->leave();
+                } };
+    });
     workload.contenders.push_back(futexContender(what, wakeUps));
     return workload;
 }

@@ -85,7 +85,8 @@ Measured Rounds::finish() && {
                        .kind = mWorkload.kind,
                        .x = mWorkload.x,
                        .series = std::move(mSeries),
-                       .verdicts = {} };
+                       .verdicts = {},
+                       .leftOut = std::move(mWorkload.leftOut) };
     for (Target const& target : mWorkload.targets) measured.verdicts.push_back(judge(target, measured));
     return measured;
 }

@@ -32,6 +32,12 @@ struct Contender {
     std::string note = ""; ///< "64 of 1024 jobs, scaled"
 };
 
+/// A contender without figures.
+struct LeftOut {
+    std::string name; ///< its column
+    std::string why;
+};
+
 enum class Figure : uint8_t { Median, P99, Ratio };
 
 /// A limit for the figure of one contender, or with Ratio for its ratio to `other` in the same round.
@@ -51,6 +57,7 @@ struct Workload {
     double x = 0;      ///< workers ("scaling") or renderables ("frames")
     std::vector<Contender> contenders;
     std::vector<Target> targets;
+    std::vector<LeftOut> leftOut = {};
 };
 
 struct Series {
@@ -70,6 +77,7 @@ struct Measured {
     double x = 0;
     std::vector<Series> series;
     std::vector<Verdict> verdicts;
+    std::vector<LeftOut> leftOut = {};
 
     Series const* find(std::string const& contender) const;
     /// Median over the rounds of a / b; nothing if either was not measured.

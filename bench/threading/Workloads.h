@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/Result.h"
+#include "bench/threading/Contenders.h"
 #include "bench/threading/Runtime.h"
 #include "bench/threading/Workload.h"
 

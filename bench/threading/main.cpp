@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // threading_bench [--filter REGEX] [--rounds N] [--workers N] [--json FILE] [--plot FILE] [--quick] [--list]
 //                 [--contention]
-// Compares the job system with oneTBB, OpenMP, std::async and a serial loop, measured in turns. README.md says how to
-// read the results.
+// Compares the job system with oneTBB, OpenMP, Eigen, Boost.Asio, std::async and a serial loop, measured in turns.
+// README.md says how to read the results.
 // Google Benchmark registers, filters and runs. A workload is one benchmark, and each of its iterations is a round:
 // every contender once, in order, timed separately. (Google Benchmark's random interleaving shuffles whole repetitions;
 // figures of different contenders would not belong together, and ratios within a round could not be formed.)
@@ -144,6 +144,8 @@ int run(Options const& options) {
     MachineDescription machine = tools::machineFacts();
     machine.emplace_back("allowed", fmt::format("cores {}", fmt::join(allowedCores(), ",")));
     if (options.contention) return runContention(options, machine);
+    if (const std::string absent = absentRuntimes(); !absent.empty())
+        machine.emplace_back("left out", fmt::format("not found when this program was configured: {}", absent));
     printMachine(machine, options.settings);
     benchmark::RunSpecifiedBenchmarks(&reporter, options.filter);
     return finish(options, machine, reporter);
@@ -156,7 +158,7 @@ int main(int argc, char** argv) {
     Settings& settings = options.settings;
     int workers = static_cast<int>(allowedCores().size()) - 1;
     filament_core::tools::CommandLine app(
-            "Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns");
+            "Threads measured against oneTBB, OpenMP, Eigen, Boost.Asio, std::async and a serial loop, in turns");
     app.option("--filter", options.filter, "only workloads whose name matches this regular expression");
     app.option("--rounds", settings.rounds, "rounds: every contender once").inRange(1, 10'000);
     app.option("--workers", workers, "threads besides the caller; default: one less than the allowed cores")

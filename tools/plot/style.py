@@ -5,9 +5,11 @@ import json
 # Colours that colour-blind readers can distinguish: Okabe and Ito 2008, "Color universal design".
 BLUE, ORANGE, GREEN, PINK, GREY, SKY, RED, YELLOW = (
     "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#8c8c8c", "#56b4e9", "#d55e00", "#d9c82b")
-CONTENDER_COLORS = {"ours": BLUE, "tbb": ORANGE, "openmp": GREEN, "async": PINK, "serial": GREY, "copy": GREY, "futex": GREY,
+CONTENDER_COLORS = {"ours": BLUE, "tbb": ORANGE, "openmp": GREEN, "eigen": SKY, "asio": YELLOW, "async": PINK, "serial": GREY,
+                    "copy": GREY, "futex": GREY,
                     "ideal": "#222222", "fair": "#222222"}
-CONTENDER_LABELS = {"ours": "ours", "tbb": "oneTBB", "openmp": "OpenMP", "async": "std::async", "serial": "serial loop", "futex": "bare futex",
+CONTENDER_LABELS = {"ours": "ours", "tbb": "oneTBB", "openmp": "OpenMP", "eigen": "Eigen", "asio": "Boost.Asio",
+                    "async": "std::async", "serial": "serial loop", "futex": "bare futex",
                     "ideal": "ideal", "fair": "fair share", "copy": "memcpy"}
 
 

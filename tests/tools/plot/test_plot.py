@@ -33,7 +33,8 @@ def workload(name, kind, contenders, x=0, targets=(), unit="ns/job"):
 
 def bench():
     """A report with one workload of every kind."""
-    everybody = [contender("ours", 20), contender("tbb", 40), contender("async", 2e4, note="64 of 1024 jobs, scaled"),
+    everybody = [contender("ours", 20), contender("tbb", 40), contender("asio", 900),
+                 contender("async", 2e4, note="64 of 1024 jobs, scaled"),
                  contender("serial", 1)]
     limit = {"text": "ours <= 25 ns/fork", "value": 20, "limit": 25, "met": True}
     frames = [contender("cpu 0w", 1), contender("cpu 1w", 1.1), contender("wall 0w", 1)]
@@ -131,7 +132,7 @@ class Pictures(Plot):
     def test_bench_draws_every_kind_of_workload(self):
         self.assert_png(self.drawn("bench", bench()), 1000, 1000)
         texts = self.texts("bench", bench())
-        for words in ("ours", "oneTBB", "std::async", "serial loop", "Fork-join tree", "Frames on the null backend",
+        for words in ("ours", "oneTBB", "Boost.Asio", "std::async", "serial loop", "Fork-join tree", "Frames on the null backend",
                       "Commands", "Uneven work", "0.50 × oneTBB", "a core of wood", "abc1234", "power_law"):
             self.assertIn(words, texts)
 
