@@ -80,8 +80,9 @@ private:
         jobs::parallelFor<"occluders">(mJobs, items.size(), kItemsOfJob, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sizes[i] = pixelsOf(items[i]);
         });
-        // Small shadow maps show small occluders, too.
-        const float smallest = std::min(kSmallestPixels, static_cast<float>(mSize.y) * kSmallestShare);
+        // In small maps many casters are small, and cost as much to draw as in large ones.
+        const float smallest = mIsShadowMap ? std::min(kSmallestPixels, static_cast<float>(mSize.y) * kSmallestShare)
+                                            : kSmallestPixels;
         const auto sized = mArena.arrayForOverwrite<SizedItem>(items.size());
         size_t count = 0;
         for (uint32_t i = 0; i < items.size(); ++i) {

@@ -17,7 +17,7 @@
 namespace filament_core::prepare {
 
 inline constexpr size_t kMostOccluders = 256;
-/// Across an occluder: so many pixels, or this share of the image, whichever is less.
+/// Across an occluder: so many pixels, or this share of a shadow map, whichever is less.
 inline constexpr float kSmallestPixels = 32, kSmallestShare = 1.0f / 16;
 /// With fewer opaque objects drawing them all costs less than looking for hidden ones.
 inline constexpr size_t kObjectsWorthHiding = 64;
