@@ -70,8 +70,9 @@ public:
     void settle(BoundsColumns const& boxes, std::span<const uint8_t> flags);
 
     std::span<const Word> words() const { return mWords; }
-    uint32_t settled() const { return mSettled; }                      ///< members of all blocks
-    bool holdMost() const { return settled() >= 32 * words().size(); } ///< half of all, or more
+    uint32_t settled() const { return mSettled; } ///< members of all blocks
+    /// Half of all, or more; false: there may be no block.
+    bool holdMost() const { return mSettled > 0 && mSettled >= 32 * words().size(); }
     /// Numbers of blocks are below this; some may be empty.
     uint32_t limit() const { return mLimit; }
     BoundsColumns const& bounds() const { return mBounds; } ///< of blocks

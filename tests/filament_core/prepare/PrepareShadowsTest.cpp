@@ -109,6 +109,13 @@ TEST_F(PrepareShadowsTest, WithoutACasterThereIsNone) {
     expectNone(DemandReason::NoCaster);
 }
 
+TEST_F(PrepareShadowsTest, FogThatASunLightsNeedsNoneInAnEmptyScene) {
+    removeRenderable(scene, slab);
+    removeRenderable(scene, box);
+    view.effects.fog = { .enabled = true, .volumetric = true };
+    EXPECT_TRUE(frame().shadows.maps.empty());
+}
+
 TEST_F(PrepareShadowsTest, BlendedAndCameraBoundMaterialsCastNone) {
     removeRenderable(scene, slab);
     removeRenderable(scene, box);
