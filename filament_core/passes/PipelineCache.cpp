@@ -186,7 +186,8 @@ PipelineCache::ProgramChoice PipelineCache::chooseWithTextures(uint32_t slot, sc
         return { static_cast<uint16_t>(values | (variant & shader::kVariantSkinning)), depthOfViewKey(at.shading) };
     }
     if (material.isLit() && needsNoLight(at.transparency))
-        return { static_cast<uint16_t>(variant & shader::kVariantSkinning), withTransparency(0, at.transparency) };
+        return { static_cast<uint16_t>(variant & shader::kVariantSkinning),
+                 withTransparency(ofBoundTextures(at.shading), at.transparency) };
     // From here on, choices that this program does not read leave its key. Passes and settings that differ in nothing
     // else share the program.
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));

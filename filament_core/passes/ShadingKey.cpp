@@ -94,6 +94,8 @@ ShadingKey ofLights(ShadingKey key) {
                   maskOf(shader::kQualityColoredShadows) | maskOf(shader::kQualityShadowFilter));
 }
 
+ShadingKey ofBoundTextures(ShadingKey key) { return key & maskOf(shader::kQualityReflectionProbes); }
+
 ShadingKey withoutMipBias(ShadingKey key) { return key & ~maskOf(shader::kQualityMipBias); }
 
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term) {

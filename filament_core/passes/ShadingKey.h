@@ -53,6 +53,8 @@ ShadingKey withoutRefraction(ShadingKey key);
 ShadingKey withoutReflections(ShadingKey key);
 /// For order-independent transparency.
 ShadingKey withTransparency(ShadingKey key, shader::TransparencyTerm term);
+/// What decides the kinds of textures that are bound: of programs that contain the code of light and need none.
+ShadingKey ofBoundTextures(ShadingKey key);
 /// For what has no textures.
 ShadingKey withoutMipBias(ShadingKey key);
 /// The choices of materials that are not lit.

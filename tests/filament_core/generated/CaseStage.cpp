@@ -134,6 +134,13 @@ Image CaseStage::drawFrames(Target target, ViewCase const& viewCase, View view, 
     debug.screenText({ 1, 1 }, "Ag", {});
     if (viewCase.hasDebugDraw) view.debugDraw = &debug;
     if (viewCase.hasDirt) view.effects.bloom.dirt = mDirt;
+    ReflectionProbe probe;
+    if (viewCase.hasProbe)
+        probe = scene(viewCase.scene)
+                        .add(ReflectionProbeDesc{ .centerWorld = { -0.5, 0, 0 },
+                                                  .halfExtentMeters = { 1, 0.8f, 2 },
+                                                  .light = mLight,
+                                                  .intensity = 300 });
     mEngine->waitIdle();
     const uint64_t before = mEngine->statistics().commands;
     for (int frame = 0; frame < frames; ++frame) {
@@ -150,6 +157,7 @@ Image CaseStage::drawFrames(Target target, ViewCase const& viewCase, View view, 
     }
     auto image = renderer.waitPixels(renderer.readPixels(target));
     mEngine->waitIdle();
+    if (probe) scene(viewCase.scene).remove(probe);
     mCommands = mEngine->statistics().commands - before;
     mStatistics = renderer.statistics();
     EXPECT_TRUE(image.ok()) << (image ? "" : image.error().message);

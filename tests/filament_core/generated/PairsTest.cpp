@@ -74,6 +74,24 @@ TEST(GeneratedViews, HaveTheSameBitsOnBothApis) {
     }
 }
 
+/// A row of first values, but for these.
+PairRow rowWith(std::initializer_list<std::pair<std::string_view, uint32_t>> values) {
+    PairRow row(test::viewFactors().size(), 0);
+    for (auto const& [name, value] : values) {
+        const auto at = std::ranges::find(test::viewFactors(), name, &test::ViewFactor::name);
+        row.at(static_cast<size_t>(at - test::viewFactors().begin())) = value;
+    }
+    return row;
+}
+
+TEST(GeneratedViews, WithAProbeHaveTheSameBitsInEveryOrderOfTransparency) {
+    BothApis both;
+    for (const uint32_t order : { 0u, 1u, 2u }) {
+        const ViewCase drawn = test::viewCase(rowWith({ { "probe", 1 }, { "transparency", order } }));
+        EXPECT_EQ(both.failure(drawn), "") << drawn.words;
+    }
+}
+
 /// A view with four samples through a lens of chance.
 ViewCase throughLens(uint32_t seed, uint2 size) {
     ViewCase drawn = test::viewCase(PairRow(test::viewFactors().size(), 0));

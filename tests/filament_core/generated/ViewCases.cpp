@@ -94,6 +94,7 @@ std::vector<ViewFactor> factorsOfPixels() {
         { "antiAliasing",
           { { "off", [](ViewCase&) {} },
             { "fxaa", [](ViewCase& c) { c.view.quality.antiAliasing = AntiAliasing::Fxaa; } },
+            { "sraa", [](ViewCase& c) { c.view.quality.antiAliasing = AntiAliasing::Sraa; } },
             { "taa", [](ViewCase& c) { c.view.quality.antiAliasing = AntiAliasing::Taa; } } } },
         { "upscale",
           { { "off", [](ViewCase&) {} },
@@ -164,7 +165,12 @@ std::vector<ViewFactor> factorsOfLight() {
                   c.view.effects.fog = { .enabled = true, .heightFalloff = 0.5f, .inScatteringSize = 8 };
               } },
             { "fromEnvironment",
-              [](ViewCase& c) { c.view.effects.fog = { .enabled = true, .colorFromEnvironment = true }; } } } },
+              [](ViewCase& c) { c.view.effects.fog = { .enabled = true, .colorFromEnvironment = true }; } },
+            { "volumetric",
+              [](ViewCase& c) {
+                  c.view.effects.fog = { .enabled = true, .volumetric = true, .volumetricMeters = 9 };
+              } } } },
+        { "probe", { { "off", [](ViewCase&) {} }, { "on", [](ViewCase& c) { c.hasProbe = true; } } } },
     };
 }
 

@@ -21,7 +21,7 @@ struct ViewCase {
     View view{};
     SeenScene scene = SeenScene::Everything;
     SeenTarget target = SeenTarget::Rgba8;
-    bool hasDirt = false, hasDebugDraw = false, moves = false;
+    bool hasDirt = false, hasDebugDraw = false, hasProbe = false, moves = false;
     std::string words; ///< "size=1x1 samples=4 ...": its values, for messages
 };
 
