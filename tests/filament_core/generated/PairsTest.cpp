@@ -74,7 +74,7 @@ TEST(GeneratedViews, HaveTheSameBitsOnBothApis) {
     }
 }
 
-/// A row of first values, but for these.
+/// A row of first values, except for these.
 PairRow rowWith(std::initializer_list<std::pair<std::string_view, uint32_t>> values) {
     PairRow row(test::viewFactors().size(), 0);
     for (auto const& [name, value] : values) {
