@@ -2,6 +2,7 @@
 #include "bench/threading/Contention.h"
 
 #include "bench/threading/Clock.h"
+#include "bench/threading/ForkTree.h"
 #include "bench/threading/SpinWork.h"
 #include "jobsystem/JobSystem.h"
 
@@ -27,16 +28,6 @@ struct CountedWork {
     const char* name;
     std::function<uint64_t(JobSystem&, bool quick)> run;
 };
-
-uint32_t forkTree(JobSystem& jobs, uint32_t depth) {
-    if (depth == 0) return 1;
-    uint32_t left = 0;
-    JobGroup group(jobs);
-    group.run<"tree">([&] { left = forkTree(jobs, depth - 1); });
-    const uint32_t right = forkTree(jobs, depth - 1);
-    group.wait();
-    return left + right;
-}
 
 uint64_t batch(JobSystem& jobs, uint32_t count, double nanoseconds) {
     const auto steps = static_cast<uint64_t>(nanoseconds > 0 ? stepsFor(nanoseconds) : 0);

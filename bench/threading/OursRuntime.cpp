@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine's own job system.
 #include "bench/threading/Clock.h"
+#include "bench/threading/ForkTree.h"
 #include "bench/threading/Placement.h"
 #include "bench/threading/Runtime.h"
 #include "jobsystem/JobSystem.h"
@@ -13,16 +14,6 @@ namespace {
 
 using jobs::JobGroup;
 using jobs::JobSystem;
-
-uint32_t forkTree(JobSystem& jobs, uint32_t depth) {
-    if (depth == 0) return 1;
-    uint32_t left = 0;
-    JobGroup group(jobs);
-    group.run<"tree">([&] { left = forkTree(jobs, depth - 1); });
-    const uint32_t right = forkTree(jobs, depth - 1);
-    group.wait();
-    return left + right;
-}
 
 /// A job that starts the next one.
 struct Relay {

@@ -4,6 +4,8 @@
 #include "backend/api/Format.h"
 #include "filament_core/prepare/ViewConstants.h"
 
+#include <filament_core/ReflectionProbe.h>
+
 #include <algorithm>
 #include <bit>
 #include <tuple>
@@ -17,6 +19,8 @@ using scene::ProbeRecord;
 constexpr float kLeastBlendMeters = 1e-3f;
 /// Half the side of the environment's box, metres: as far away as everything else.
 constexpr float kEverywhere = 1e30f;
+
+static_assert(ReflectionProbeDesc::kMaxOfView == shader::kMaxProbesOfView);
 
 float3 relativeCenter(ProbeRecord const& probe, ViewSpace const& space) {
     return float3(probe.centerWorld - space.cameraWorld);
@@ -72,7 +76,7 @@ std::span<uint32_t> findInView(Arena& arena, scene::Probes const& probes, ViewSp
     return found.first(count);
 }
 
-/// Keeps the nearest kMaxProbesOfView of those that can be used, in their order.
+/// The usable probes that are nearest to the camera, at most kMaxProbesOfView, sorted as `inView` is.
 std::span<const uint32_t> chooseProbes(Arena& arena, scene::Probes const& probes, ViewSpace const& space,
                                        std::span<const uint32_t> inView, std::span<ProbeUse> uses) {
     const auto near = arena.arrayForOverwrite<uint32_t>(inView.size());

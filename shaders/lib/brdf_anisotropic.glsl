@@ -77,8 +77,8 @@ vec4 grainHalfVector(vec3 viewLocal, vec2 alpha, float share) {
     return vec4(down * p + view * cosine, cosine, way);
 }
 
-// The mirrored view, which may lie below the surface, and as w its weight: lit facets, of those that are seen, as in
-// visibilitySmithGgxAnisotropic(). halfVector: from grainHalfVector().
+// The mirrored view, which may lie below the surface, and as w its weight: the share of visible facets that are not shadowed,
+// as in visibilitySmithGgxAnisotropic(). halfVector: from grainHalfVector().
 vec4 grainLookUp(vec3 viewLocal, vec2 alpha, vec4 halfVector) {
     vec3 h = vec3(alpha.x * halfVector.x, 0.0f, halfVector.y);
     h = h / sqrt(dot(h, h));
