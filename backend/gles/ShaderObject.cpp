@@ -5,15 +5,24 @@
 #include "base/Hash.h"
 
 #include <array>
+#include <ranges>
 #include <string>
+#include <string_view>
 
 namespace filament_core::backend::gles {
 namespace {
 
-std::string firstLine(std::string log) {
-    log.resize(log.find_last_not_of(" \n\r\t", std::string::npos) + 1);
-    log.resize(std::min(log.find_first_of("\r\n"), log.size()));
-    return log.empty() ? "the driver gives no reason" : log;
+/// Drivers list warnings, which reject nothing, before or after the error.
+std::string reasonIn(std::string_view log) {
+    std::string_view first, error;
+    for (const auto line : std::views::split(log, '\n')) {
+        const std::string_view text(line.begin(), line.end());
+        const std::string_view trimmed = text.substr(0, text.find_last_not_of(" \r\t") + 1);
+        if (first.empty()) first = trimmed;
+        if (error.empty() && trimmed.find("error") != std::string_view::npos) error = trimmed;
+    }
+    if (first.empty()) return "the driver gives no reason";
+    return std::string(error.empty() ? first : error);
 }
 
 template <class GetInteger, class GetLog>
@@ -24,7 +33,7 @@ std::string readLog(GLuint object, GetInteger getInteger, GetLog getLog) {
     GLsizei written = 0;
     getLog(object, length, &written, log.data());
     log.resize(static_cast<size_t>(written));
-    return firstLine(std::move(log));
+    return reasonIn(log);
 }
 
 const char* nameOf(GLenum stage) {
