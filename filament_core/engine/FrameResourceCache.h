@@ -37,7 +37,8 @@ private:
     scene::Material const* mFarDepth = nullptr;
     scene::Material const* mSunDisc = nullptr;
     scene::Material const* mEdges = nullptr;
-    std::array<scene::Material const*, 22> mDebugViews{}; // by DebugView and whether the target is encoded
+    std::array<scene::Material const*, 2 * kDebugViewCount>
+            mDebugViews{}; // by DebugView and whether the target is encoded
     EffectMaterialCache mEffects;
 };
 

@@ -152,7 +152,7 @@ void keepProbes(scene::Probes const& probes, prepare::ProbePacket const& packet,
 std::string explainProbes(std::span<const ProbeLine> lines) {
     constexpr std::array<const char*, 6> kWords{
         "used",
-        "not used: its box is out of view",
+        "not used: its box reaches no lit surface in view",
         "not used: others in view are nearer",
         "not used: its cube has another size, format, mapping or number of levels than the environment's",
         "not used: cubes of the environment's format cannot be copied; RGBA16F and RGBM can",

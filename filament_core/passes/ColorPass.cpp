@@ -196,7 +196,8 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
     PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
                            .occlusion = targets.ambientOcclusion,
                            .linearDepth = targets.linearDepth,
-                           .fogCells = targets.fogCells };
+                           .fogCells = targets.fogCells,
+                           .probes = declareProbes(context) };
     textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
     return textures;
 }

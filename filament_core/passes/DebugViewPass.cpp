@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
+#include "filament_core/prepare/ProbePacket.h"
 #include "shaders/interface/ShaderInterface.h"
 
 namespace filament_core::passes {
@@ -18,6 +19,7 @@ struct DebugInputs {
     FrameTargets targets;
     PassBlock target;
     PassShadows shadows;
+    PassBlock probes;
 };
 
 struct ChosenDebugView {
@@ -30,6 +32,12 @@ PassShadows shadowsOrNone(FrameContext const& context, FrameTargets const& targe
     if (targets.shadowDepths) return declareShadows(context, targets.shadowDepths);
     static constexpr shader::ShadowUniforms kNone{};
     return { {}, context.blocks->add(std::as_bytes(std::span(&kNone, 1))) };
+}
+
+PassBlock probesOrNone(FrameContext const& context) {
+    if (!context.packet.probes.empty()) return declareProbes(context);
+    const shader::ProbeUniforms none = prepare::noProbes();
+    return context.blocks->add(std::as_bytes(std::span(&none, 1)));
 }
 
 BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, FrameTargets const& targets) {
@@ -56,7 +64,8 @@ ChosenDebugView choose(PassContext& pass, FrameContext const& context, DebugInpu
     PipelineSource const& pipelines = context.resources.pipelines;
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
     return { pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.debugView),
-             passGroup(pass, context, shader::PassKind::Unlit, inputs.target, { .shadows = inputs.shadows }),
+             passGroup(pass, context, shader::PassKind::Unlit, inputs.target,
+                       { .shadows = inputs.shadows, .probes = inputs.probes }),
              picturesOf(pass, context, inputs.targets) };
 }
 
@@ -64,7 +73,7 @@ ChosenDebugView choose(PassContext& pass, FrameContext const& context, DebugInpu
 
 void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     const DebugInputs inputs{ targets, declareTarget(context, graph.texture(targets.output).desc),
-                              shadowsOrNone(context, targets) };
+                              shadowsOrNone(context, targets), probesOrNone(context) };
     graph.addPass(
             "debug view",
             [&](PassBuilder& pass) {

@@ -30,12 +30,19 @@ namespace {
 using backend::Format;
 using framegraph::FrameGraph;
 
+uint8_t probeTermsOf(prepare::FramePacket const& packet) {
+    if (!packet.demand.needs(prepare::Effect::ReflectionProbes)) return 0;
+    const uint32_t used = packet.probes.used;
+    const uint32_t probes = used == 1 ? shader::kOneProbe : used == 2 ? shader::kTwoProbes : shader::kAllProbes;
+    return static_cast<uint8_t>(probes | (packet.probes.addsEnvironment ? shader::kProbesAndEnvironment : 0));
+}
+
 ShadedLights lightsOf(prepare::FramePacket const& packet) {
     return { .hasAreas = packet.mainView().hasAreaLights,
              .hasProfiles = !packet.mainView().profiles.empty(),
              .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows),
              .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows),
-             .hasProbes = packet.demand.needs(prepare::Effect::ReflectionProbes) };
+             .probeTerms = probeTermsOf(packet) };
 }
 
 /// What there is to compute: the colour of an environment, and light of a sun, if there is one.

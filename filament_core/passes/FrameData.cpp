@@ -88,11 +88,6 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
         needs.words += static_cast<uint32_t>(profiles.lights.size());
         for (auto const& table : profiles.tables) needs.words += static_cast<uint32_t>(table.size());
     }
-    if (!packet.probes.empty()) {
-        mViews[0].firstProbeWord = needs.words;
-        needs.words += static_cast<uint32_t>(packet.probes.records.size()) * shader::kProbeWords;
-        mViews[0].endOfProbes = needs.words;
-    }
     needs.lights = std::max(1u, needs.lights); // something to bind
     needs.words = std::max(1u, needs.words);
     return needs;
@@ -156,10 +151,6 @@ void FrameData::uploadView(CommandBuffer& commands, Set const& set, prepare::Vie
     const auto withTable = [&](FrameUniforms uniforms) {
         if (view.hasAreaLights) uniforms.froxelPlaces.w = static_cast<float>(table);
         if (!view.profiles.empty()) uniforms.skyFactor.w = static_cast<float>(group.firstProfileWord);
-        if (group.endOfProbes > group.firstProbeWord) {
-            uniforms.irradianceSh[0].w = static_cast<float>(group.firstProbeWord);
-            uniforms.irradianceSh[1].w = static_cast<float>(group.endOfProbes);
-        }
         return uniforms;
     };
     uploadLights(commands, set, withTable(view.uniforms), view.lights, view.froxels.words, group);
@@ -201,10 +192,6 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
     if (needs.hasTable) {
         commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ needs.table } * kWordBytes,
                                          std::as_bytes(std::span(shader::kLtcTable)) });
-    }
-    if (!packet.probes.empty()) {
-        commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ mViews[0].firstProbeWord } * kWordBytes,
-                                         std::as_bytes(packet.probes.records) });
     }
     uploadObjects(jobs, commands, set, packet);
     set.deformation.upload(mStream, jobs, commands, packet.deformations);

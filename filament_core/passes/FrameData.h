@@ -4,8 +4,7 @@
 ///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights and
 ///           froxels: storage buffers that hold those of all views, one view after the other; the uniforms of a view
 ///           say where its own begin (FrameUniforms::froxelPlaces, written here). Behind the froxels of a frame with
-///           area lights: shader::kLtcTable; then the light profiles of each view that has some, and the reflection
-///           probes of the main view.
+///           area lights: shader::kLtcTable; then the light profiles of each view that has some.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
@@ -26,11 +25,10 @@ namespace filament_core::passes {
 /// kGroupView of one view: the group of the frame, and where the view's data begin in the buffers behind it.
 struct ViewGroup {
     backend::BindGroupHandle handle;
-    uint32_t uniforms = 0, objects = 0;           ///< bytes
-    uint32_t firstLight = 0, firstWord = 0;       ///< elements of the storage buffers
-    uint32_t firstProfileWord = 0;                ///< of the words of profiles; 0: the view has none
-    uint32_t firstProbeWord = 0, endOfProbes = 0; ///< of the records of probes; equal: the view has none
-    ViewGroup const* lists = nullptr;             ///< one for each of ViewPacket::channels, with the same objects
+    uint32_t uniforms = 0, objects = 0;     ///< bytes
+    uint32_t firstLight = 0, firstWord = 0; ///< elements of the storage buffers
+    uint32_t firstProfileWord = 0;          ///< of the words of profiles; 0: the view has none
+    ViewGroup const* lists = nullptr;       ///< one for each of ViewPacket::channels, with the same objects
 
     /// For draws of the window that holds `object` of the view.
     backend::CmdBindGroup bind(uint32_t object) const;

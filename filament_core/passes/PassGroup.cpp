@@ -74,6 +74,11 @@ PassShadows declareShadows(FrameContext const& context, framegraph::TextureId ma
     return { maps, context.blocks->add(std::as_bytes(std::span(context.packet.shadows.uniforms, 1))) };
 }
 
+PassBlock declareProbes(FrameContext const& context) {
+    if (context.packet.probes.empty()) return {};
+    return context.blocks->add(std::as_bytes(std::span(context.packet.probes.uniforms, 1)));
+}
+
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
     for (const framegraph::TextureId read : { textures.shadows.maps, textures.occlusion, textures.linearDepth })
         if (read) pass.readSampled(read);
@@ -84,7 +89,7 @@ void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
 namespace {
 
 /// All that any kind of material reads, in the order of the layouts.
-std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameContext const& context, PassBlock target,
+std::array<BindGroupEntry, 12> allEntries(framegraph::PassContext& pass, FrameContext const& context, PassBlock target,
                                           PassTextures const& textures) {
     LightingTextures const& light = context.resources.lighting;
     FrameSamplers const& samplers = context.resources.samplers;
@@ -98,7 +103,7 @@ std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameCo
             { .binding = shader::kBindingShadowMaps,
               .texture = orWhite(shadows.maps),
               .sampler = shadows.hasMoments ? samplers.trilinear : samplers.nearest },
-            // Without shadows most programs do not read it: any block will do.
+            // Without shadows most programs do not read it: any block will do. So it is with probes.
             context.blocks->entry(shader::kBindingShadows, shadows.block.bytes > 0 ? shadows.block : target),
             { .binding = shader::kBindingSpecular,
               .texture = light.probes ? light.probes : light.specular,
@@ -119,6 +124,7 @@ std::array<BindGroupEntry, 11> allEntries(framegraph::PassContext& pass, FrameCo
             { .binding = shader::kBindingFogCells,
               .buffer = textures.fogCells ? pass.buffer(textures.fogCells) : context.resources.noFogCells,
               .size = textures.fogCells ? fogCellBytes(context) : uint32_t{ sizeof(float4) } },
+            context.blocks->entry(shader::kBindingProbes, textures.probes.bytes > 0 ? textures.probes : target),
     } };
 }
 

@@ -36,6 +36,9 @@ struct PassShadows {
 };
 PassShadows declareShadows(FrameContext const& context, framegraph::TextureId maps);
 
+/// shader::ProbeUniforms of the main view; empty: it has no reflection probes.
+PassBlock declareProbes(FrameContext const& context);
+
 /// What a pass declares to read of what others have drawn; none by default: its materials then have white or black
 /// instead.
 struct PassTextures {
@@ -45,6 +48,7 @@ struct PassTextures {
     framegraph::TextureId sceneColor{};  ///< FrameTargets::sceneColor
     uint8_t sceneColorLevels = 0;        ///< of `sceneColor`: those that are drawn
     framegraph::BufferId fogCells{};     ///< FrameTargets::fogCells
+    PassBlock probes{};                  ///< declareProbes()
 };
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures);
 

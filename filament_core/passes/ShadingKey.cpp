@@ -10,7 +10,7 @@ namespace {
 
 // In the order of shader::kQualityConstants.
 constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 1, 2, 2, 1, 2, 1, 3, 2, 2,
-                                                                        2, 2, 1, 6, 2, 1, 1, 4, 3, 1, 1 };
+                                                                        2, 2, 1, 6, 2, 1, 1, 4, 3, 1, 3 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -57,7 +57,7 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              static_cast<uint32_t>(quality.shadows),
              0u, // withTransparency()
              screen.hasMipBias ? 1u : 0u,
-             lights.hasProbes ? 1u : 0u };
+             lights.probeTerms };
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct ShadedLights {
     bool hasProfiles = false;
     bool hasColoredShadows = false; ///< some shadow map has three channels
     bool hasContactShadows = false;
-    bool hasProbes = false; ///< Effect::ReflectionProbes
+    uint8_t probeTerms = 0; ///< shader::ProbeTerms
 };
 
 /// What shading reads of the scene colour, and what lies between it and the camera.

@@ -47,6 +47,7 @@ constexpr std::array kDebugViews{
     DebugViewRow{ DebugView::Wireframe, Shows::Edges },
     unlit(DebugView::WireframeAlone, Shows::Edges),
     unlit(DebugView::Plausibility, Shows::Material),
+    lit(DebugView::Probes, Shows::Effect, Effect::ReflectionProbes),
 };
 
 static_assert(kDebugViews.size() == kDebugViewCount &&

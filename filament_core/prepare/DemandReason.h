@@ -17,7 +17,7 @@ enum class DemandReason : uint8_t {
     BrightestSun,        ///< of `count`
     ProfilesOverBudget,  ///< `count` lights do; the profiles of `leftOut` others exceed a limit
     EnvironmentLights,   ///< the environment lights surfaces in view
-    ProbesInView,        ///< `count` boxes reach into the view, `others` do not; `leftOut` do and are not used
+    ProbesInView,        ///< `count` boxes reach lit surfaces, `others` do not; `leftOut` do and are not used
     InView,              ///< `count` draws are in view
     BackgroundVisible,   ///< a sky is there
     ShadowsVisible,      ///< `count` maps are read; `others` of them are drawn in this frame; `leftOut` do not fit
@@ -61,7 +61,7 @@ enum class DemandReason : uint8_t {
     NoLightCasts,      ///< none that reaches what is visible casts shadows
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
     LightsOutOfView,   ///< none of `others` lights reaches into the view
-    ProbesOutOfView,   ///< none of `others` boxes reaches into the view
+    ProbesOutOfReach,  ///< none of `others` boxes reaches a lit surface in view
     ProbesUnusable,    ///< `leftOut` in view differ from the environment, or the device lacks arrays of cubes
     DiscsOutOfView,    ///< none of `others` discs is in it
     NoLitSurface,      ///< there is such light, but no lit surface in view

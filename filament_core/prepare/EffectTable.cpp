@@ -74,9 +74,10 @@ EffectDemand demandOfIndirectLight(DemandInput const& input) {
 EffectDemand demandOfProbes(DemandInput const& input) {
     ProbeCounts const& probes = input.probes;
     if (probes.inScene == 0) return { .reason = R::NotInScene };
+    if (input.settings.quality.reflectionProbes == 0) return { .reason = R::SwitchedOff };
     if (input.counts.litDraws == 0) return { false, R::NoLitSurface, 0, probes.inScene };
-    if (probes.used) return { true, R::ProbesInView, probes.used, probes.outOfView, probes.leftOut };
-    return { false, probes.leftOut ? R::ProbesUnusable : R::ProbesOutOfView, 0, probes.outOfView, probes.leftOut };
+    if (probes.used) return { true, R::ProbesInView, probes.used, probes.outOfReach, probes.leftOut };
+    return { false, probes.leftOut ? R::ProbesUnusable : R::ProbesOutOfReach, 0, probes.outOfReach, probes.leftOut };
 }
 
 EffectDemand demandOfSky(DemandInput const& input) {
@@ -368,7 +369,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::Shadows, "shadows", Stage::Lighting, demandOfShadows, "shadows=off" },
         { Effect::ColoredShadows, "coloured shadows", Stage::Lighting, demandOfColoredShadows, "coloredShadows=off" },
         { Effect::IndirectLight, "indirect light", Stage::Lighting, demandOfIndirectLight },
-        { Effect::ReflectionProbes, "reflection probes", Stage::Lighting, demandOfProbes },
+        { Effect::ReflectionProbes, "reflection probes", Stage::Lighting, demandOfProbes, "reflectionProbes=0" },
         { Effect::Sky, "sky", Stage::Lighting, demandOfSky },
         { Effect::SunDisc, "sun disc", Stage::Lighting, demandOfDiscs },
         { Effect::Blending, "blending", Stage::Geometry, demandOfBlending },

@@ -55,7 +55,7 @@ uint64_t hashSplats(SplatPacket const& splats, uint64_t seed) {
 }
 
 uint64_t hashProbes(ProbePacket const& probes, uint64_t seed) {
-    seed = hashBytes(std::as_bytes(probes.records), seed);
+    seed = hashBytes(std::as_bytes(std::span(probes.uniforms, 1)), hashWords(seed, probes.addsEnvironment));
     for (ProbeCube const& cube : probes.cubes) seed = hashWords(seed, cube.texture.bits, cube.version);
     return seed;
 }

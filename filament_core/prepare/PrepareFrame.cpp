@@ -68,7 +68,7 @@ SceneDemand demandOf(scene::SceneData const& scene, FramePacket const& packet, S
                         .splatClouds = packet.splats.inScene,
                         .probes = { .inScene = static_cast<uint32_t>(scene.probes.records.size()),
                                     .used = packet.probes.used,
-                                    .outOfView = packet.probes.outOfView,
+                                    .outOfReach = packet.probes.outOfReach,
                                     .leftOut = packet.probes.leftOut } });
 }
 
@@ -135,6 +135,13 @@ SplatPacket splatsOf(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const
     return prepareSplats(jobs, arena, scene, makeViewSpace(view), view.size);
 }
 
+ProbePacket probesOf(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                     HeldProbes const& held, ViewPacket& packet) {
+    if (scene.probes.records.empty() || packet.counts.litDraws == 0 || view.quality.reflectionProbes == 0) return {};
+    const std::span<const LitBox> lit = litBoxes(jobs, arena, scene.renderables, packet.objects);
+    return placeProbes(jobs, arena, scene, view, held, lit, packet);
+}
+
 void addMotion(Arena& arena, scene::SceneData const& scene, LastFrame const& last, FramePacket& packet) {
     const PreparedMotion motion = prepareMotion(arena, scene, packet.mainView(), last, packet.last);
     if (motion.view.opaque.empty()) return;
@@ -172,7 +179,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     // Shadows need the receivers of the main view, and give its lights their maps; lists by channel copy these lights.
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 
-    const ProbePacket probes = placeProbes(arena, scene, main, heldProbes, asked[0].packet);
+    const ProbePacket probes = probesOf(jobs, arena, scene, main, heldProbes, asked[0].packet);
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));

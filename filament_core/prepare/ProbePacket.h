@@ -32,15 +32,19 @@ struct HeldProbes {
 };
 
 /// Why a view does not use a probe.
-enum class ProbeUse : uint8_t { Used, OutOfView, OverLimit, OtherShape, NotCopyable, NoArrays };
+enum class ProbeUse : uint8_t { Used, OutOfReach, OverLimit, OtherShape, NotCopyable, NoArrays };
+
+/// Boxes without a point.
+shader::ProbeUniforms noProbes();
 
 struct ProbePacket {
-    std::span<const shader::ReflectionProbe> records; ///< the smallest first, then the environment, if there is one
-    std::span<const ProbeUse> uses;                   ///< by scene::Probes::records
-    ProbeCubes cubes{};                               ///< that the array holds in this frame
+    shader::ProbeUniforms const* uniforms = nullptr; ///< null: none is used
+    bool addsEnvironment = false;                    ///< some visible surface is not wholly in a box
+    std::span<const ProbeUse> uses;                  ///< by scene::Probes::records
+    ProbeCubes cubes{};                              ///< that the array holds in this frame
     scene::CubeShape shape{};
     scene::EnvironmentStorage storage{};
-    uint32_t used = 0, outOfView = 0, leftOut = 0;
+    uint32_t used = 0, outOfReach = 0, leftOut = 0;
 
     bool empty() const { return used == 0; }
 };

@@ -18,7 +18,7 @@ T reduceRanges(jobs::JobSystem& jobs, Arena& arena, size_t count, Add&& add, Joi
     jobs::parallelFor<"extent">(jobs, count, kRange, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) add(parts[begin / kRange], i);
     });
-    T whole;
+    T whole{};
     for (T const& part : parts) join(whole, part);
     return whole;
 }

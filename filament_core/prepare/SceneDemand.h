@@ -85,7 +85,7 @@ struct SceneDemand {
 
 /// Reflection probes; those that are left out are in view.
 struct ProbeCounts {
-    uint32_t inScene = 0, used = 0, outOfView = 0, leftOut = 0;
+    uint32_t inScene = 0, used = 0, outOfReach = 0, leftOut = 0;
 };
 
 /// What findDemand() reads of a frame.

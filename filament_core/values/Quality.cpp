@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 5> kTableSizes{ "16", "32", "64", "128", 
 constexpr std::array<std::string_view, 4> kMapSizes{ "512", "1024", "2048", "4096" };
 constexpr std::array<std::string_view, 3> kBands{ "1", "2", "3" }, kAtlasSizes{ "16", "64", "256" };
 constexpr std::array<std::string_view, 4> kCascades{ "1", "2", "3", "4" }, kBlurs{ "0", "2", "4", "8" },
-        kLayers{ "1", "2", "4", "8" };
+        kLayers{ "1", "2", "4", "8" }, kProbes{ "0", "1", "2", "8" };
 
 std::vector<Option> lightingRows() {
     using Q = Quality;
@@ -32,6 +32,8 @@ std::vector<Option> lightingRows() {
              option("anisotropicLookUps", &Q::anisotropicLookUps, "Samples of the environment for anisotropic lobes."),
              option("diffuseIrradiance", &Q::diffuseIrradiance, "Source of the environment's diffuse light."),
              option("shBands", &Q::shBands, { 1, 3, {}, kBands }, "Bands of spherical harmonics."),
+             option("reflectionProbes", &Q::reflectionProbes, { 0, 8, {}, kProbes },
+                    "Most reflection probes that light a view."),
              option("shadingPrecision", &Q::shadingPrecision, "Precision of lighting."),
              option("textureFilter", &Q::textureFilter, "Filter of materials' textures.") };
 }
@@ -77,6 +79,7 @@ Quality lowPreset() {
     quality.diffuseCoupling = false;
     quality.splitSum = SplitSum::Analytic;
     quality.specularLookUps = SpecularLookUps::Quadratic;
+    quality.reflectionProbes = 1;
     quality.anisotropicLookUps = AnisotropicLookUps::One;
     quality.areaLights = AreaLightTerm::RepresentativePoint;
     quality.textureFilter = TextureFilter::Bilinear;
@@ -90,6 +93,7 @@ Quality mediumPreset() {
     quality.specularVisibility = SpecularVisibility::Fast;
     quality.splitSum = SplitSum::Analytic;
     quality.anisotropicLookUps = AnisotropicLookUps::Three;
+    quality.reflectionProbes = 2;
     quality.shadowMapSize = 1024;
     return quality;
 }

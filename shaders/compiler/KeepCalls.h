@@ -14,7 +14,7 @@
 namespace filament_core::shader {
 
 /// With the parenthesis that follows in a name of glslang.
-inline constexpr std::array<std::string_view, 2> kKeptCalls{ "probeVector(", "probedLight(" };
+inline constexpr std::array<std::string_view, 2> kKeptCalls{ "probedRadiance(", "probedIrradiance(" };
 
 std::vector<uint32_t> keepCalls(std::span<const uint32_t> module);
 

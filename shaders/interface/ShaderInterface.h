@@ -61,6 +61,7 @@ enum PassBinding : uint8_t {
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: scene colour of opaque surfaces, pre-exposed, with blurred levels
     kBindingFogCells = 10,   ///< FogCells, storage: of materials with fog; see FrameUniforms::fogGrid
+    kBindingProbes = 11,     ///< ProbeUniforms: of what light reaches, and of debug views
 };
 
 /// Of kGroupMaterial, for the dispatch that writes FogCells (shaders/compute/fog_light.comp).
@@ -87,9 +88,7 @@ struct FrameUniforms {
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
     float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: first word of the profiles of the
                                  ///< view, if it has some
-    std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients; w of a
-                                 ///< view with probes: first word of its ReflectionProbe records, and the word after
-                                 ///< their last
+    std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
     float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice,
@@ -202,18 +201,23 @@ inline constexpr uint32_t kProfiledLightWords = 4;
 inline constexpr uint32_t kProfileHeaderWords = 3;
 inline constexpr uint32_t kMaxProfileWords = 1u << 22; ///< of the tables of a view: 16 MiB
 
-/// A reflection probe of a view, as words behind the profiles: 14 float4. Positions are relative to the camera.
+// ---- ProbeUniforms
+/// A reflection probe of a view. Positions are relative to the camera.
 struct ReflectionProbe {
     std::array<float4, 3> axes; ///< xyz: sides of the box, unit; w: half the length of each, metres
     float4 center;              ///< xyz: of the box; w: 1 / the blend distance in metres
     float4 capture;             ///< xyz: where the cube was captured; w: what its texels are multiplied by, before
                                 ///< FrameUniforms::ambient.x
-    /// rgb: as FrameUniforms::irradianceSh; w: of the first, the layer of passProbes; of the second, 1 if the
-    /// coefficients count, otherwise the diffuse light inside is that of the others
+    /// rgb: as FrameUniforms::irradianceSh, along the axes of the world; w: of the first, the layer of passProbes; of
+    /// the second, 1 if the coefficients count, otherwise the diffuse light inside is that of the others
     std::array<float4, 9> irradianceSh;
 };
-inline constexpr uint32_t kProbeWords = sizeof(ReflectionProbe) / sizeof(uint32_t);
 inline constexpr uint32_t kMaxProbesOfView = 8;
+
+/// The smallest box first. Boxes that are not used hold nothing: the half of their sides is negative.
+struct ProbeUniforms {
+    std::array<ReflectionProbe, kMaxProbesOfView> probes;
+};
 
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
 enum DeformationBinding : uint8_t {
@@ -278,7 +282,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityTransparency = 1020, ///< TransparencyTerm; unlit materials have this one, too
     kQualityMipBias = 1021, ///< 1: materials' textures are read at biased mip levels; all surfaces
                             ///< have this one
-    kQualityReflectionProbes = 1022, ///< 1: some reflection probe reaches into the view
+    kQualityReflectionProbes = 1022, ///< 0: no reflection probe lights what is visible; else ProbeTerms
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -290,6 +294,15 @@ enum FogTerms : uint8_t {
     kFogSun = 8,             ///< scatters the light of the sun: in a lobe, FrameUniforms::fogSun.w, or
     kFogScattering = 16,     ///< by its phase function: FrameUniforms::fogScattering
     kFogCells = 32,          ///< light of lamps and of the shadowed sun is in FogCells
+};
+
+/// What shaders compute of reflection probes; a set. Programs look at a number of probes that is known when they are
+/// compiled, because drivers read uniforms fast where their place is a constant.
+enum ProbeTerms : uint8_t {
+    kProbesAndEnvironment = 1, ///< the environment lights what no probe does
+    kOneProbe = 2,
+    kTwoProbes = 4,
+    kAllProbes = 6, ///< kMaxProbesOfView
 };
 
 /// What materials that blend in any order write (shaders/material/surface/transparency.glsl).
@@ -331,7 +344,7 @@ inline constexpr std::array kQualityConstants{
 
 // clang-format on
 static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 16384);
-static_assert(sizeof(ReflectionProbe) == 224);
+static_assert(sizeof(ProbeUniforms) == 1792);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
 static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);

@@ -17,7 +17,7 @@ const int kObjectsPerWindow = 256;
 const int kFroxelCountBits = 9;
 const int kMaxShadowMaps = 128;
 const int kContactShadowBit = 128;
-const int kProbeWords = 56;
+const int kMaxProbesOfView = 8;
 const int kProfiledLightWords = 4;
 const int kProfileHeaderWords = 3;
 
@@ -110,3 +110,14 @@ layout(set = 1, binding = 9) uniform sampler2D passPicture;
 layout(set = 1, binding = 10, std430) readonly buffer FogCells {
     uvec2 borders[];
 } fogCells;
+
+struct ProbeRecord {
+    vec4 axes[3];
+    vec4 center;
+    vec4 capture;
+    vec4 irradianceSh[9];
+};
+
+layout(set = 1, binding = 11, std140) uniform ProbeUniforms {
+    ProbeRecord probes[kMaxProbesOfView];
+} probeUniforms;

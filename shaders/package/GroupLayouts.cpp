@@ -61,7 +61,9 @@ backend::BindGroupLayout passGroupLayout(PassKind kind) {
         if (texture.binding == kBindingShadowMaps)
             add(kBindingShadows, BindingType::UniformBuffer, ShaderStage::Fragment);
     }
-    if (kind != PassKind::Picture) add(kBindingFogCells, BindingType::StorageBuffer, ShaderStage::Fragment);
+    if (kind == PassKind::Picture) return layout;
+    add(kBindingFogCells, BindingType::StorageBuffer, ShaderStage::Fragment);
+    add(kBindingProbes, BindingType::UniformBuffer, ShaderStage::Fragment);
     return layout;
 }
 

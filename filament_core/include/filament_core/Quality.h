@@ -308,7 +308,8 @@ struct Quality {
     SpecularLookUps specularLookUps = SpecularLookUps::Dominant;
     AnisotropicLookUps anisotropicLookUps = AnisotropicLookUps::Five;
     DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::Cube;
-    uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
+    uint8_t shBands = 3;          ///< [1, 3]: 1, 4 or 9 coefficients
+    uint8_t reflectionProbes = 8; ///< most ReflectionProbes that light a view, [0, 8]: the nearest ones
     ShadingPrecision shadingPrecision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored;
     ShadowFilter shadows = ShadowFilter::Pcf3;

@@ -57,10 +57,12 @@ enum class DebugView : uint8_t {
     WireframeAlone,    ///< without the image
     // Another result of the code of materials:
     Plausibility, ///< values that no real material has, by the rule that they break
+    // Another decision of the engine:
+    Probes, ///< the image in grey, tinted by the reflection probes that light each pixel
 };
 template <>
 struct EnumNames<DebugView> {
-    static constexpr std::array<std::string_view, 30> values{ "none",
+    static constexpr std::array<std::string_view, 31> values{ "none",
                                                               "cascades",
                                                               "atlas",
                                                               "froxels",
@@ -89,7 +91,8 @@ struct EnumNames<DebugView> {
                                                               "transparentLayers",
                                                               "wireframe",
                                                               "wireframeAlone",
-                                                              "plausibility" };
+                                                              "plausibility",
+                                                              "probes" };
 };
 inline constexpr size_t kDebugViewCount = EnumNames<DebugView>::values.size();
 

@@ -129,7 +129,7 @@ vec3 radianceOfTexel(vec4 texel) {
 // Irradiance / pi around a direction of the environment's space.
 vec3 irradianceTerm(highp vec3 normal) {
     vec3 irradiance;
-    if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel) {
+    if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel && quality_reflectionProbes == 0) {
         irradiance = radianceOfTexel(textureLod(passSpecular, normal, frameUniforms.ambient.y));
     } else if (quality_diffuseIrradiance == kIrradianceCube) {
         irradiance = textureLod(passIrradiance, normal, 0.0).rgb;

@@ -106,6 +106,42 @@ TEST(ReflectionProbes, ItIsTheSameFarFromTheOrigin) {
     expectMirrored(image, box, origin);
 }
 
+/// Of View::debugView = probes where the mirror is, without the grey of the image: all but black, orange and blue
+/// where those two of the boxes give all light.
+TEST(ReflectionProbes, TheDebugViewTintsPixelsByTheirBoxes) {
+    const auto drawn = [](std::vector<RoomBox> const& boxes, uint8_t most = 8) {
+        return onBothApis([&](MaterialStage& stage) {
+            stage.view.size = uint2(kMirrorSide);
+            stage.view.camera = Camera::lookAt({ 0, 0, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 10 });
+            stage.view.debugView = DebugView::Probes;
+            stage.view.quality.reflectionProbes = most;
+            stage.keep(std::make_shared<SkyObjects>(stage, kDimSurroundings));
+            stage.add(stage.material(whiteMirror(), kNoLights), { {} }, double4x4(1.0));
+            const auto cube = std::make_shared<SkyObjects>(stage.engine, kDirectionSky);
+            stage.keep(cube);
+            for (RoomBox const& box : boxes) {
+                ReflectionProbeDesc probe = probeOf(box, *cube);
+                probe.blendMeters = 0;
+                stage.scene.add(probe);
+            }
+        });
+    };
+    const auto expectHue = [&](Image const& image, uint32_t x, float3 srgb) {
+        const float3 light = glm::max(float3(halfPixel(image, x, kMirrorSide / 2)), float3(0));
+        const float3 code = glm::max(1.055f * glm::pow(light, float3(1 / 2.4f)) - 0.055f, float3(0));
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(code[c] / code.y, srgb[c] / srgb.y, 0.1f) << x;
+    };
+    const float3 orange(230, 159, 0), blue(86, 180, 233), grey(153);
+    const RoomBox left{ .center = { -1, 0, 0 }, .halfExtent = float3(1) };
+    const RoomBox whole{ .halfExtent = float3(3) };
+    const Image both = drawn({ whole, left });
+    expectHue(both, 1, orange); // the smaller box comes first
+    expectHue(both, kMirrorSide - 2, blue);
+    expectHue(drawn({ left }), kMirrorSide - 2, grey);
+    expectHue(drawn({}), 1, grey);
+    expectHue(drawn({ whole, left }, 0), 1, grey);
+}
+
 TEST(ReflectionProbes, BeyondTheBlendDistanceTheEnvironmentIsReflected) {
     const Image image = mirrorWith(double3(0), [&](MaterialStage& stage, SkyObjects const& cube) {
         ReflectionProbeDesc probe = probeOf({ .center = { 0, 0, -4 }, .halfExtent = float3(9, 9, 3) }, cube);
@@ -200,7 +236,7 @@ TEST(ReflectionProbes, OutOfViewTheyChangeNothing) {
             for (EffectDecision const& one : renderer.decisions()) {
                 if (one.name != "reflection probes") continue;
                 EXPECT_EQ(one.state, EffectDecision::State::NotNeeded);
-                EXPECT_EQ(one.reason, "none of 1 reaches into the view");
+                EXPECT_EQ(one.reason, "none of 1 reaches a lit surface in view");
             }
         });
     };
@@ -211,7 +247,7 @@ TEST(ReflectionProbes, AViewUsesTheNearestAndSaysWhichItLeavesOut) {
     mirrorWith(double3(0), [&](MaterialStage& stage, SkyObjects const& cube) {
         std::vector<ReflectionProbe> added;
         for (uint32_t i = 0; i < ReflectionProbeDesc::kMaxOfView + 1; ++i) {
-            ReflectionProbeDesc probe = probeOf({ .center = { 0, 0, -3.0 * i } }, cube);
+            ReflectionProbeDesc probe = probeOf({ .center = { 0, 0, -0.1 * i } }, cube);
             probe.name = fmt::format("number {}", i);
             added.push_back(stage.scene.add(probe));
         }
@@ -226,11 +262,11 @@ TEST(ReflectionProbes, AViewUsesTheNearestAndSaysWhichItLeavesOut) {
         EXPECT_NE(text.find("'number 0': used"), std::string::npos) << text;
         EXPECT_NE(text.find("'number 8': not used: others in view are nearer"), std::string::npos) << text;
         EXPECT_NE(text.find("'small': not used: its cube has another size"), std::string::npos) << text;
-        EXPECT_NE(text.find("8 light surfaces in view; 2 in view are not used"), std::string::npos) << text;
+        EXPECT_NE(text.find("8 light surfaces in view; 2 reach some and are not used"), std::string::npos) << text;
         for (const ReflectionProbe probe : added) stage.scene.remove(probe);
         EXPECT_EQ(stage.scene.reflectionProbeCount(), 1u);
         ASSERT_TRUE(renderer.renderToImage(stage.scene, stage.view));
-        EXPECT_NE(renderer.explain().find("1 reach into the view, and none of them can be used"), std::string::npos);
+        EXPECT_NE(renderer.explain().find("1 reach surfaces in view, and none of them can be used"), std::string::npos);
     });
 }
 

@@ -170,7 +170,10 @@ std::vector<ViewFactor> factorsOfLight() {
               [](ViewCase& c) {
                   c.view.effects.fog = { .enabled = true, .volumetric = true, .volumetricMeters = 9 };
               } } } },
-        { "probe", { { "off", [](ViewCase&) {} }, { "on", [](ViewCase& c) { c.hasProbe = true; } } } },
+        { "probe",
+          { { "off", [](ViewCase&) {} },
+            { "on", [](ViewCase& c) { c.hasProbe = true; } },
+            { "debug view", [](ViewCase& c) { c.hasProbe = true, c.view.debugView = DebugView::Probes; } } } },
     };
 }
 

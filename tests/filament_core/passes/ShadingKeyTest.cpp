@@ -51,8 +51,8 @@ TEST(ShadingKey, EveryStorageOfAnEnvironmentIsAKeyOfItsOwn) {
 }
 
 TEST(ShadingKey, ProbesSelectAProgramOfLitMaterialsAlone) {
-    const ShadingKey key = shadingKey({}, {}, { .hasProbes = true });
-    EXPECT_EQ(bitsOf(key, shader::kQualityReflectionProbes), 1u);
+    const ShadingKey key = shadingKey({}, {}, { .probeTerms = shader::kAllProbes | shader::kProbesAndEnvironment });
+    EXPECT_EQ(bitsOf(key, shader::kQualityReflectionProbes), 7u);
     EXPECT_EQ(ofUnlit(key), 0);
     EXPECT_EQ(depthOfViewKey(key), 0);
     EXPECT_EQ(ofLights(key), 0);

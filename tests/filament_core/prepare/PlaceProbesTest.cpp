@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 namespace filament_core::prepare {
@@ -23,6 +25,8 @@ struct ProbeScene {
     ViewInput view;
     HeldProbes held;
     shader::FrameUniforms uniforms{};
+    jobs::JobSystem jobs{ { .workers = 1 } };
+    std::vector<LitBox> lit{ { float3(0, 0, -20), float3(25) } }; ///< reaches all that is in view
 
     ProbeScene() {
         view.size = { 64, 64 };
@@ -44,18 +48,17 @@ struct ProbeScene {
 
     ProbePacket place() {
         ViewPacket packet;
-        packet.counts.litDraws = 1;
         packet.uniforms = uniforms;
-        ProbePacket placed = placeProbes(arena, scene, view, held, packet);
+        ProbePacket placed = placeProbes(jobs, arena, scene, view, held, lit, packet);
         uniforms = packet.uniforms;
         return placed;
     }
 
-    /// The cubes of the records, without the environment's.
+    /// The cubes of the records.
     static std::vector<uint32_t> cubesOf(ProbePacket const& packet) {
         std::vector<uint32_t> cubes;
         for (uint32_t i = 0; i < packet.used; ++i) {
-            const auto layer = static_cast<size_t>(packet.records[i].irradianceSh[0].w);
+            const auto layer = static_cast<size_t>(packet.uniforms->probes[i].irradianceSh[0].w);
             cubes.push_back(static_cast<uint32_t>(packet.cubes[layer].texture.bits));
         }
         return cubes;
@@ -64,16 +67,16 @@ struct ProbeScene {
 
 using Cubes = std::vector<uint32_t>;
 
-TEST(PlaceProbes, TheSmallestComesFirstAndTheEnvironmentLast) {
+TEST(PlaceProbes, TheSmallestComesFirst) {
     ProbeScene of;
     of.add(1, { 0, 0, -9 }, 3);
     of.add(2, { 0, 0, -5 }, 1);
     of.add(3, { 0, 0, -3 }, 2);
     const ProbePacket placed = of.place();
     EXPECT_EQ(ProbeScene::cubesOf(placed), (Cubes{ 2, 3, 1 }));
-    ASSERT_EQ(placed.records.size(), 4u);
-    EXPECT_EQ(placed.records.back().irradianceSh[0].w, 0);
-    EXPECT_EQ(placed.cubes[0].texture.bits, 100u);
+    EXPECT_EQ(placed.cubes[0].texture.bits, 100u) << "the environment's";
+    EXPECT_TRUE(placed.addsEnvironment);
+    EXPECT_LT(placed.uniforms->probes[3].axes[0].w, 0) << "a box without a point";
 }
 
 TEST(PlaceProbes, TheNearestOfTooManyAreUsed) {
@@ -94,7 +97,7 @@ TEST(PlaceProbes, WhatTheViewDoesNotSeeOrCannotCopyIsLeftOut) {
     of.add(3, { 0, 0, -5 });
     of.scene.probes.records[2].shape.size = 32;
     ProbePacket placed = of.place();
-    EXPECT_EQ(placed.outOfView, 1u);
+    EXPECT_EQ(placed.outOfReach, 1u);
     EXPECT_EQ(placed.leftOut, 1u);
     EXPECT_EQ(placed.uses[2], ProbeUse::OtherShape);
     of.scene.indirectLight.shape.format = of.scene.probes.records[1].shape.format = Format::RGB9E5;
@@ -125,21 +128,65 @@ TEST(PlaceProbes, FactorsAreThoseOfNitsBeforeTheFactorOfTheEnvironment) {
     of.add(1, { 0, 0, -5 });
     of.scene.probes.records[0].intensity = 7;
     const float exposure = of.view.camera.exposure.factor();
-    EXPECT_FLOAT_EQ(of.place().records[0].capture.w * 3, 7 * exposure) << "ambient.x is 3";
+    EXPECT_FLOAT_EQ(of.place().uniforms->probes[0].capture.w * 3, 7 * exposure) << "ambient.x is 3";
     of.scene.indirectLight.specular = {};
     of.uniforms.ambient.x = 0;
     const ProbePacket alone = of.place();
-    EXPECT_EQ(alone.records.size(), 1u);
+    EXPECT_FALSE(alone.addsEnvironment);
     EXPECT_FLOAT_EQ(of.uniforms.ambient.x, exposure);
-    EXPECT_FLOAT_EQ(alone.records[0].capture.w, 7);
+    EXPECT_FLOAT_EQ(alone.uniforms->probes[0].capture.w, 7);
 }
 
 TEST(PlaceProbes, WithoutProbesOrLitSurfacesThereIsNothing) {
     ProbeScene of;
     EXPECT_TRUE(of.place().uses.empty());
     of.add(1, { 0, 0, -5 });
+    of.lit.clear();
+    EXPECT_TRUE(of.place().empty());
+}
+
+TEST(PlaceProbes, ABoxThatReachesNoLitSurfaceIsLeftOut) {
+    ProbeScene of;
+    of.add(1, { 0, 0, -5 }, 1);
+    of.scene.probes.records[0].blendMeters = 0.5f;
+    const auto usesWith = [&](float3 center, float3 half) {
+        of.lit = { { center, half } };
+        return of.place().used;
+    };
+    EXPECT_EQ(usesWith({ 3, 0, -5 }, float3(1.51f, 1, 1)), 1u) << "in the blend distance";
+    EXPECT_EQ(usesWith({ 3, 0, -5 }, float3(1.49f, 1, 1)), 0u);
+    EXPECT_EQ(usesWith(kUnlitBox.center, kUnlitBox.halfExtent), 0u);
+    of.scene.probes.records[0].worldFromBox = float3x3(glm::rotate(float4x4(1), 0.7853982f, float3(0, 1, 0)));
+    EXPECT_EQ(usesWith({ 3, 0, -5 }, float3(1.2f, 1, 0.01f)), 1u) << "a corner of the turned box is nearer";
+}
+
+TEST(PlaceProbes, TheEnvironmentIsLeftOutWhereEachSurfaceIsInABox) {
+    ProbeScene of;
+    of.add(1, { 0, 0, -15 }, 2);
+    of.add(2, { 5, 0, -15 }, 2);
+    of.lit = { { float3(0, 0, -15), float3(2) }, { float3(5, 0, -15), float3(1) } };
+    EXPECT_FALSE(of.place().addsEnvironment);
+    of.lit.push_back({ float3(2.5f, 0, -15), float3(0.6f) });
+    EXPECT_TRUE(of.place().addsEnvironment) << "between the boxes";
+    of.lit.pop_back();
+    of.scene.probes.records[1].lightsDiffuse = false;
+    EXPECT_TRUE(of.place().addsEnvironment) << "its diffuse light is the environment's";
+}
+
+TEST(PlaceProbes, TheNumberOfWorkersChangesNoBit) {
+    ProbeScene of;
+    for (uint32_t i = 0; i < 70; ++i) of.add(i + 1, { i % 10 - 5.0, i / 10 - 3.0, -12 }, 0.4f);
+    of.lit.clear();
+    for (int i = 0; i < 20'000; ++i)
+        of.lit.push_back({ float3(i % 140 * 0.1f - 7, i / 140 % 100 * 0.1f - 5, -12), float3(0.02f) });
+    const ProbePacket one = of.place();
+    jobs::JobSystem four{ { .workers = 4 } };
     ViewPacket packet;
-    EXPECT_TRUE(placeProbes(of.arena, of.scene, of.view, of.held, packet).empty());
+    packet.uniforms = of.uniforms;
+    const ProbePacket other = placeProbes(four, of.arena, of.scene, of.view, of.held, of.lit, packet);
+    EXPECT_EQ(std::memcmp(one.uniforms, other.uniforms, sizeof(shader::ProbeUniforms)), 0);
+    EXPECT_TRUE(std::ranges::equal(one.uses, other.uses));
+    EXPECT_EQ(one.addsEnvironment, other.addsEnvironment);
 }
 
 } // namespace

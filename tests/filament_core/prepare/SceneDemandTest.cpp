@@ -551,7 +551,8 @@ TEST(SceneDemand, LightsNothingWhereADebugViewShowsMaterials) {
     for (size_t i = 0; i < kDebugViewCount; ++i) {
         input.debugView = static_cast<DebugView>(i);
         const SceneDemand demand = demandFor(input);
-        const bool isLit = input.debugView < DebugView::BaseColor || input.debugView == DebugView::Wireframe;
+        const bool isLit = input.debugView < DebugView::BaseColor || input.debugView == DebugView::Wireframe ||
+                           input.debugView == DebugView::Probes;
         for (const Effect effect : lit) {
             EXPECT_EQ(demand.needs(effect), isLit) << toString(input.debugView) << ": " << nameOf(effect);
             EXPECT_EQ(words(effect, input) == "a debug view shows no light", !isLit) << nameOf(effect);

@@ -272,7 +272,7 @@ TEST(InterfaceLocations, AttributeLocationsAgree) {
 TEST(InterfaceLimits, ArraySizesAgree) {
     const std::string text = interfaceText();
     EXPECT_NE(text.find("kObjectsPerWindow = " + std::to_string(kObjectsPerWindow) + ";"), std::string::npos);
-    EXPECT_NE(text.find("kProbeWords = " + std::to_string(kProbeWords) + ";"), std::string::npos);
+    EXPECT_NE(text.find("kMaxProbesOfView = " + std::to_string(kMaxProbesOfView) + ";"), std::string::npos);
     EXPECT_NE(text.find("kFroxelCountBits = " + std::to_string(kFroxelCountBits) + ";"), std::string::npos);
 }
 

@@ -20,7 +20,7 @@ size_t callsIn(std::span<const uint32_t> module) {
 }
 
 TEST(KeepCalls, AFunctionOfTheListIsCalledAndOthersAreInlined) {
-    for (const auto& [name, calls] : { std::pair("probedLight", 2u), std::pair("probedLights", 0u) }) {
+    for (const auto& [name, calls] : { std::pair("probedRadiance", 2u), std::pair("probedRadiances", 0u) }) {
         const std::string text = fmt::format(R"(#version 450
             layout(location = 0) in vec4 v;
             layout(location = 0) out vec4 color;

@@ -240,7 +240,8 @@ BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage 
         { .binding = kBindingSceneDepth, .texture = mDfg, .sampler = mSampler }, // its constants are 0
         { .binding = kBindingFog, .texture = mWhiteCube, .sampler = mSampler },
         { .binding = kBindingPicture, .texture = mDfg, .sampler = mSampler },
-        { .binding = kBindingFogCells, .buffer = fogCells, .size = kFogCellBytes }
+        { .binding = kBindingFogCells, .buffer = fogCells, .size = kFogCellBytes },
+        { .binding = kBindingProbes, .buffer = passBuffer, .size = sizeof(PassUniforms) }, // see above
     };
     const BindGroupLayout layout = passGroupLayout(passKind(package));
     const BindGroupHandle group = mStream->allocateBindGroup();
