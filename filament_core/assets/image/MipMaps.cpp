@@ -152,7 +152,9 @@ void dropLargeLevels(Image& image, uint32_t maxSize) {
     uint32_t dropped = 0;
     while (maxSize > 0 && (std::max(image.width, image.height) >> dropped) > maxSize) ++dropped;
     if (dropped == 0) return;
-    image.data.erase(image.data.begin(), image.data.begin() + static_cast<std::ptrdiff_t>(image.levelOffset(dropped)));
+    // Another vector: that of the large levels would keep their memory as long as the small ones live.
+    image.data = std::vector<std::byte>(image.data.begin() + static_cast<std::ptrdiff_t>(image.levelOffset(dropped)),
+                                        image.data.end());
     image.width = std::max(1u, image.width >> dropped);
     image.height = std::max(1u, image.height >> dropped);
     image.levels -= dropped;
