@@ -13,6 +13,7 @@
 #include "filament_core/engine/DefaultObjects.h"
 #include "filament_core/engine/DeviceNeeds.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/TextureStreamer.h"
 #include "jobsystem/JobTrace.h"
 #include "shaders/package/EngineMaterials.h"
 
@@ -128,6 +129,7 @@ Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> c
 Engine::Impl::~Impl() {
     // First: what these objects use must not seem to be a leak of the app.
     destroyDefaultObjects(*this);
+    streamer.reset();
     scenes.clear(); // they show nothing without it
     aUseEnded = true;
     releaseRetired(pending);

@@ -44,6 +44,8 @@ struct FullScreenInterface;
 namespace filament_core {
 namespace engine {
 
+class TextureStreamer; // TextureStreamer.h
+
 struct TextureState {
     backend::TextureHandle handle;     ///< none: rejected, see createTexture()
     backend::DeviceTextureDesc desc{}; ///< debugName is empty: see `name`
@@ -253,6 +255,8 @@ struct Engine::Impl {
     /// The texture of a sampler that the app has not set: opaque white (integers: 1), of the sampler's kind. Created at
     /// its first use.
     Texture unsetTexture(shader::Parameter const& sampler);
+    /// Made at its first use.
+    engine::TextureStreamer& streamerOf();
     /// None: the texture is larger than the device allows.
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 
@@ -305,7 +309,8 @@ struct Engine::Impl {
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
     engine::MaterialNumbers materialNumbers;
     uint32_t nextInstanceId = 0;
-    engine::LoadTasks loads; ///< of LoadTickets
+    engine::LoadTasks loads;                           ///< of LoadTickets
+    std::unique_ptr<engine::TextureStreamer> streamer; ///< none: no texture was ever streamed
 };
 
 template <class F>

@@ -12,6 +12,7 @@
 #include "filament_core/engine/ProbeTexture.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/ShadowTexture.h"
+#include "filament_core/engine/TextureStreamer.h"
 #include "filament_core/passes/DebugDrawPass.h"
 #include "filament_core/passes/Frame.h"
 #include "filament_core/passes/ShadowPass.h"
@@ -187,6 +188,8 @@ struct Renderer::Impl final : engine::Dependent {
         const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views,
                                                                   shadows.held(), last, probes.held());
+        if (engine.streamer && !pipelines.isRequesting())
+            engine.streamer->note(engine.jobs, arena, scene.impl().data, packet);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()));
         addDebugQuads(context, view, effects, output);
@@ -311,6 +314,7 @@ struct Renderer::Impl final : engine::Dependent {
         try {
             // Outside of the frame: callbacks of finished compilations may compile and destroy materials.
             engine.compilations.collect(engine.stream->replayedSubmissions());
+            if (engine.streamer) engine.streamer->beginFrame();
             if (Result<void> drawn = drawFrame(scene, view, target); !drawn) return drawn;
             // Only once the frame is recorded: what failed has drawn nothing.
             target.color.hasContents = true;
@@ -525,7 +529,8 @@ std::vector<EffectDecision> Renderer::decisions() const {
 std::string Renderer::explain() const {
     const PublicCall call(mImpl, "Renderer::explain()");
     return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses()) +
-           engine::explainProbes(mImpl->probeLines);
+           engine::explainProbes(mImpl->probeLines) +
+           (mImpl->engine.streamer ? mImpl->engine.streamer->explain() : std::string());
 }
 
 std::string Renderer::graphviz() const {

@@ -23,6 +23,8 @@ std::span<const Option> optionsOf<GltfLoadOptions>() {
         option("compressedTextures", &O::compressedTextures,
                "Textures of BC7 [stay compressed](textures.md#compressed-on-the-device) where that shows the same "
                "bits."),
+        option("textureBudgetMegabytes", &O::textureBudgetMegabytes, { 0, 1 << 20, "megabytes" },
+               "[Streams](texture-streaming.md) textures within this budget. 0: all levels are on the device."),
         option("filesFromAnywhere", &O::filesFromAnywhere,
                "Opens buffers and images outside of the model's folder: only for models that you trust.")
     };

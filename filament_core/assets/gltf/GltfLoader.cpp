@@ -6,6 +6,7 @@
 #include "filament_core/assets/gltf/GltfBuffers.h"
 #include "filament_core/assets/gltf/GltfContainer.h"
 #include "filament_core/assets/gltf/GltfEnvironment.h"
+#include "filament_core/assets/gltf/GltfImageStore.h"
 #include "filament_core/assets/gltf/GltfMeshes.h"
 #include "filament_core/assets/gltf/GltfParse.h"
 #include "filament_core/assets/gltf/GltfPointer.h"
@@ -142,6 +143,7 @@ void readImages(GltfDocument const& document, GltfFolder const& folder, Content&
     });
     if (!goesOn(options, diagnostics)) return;
     for (GltfImageSource* source : sources) diagnostics.merge(std::move(source->diagnostics));
+    if (options.streams && diagnostics.ok()) options.streams->plan(document, content.textures, options.blocks);
     // The headers tell the sizes, so files that need too much memory are refused before anything is decoded.
     if (diagnostics.ok()) checkImageBudget(content.textures, diagnostics);
     if (diagnostics.ok()) checkFaces(document, content.environment, diagnostics);

@@ -24,6 +24,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -33,6 +34,8 @@ enum class GltfStage : uint8_t {
     Structure, ///< JSON and buffers
     Content,   ///< images and primitives, one step each
 };
+
+class GltfImageStore;
 
 struct GltfOptions {
     /// Called after every step, with `done` increasing from 0 to `total`; from any worker, but never from two at once.
@@ -46,6 +49,8 @@ struct GltfOptions {
     bool simplifies = false;             ///< for who uploads the primitives: they get levels (DetailLevels.h)
     FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
     GltfResolver resolve{};              ///< gives the bytes of buffers and images, instead of files
+    /// Given: learns to decode textures again; those that can be streamed are loaded with their coarsest levels only.
+    std::shared_ptr<GltfImageStore> streams{};
     /// Requested from any thread: the load ends before its next image or primitive, with Cancelled. Must outlive it.
     jobs::Cancellation const* cancellation = nullptr;
     std::string name = "model"; ///< name of a file in memory in messages; loadGltf() fills it in

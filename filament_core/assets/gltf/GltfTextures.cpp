@@ -184,13 +184,6 @@ Result<DecodedTexture> decode(GltfDocument const& document, GltfImageSource cons
     return decodeTexture(source.bytes, imageName(document, source.image), maxSize, depth, blocks);
 }
 
-/// All uses of an image come from one decoding.
-TextureBlocks blocksOf(GltfImageJob const& job, GltfBlocks blocks) {
-    const bool isColor = job.colorTexture != kNone, hasNormals = job.normalTexture != kNone;
-    const bool isKept = blocks == GltfBlocks::All || (blocks == GltfBlocks::Data && !isColor);
-    return isKept && !hasNormals ? TextureBlocks::KeptBc7 : TextureBlocks::Decoded;
-}
-
 /// The file of a texture says whether it holds colours, and so does its use.
 void warnAboutTransfer(GltfDocument const& document, GltfImageSource const& source, std::optional<bool> isSrgb,
                        GltfImageJob& job) {
@@ -208,19 +201,27 @@ void warnAboutColorSpace(GltfDocument const& document, GltfImageSource const& so
                 imageName(document, source.image), *space);
 }
 
-/// The first level of a texture, for packing.
-Result<Image> decodeFirstLevel(GltfDocument const& document, GltfImageSource const& source) {
-    Result<DecodedTexture> texture = decode(document, source, 0, TextureDepth::EightBits);
+uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
+
+/// The smaller of two limits, of which 0 is none.
+uint32_t smallerLimit(uint32_t a, uint32_t b) { return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b); }
+
+} // namespace
+
+TextureBlocks blocksOf(GltfImageJob const& job, GltfBlocks blocks) {
+    const bool isColor = job.colorTexture != kNone, hasNormals = job.normalTexture != kNone;
+    const bool isKept = blocks == GltfBlocks::All || (blocks == GltfBlocks::Data && !isColor);
+    return isKept && !hasNormals ? TextureBlocks::KeptBc7 : TextureBlocks::Decoded;
+}
+
+Result<Image> decodeFirstLevel(std::span<const std::byte> file, std::string const& name) {
+    Result<DecodedTexture> texture = decodeTexture(file, name, 0, TextureDepth::EightBits);
     if (!texture) return texture.error();
     Image& image = texture->image;
     image.data.resize(image.levelBytes(0));
     image.levels = 1;
     return std::move(image);
 }
-
-uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
-
-} // namespace
 
 GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder, std::vector<bool> const& used,
                           GltfNormals normals, std::vector<uint32_t>& remap, Diagnostics& diagnostics) {
@@ -236,10 +237,13 @@ GltfTextures planTextures(GltfDocument const& document, GltfFolder const& folder
 }
 
 void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
-    uint64_t pixels = 0;
+    uint64_t pixels = 0; // of what is kept: larger levels of streamed textures come and go
+    const auto kept = [](uint2 size, uint32_t maxSize) {
+        return pixelsOf(maxSize == 0 ? size : glm::min(size, uint2(maxSize)));
+    };
     for (GltfImageJob const& job : textures.jobs)
-        pixels += job.useCount() * pixelsOf(textures.sources[job.source].size);
-    for (GltfPackJob const& job : textures.packs) pixels += pixelsOf(textures.sources[job.first].size);
+        pixels += job.useCount() * kept(textures.sources[job.source].size, job.maxSize);
+    for (GltfPackJob const& job : textures.packs) pixels += kept(textures.sources[job.first].size, job.maxSize);
     if (pixels > kMaxImagePixels)
         diagnostics.refuse(ErrorCode::Unsupported,
                            "images: the {} textures have {} pixels, more than {}; use smaller ones",
@@ -249,6 +253,7 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfBlocks blocks,
                     GltfImageJob& job) {
     GltfImageSource const& source = textures.sources[job.source];
+    maxSize = smallerLimit(maxSize, job.maxSize);
     try {
         const bool hasNormals = job.normalTexture != kNone; // of which the first level counts, even if it is dropped
         Result<DecodedTexture> texture =
@@ -272,10 +277,11 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
 
 void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job) {
     GltfImageSource const &one = textures.sources[job.first], &other = textures.sources[job.second];
+    maxSize = smallerLimit(maxSize, job.maxSize);
     try {
-        Result<Image> first = decodeFirstLevel(document, one);
+        Result<Image> first = decodeFirstLevel(one.bytes, imageName(document, one.image));
         if (!first) return job.diagnostics.refuse(first.error());
-        Result<Image> second = decodeFirstLevel(document, other);
+        Result<Image> second = decodeFirstLevel(other.bytes, imageName(document, other.image));
         if (!second) return job.diagnostics.refuse(second.error());
         if (first->width != second->width || first->height != second->height)
             return job.diagnostics.refuse(ErrorCode::Corrupt, "{} and {}: the size of one is not what its header says",

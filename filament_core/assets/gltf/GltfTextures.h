@@ -14,6 +14,7 @@
 #include "filament_core/assets/files/Diagnostics.h"
 #include "filament_core/assets/gltf/GltfDocument.h"
 #include "filament_core/assets/gltf/GltfImages.h"
+#include "filament_core/assets/image/TextureDecoder.h"
 #include "filament_core/assets/image/TexturePacking.h"
 
 #include <vector>
@@ -24,6 +25,7 @@ struct GltfImageJob {
     uint32_t source = 0;                                                       ///< index in GltfTextures::sources
     uint32_t colorTexture = kNone, dataTexture = kNone, normalTexture = kNone; ///< slots in ModelData::images
     Image color, data, normals;                                                ///< filled as requested
+    uint32_t maxSize = 0; ///< larger levels are left out, whatever the options allow; 0: none are
 
     uint32_t useCount() const {
         return (colorTexture != kNone ? 1u : 0u) + (dataTexture != kNone ? 1u : 0u) +
@@ -36,6 +38,7 @@ struct GltfPackJob {
     uint32_t first = 0, second = 0; ///< indices in GltfTextures::sources
     PackLayout layout = PackLayout::RedGreen;
     uint32_t texture = 0; ///< slot in ModelData::images
+    uint32_t maxSize = 0; ///< as that of GltfImageJob
     Image image;
     Diagnostics diagnostics;
 };
@@ -59,6 +62,12 @@ void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);
 void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfBlocks blocks,
                     GltfImageJob& job);
 void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job);
+
+/// All uses of an image come from one decoding.
+TextureBlocks blocksOf(GltfImageJob const& job, GltfBlocks blocks);
+
+/// The first level of a texture, for packing.
+Result<Image> decodeFirstLevel(std::span<const std::byte> file, std::string const& name);
 
 /// Moves the decoded images into their slots.
 std::vector<Image> collectImages(GltfTextures& textures);

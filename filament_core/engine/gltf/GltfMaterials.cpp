@@ -2,6 +2,7 @@
 #include "filament_core/engine/gltf/GltfMaterials.h"
 
 #include "base/Log.h"
+#include "filament_core/engine/TextureStreamer.h"
 #include "shaders/package/GroupLayouts.h"
 
 namespace filament_core {
@@ -66,6 +67,10 @@ MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material
     for (GltfMap const& map : settings.maps) {
         require(mEngine.set(instance, map.stem + "Map", mTextures[map.texture.image], map.texture.sampler));
         if (map.texture.hasTransform) require(mEngine.set(instance, map.stem + "UvMatrix", map.texture.uvTransform));
+        if (mEngine.streamer)
+            mEngine.streamer->addMap(instance, map.stem + "Map",
+                                     map.texture.hasTransform ? map.stem + "UvMatrix" : std::string(),
+                                     mTextures[map.texture.image], map.texture.uvSet);
     }
     return instance;
 }

@@ -3,6 +3,7 @@
 
 #include "base/OutOfMemory.h"
 #include "filament_core/assets/gltf/DetailLevels.h"
+#include "filament_core/assets/gltf/GltfImageStore.h"
 #include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelUpload.h"
@@ -34,6 +35,10 @@ assets::GltfOptions gltfOptions(Engine::Impl const& engine, GltfLoadOptions cons
         .simplifies = options.simplified,
         .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
     };
+    if (options.textureBudgetMegabytes > 0) {
+        loaderOptions.streams = std::make_shared<assets::GltfImageStore>();
+        loaderOptions.streams->budgetMegabytes = options.textureBudgetMegabytes;
+    }
     if (options.progress) {
         loaderOptions.progress = [progress = options.progress](assets::GltfStage stage, size_t done, size_t total) {
             progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);
@@ -67,6 +72,11 @@ Occluder occluderOf(assets::PrimitiveData const& primitive, uint32_t firstIndex,
                              indices.subspan(firstIndex * bytes, indexCount * bytes));
 }
 
+scene::UvDensity uvDensityOf(assets::PrimitiveData const& primitive) {
+    return scene::uvDensityOf({ primitive.layout, primitive.topology }, primitive.vertices, primitive.indexFormat,
+                              primitive.indices);
+}
+
 ReadModel::Shape shapeOf(assets::PrimitiveData& primitive, bool simplifies) {
     ReadModel::Shape shape{ .bounds = scene::boundsOf(primitive.layout, primitive.vertices),
                             .occluder = occluderOf(primitive, 0, primitive.indexCount) };
@@ -90,8 +100,10 @@ void prepareUpload(ReadModel& model, jobs::JobSystem& jobs, assets::GltfOptions 
     const size_t meshesOfJob = options.simplifies ? 1 : 8;
     jobs::parallelFor<"shapes">(jobs, meshes.size(), meshesOfJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i)
-            for (assets::PrimitiveData& primitive : meshes[i].primitives)
+            for (assets::PrimitiveData& primitive : meshes[i].primitives) {
                 model.shapes[i].push_back(shapeOf(primitive, options.simplifies && !isCancelled()));
+                if (options.streams) model.shapes[i].back().uvDensity = uvDensityOf(primitive);
+            }
     });
 }
 
@@ -100,6 +112,7 @@ Result<ReadModel> prepared(Result<assets::ModelData> data, jobs::JobSystem& jobs
     if (!data) return data.error();
     ReadModel model;
     model.data = std::move(*data);
+    model.images = options.streams;
     if (options.cancellation && options.cancellation->isRequested()) return model; // it is discarded
     prepareUpload(model, jobs, options, choice);
     return model;

@@ -4,6 +4,7 @@
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/TextureStreamer.h"
 #include "filament_core/engine/gltf/ModelParts.h"
 #include "filament_core/scene/SceneSkins.h"
 
@@ -25,6 +26,7 @@ MaterialInstance cloneInstance(Engine::Impl& engine, MaterialInstance source) {
     copy.parametersDirty = copy.texturesDirty = true;
     engine.dirtyInstances.push_back(draft.handle()); // the last call that can fail
     copy.id = engine.nextInstanceId++;
+    if (engine.streamer) engine.streamer->addClone(engine.instances.get(source).id, copy.id);
     ++copy.material->instanceCount;
     return draft.keep();
 }

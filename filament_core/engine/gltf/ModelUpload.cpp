@@ -4,6 +4,7 @@
 #include "base/math/Elementary.h"
 #include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/SharedBytes.h"
+#include "filament_core/engine/TextureStreamer.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelParts.h"
 
@@ -24,7 +25,8 @@ class ModelUpload::Builder {
 public:
     Builder(Engine::Impl& engine, ReadModel model)
             : mEngine(engine), mData(std::move(model.data)), mLight(std::move(model.light)),
-              mShapes(std::move(model.shapes)), mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
+              mShapes(std::move(model.shapes)), mImages(std::move(model.images)),
+              mModel(std::make_unique<Model::Impl>(Engine::of(engine))),
               mMaterials(mEngine, *mModel, mModel->textures, std::move(model.materials)) {
         mModel->bounds = model.bounds;
         mModel->name = mData.name;
@@ -74,7 +76,16 @@ private:
                                                           .pixels = *texels,
                                                           .name = mData.name },
                                                         texels);
+        if (mImages) stream(texels);
         return texels->size();
+    }
+
+    void stream(SharedBytes const& texels) {
+        const auto slot = static_cast<uint32_t>(mModel->textures.size() - 1);
+        if (!mImages->textures()[slot].isStreamed()) return;
+        TextureStreamer& streamer = mEngine.streamerOf();
+        streamer.options.budgetMegabytes = std::max(streamer.options.budgetMegabytes, mImages->budgetMegabytes);
+        streamer.add(mModel->textures.back(), mImages, slot, texels);
     }
 
     size_t uploadEnvironment() {
@@ -118,6 +129,9 @@ private:
         mModel->vertexBuffers.push_back({});
         mModel->indexBuffers.push_back({});
         mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices, ofVertices, shape.bounds);
+        if (mImages)
+            mEngine.streamerOf().addMesh(mEngine.vertexBuffers.get(mModel->vertexBuffers.back()).handle,
+                                         shape.uvDensity);
         const uint32_t levels =
                 shape.levels.empty() ? 0 : shape.levels.back().firstIndex + shape.levels.back().indexCount;
         mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = std::max(primitive.indexCount, levels),
@@ -309,6 +323,7 @@ private:
     ModelData mData;
     std::optional<assets::EnvironmentData> mLight;
     std::vector<std::vector<ReadModel::Shape>> mShapes; // by mesh of the file and primitive
+    ImageStore mImages;                                 // none: all textures are whole
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
     std::map<InstanceKey, MaterialInstance> mInstances;

@@ -10,6 +10,7 @@
 #include "filament_core/engine/gltf/ModelImpl.h"
 #include "filament_core/engine/gltf/ReadMaterials.h"
 #include "filament_core/scene/Deformations.h"
+#include "filament_core/scene/UvDensity.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -29,8 +30,10 @@ struct ReadModel {
         scene::MinMax bounds;                ///< scene::boundsOf()
         Occluder occluder;                   ///< scene::occluderOf()
         std::vector<GeometryLevel> levels{}; ///< assets::addDetailLevels()
+        scene::UvDensity uvDensity{};        ///< of models whose textures are streamed
     };
-    std::vector<std::vector<Shape>> shapes; ///< by mesh and primitive
+    std::vector<std::vector<Shape>> shapes;               ///< by mesh and primitive
+    std::shared_ptr<const assets::GltfImageStore> images; ///< of textures that are streamed; none: all are whole
 };
 
 /// Of the loader, with `progress` of the options. `engine`: the one that will draw the model.

@@ -39,6 +39,10 @@ struct GltfLoadOptions {
     /// bits of the decoded texels (docs/textures.md). This takes a quarter of the memory and less time to load. Mesa's
     /// CPU drivers decode blocks again whenever a texel is read: frames take longer.
     bool compressedTextures = false;
+    /// More than 0: of the textures only the mip levels that frames need are on the device, in so many units of 2^20
+    /// bytes for all streamed models of the engine (<filament_core/TextureStreaming.h>), [0, 1048576].
+    /// 0: all levels are.
+    uint32_t textureBudgetMegabytes = 0;
     /// True: buffers and images may also lie outside of the model's folder: behind absolute paths, "..", and links that
     /// lead out. Only for models that you trust.
     bool filesFromAnywhere = false;

@@ -48,6 +48,7 @@
 #include <filament_core/Scene.h>
 #include <filament_core/Splats.h>
 #include <filament_core/Stencil.h>
+#include <filament_core/TextureStreaming.h>
 #include <filament_core/Units.h>
 #include <filament_core/Version.h>
 #include <filament_core/View.h>

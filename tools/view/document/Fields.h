@@ -124,6 +124,7 @@ template <> struct Fields<GltfLoadOptions> {
                                              field("simplified", &GltfLoadOptions::simplified),
                                              field("normalMapRoughness", &GltfLoadOptions::normalMapRoughness),
                                              field("compressedTextures", &GltfLoadOptions::compressedTextures),
+                                             field("textureBudgetMegabytes", &GltfLoadOptions::textureBudgetMegabytes),
                                              field("filesFromAnywhere", &GltfLoadOptions::filesFromAnywhere) };
     static constexpr size_t others = 1; // progress
 };
