@@ -7,6 +7,7 @@
 
 #include <filament_core/Animator.h>
 #include <filament_core/ModelCopy.h>
+#include <filament_core/TextureStreaming.h>
 #include <fmt/core.h>
 #include <glm/ext/matrix_transform.hpp>
 
@@ -103,7 +104,17 @@ void Stage::drawOverlays() {
     }
 }
 
+/// Streamed textures arrive with later frames, however long their files take.
+void Stage::settleTextures() {
+    if (textureResidency(mEngine).textures == 0) return;
+    setBack(mSpec.frames - 1);
+    Renderer renderer(mEngine); // which leaves no history
+    do renderer.render(mShown->scene, mView, mTarget);
+    while (waitForTextures(mEngine));
+}
+
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
+    settleTextures();
     for (uint32_t i = mSpec.frames - 1; i > 0; --i) {
         setBack(i);
         mRenderer.render(mShown->scene, mView, mTarget);

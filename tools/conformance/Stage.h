@@ -63,6 +63,7 @@ private:
     /// Where everything is `frames` before the last one.
     void setBack(uint32_t frames);
     void drawOverlays();
+    void settleTextures();
 
     Engine mEngine;
     std::shared_ptr<backend::FrameCapture> mCapture;
