@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streamed textures on both APIs: the images of whole ones, in less memory, and the same bits in each frame.
+#include "backend/layers/Faulty.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/gltf/QuadFile.h"
 
@@ -89,7 +90,7 @@ struct Stage {
     Renderer renderer;
     View view;
     GltfLoadOptions options;
-    std::unique_ptr<Model> model;
+    std::unique_ptr<Model> model, behind;
     Node root;
 };
 
@@ -188,6 +189,84 @@ TEST(TextureStreaming, SettlesOnTheImagesOfModels) {
         ASSERT_EQ(images[0].size(), images[1].size());
         for (size_t i = 0; i < images[0].size(); ++i) EXPECT_EQ(images[0][i].pixels, images[1][i].pixels) << file;
     }
+}
+
+/// From the middle of its box a model needs the largest levels: nothing is rounded differently.
+TEST(TextureStreaming, HasAllBitsOfWholeTexturesWhereTheLargestLevelsAreThere) {
+    const std::filesystem::path file = tools::assetDir() / "models/SheenChair/SheenChair.gltf";
+    if (tools::assetDir().empty() || !std::filesystem::exists(file)) GTEST_SKIP() << "needs FILAMENT_ASSET_DIR";
+    Stage whole(Backend::Vulkan, 0), streamed(Backend::Vulkan, 512);
+    for (Stage* const stage : { &whole, &streamed }) {
+        stage->options.normalMapRoughness = true; // levels that are derived from the largest one
+        stage->show(loadGltf(*stage->engine, file, stage->options));
+        ASSERT_TRUE(stage->model);
+        const Box box = stage->model->bounds();
+        const double3 middle = (box.min + box.max) / 2.0;
+        stage->view.camera.worldFromView = Camera::lookAt(middle, middle + double3(0.2, -1, 0.4)).worldFromView;
+    }
+    EXPECT_EQ(whole.draw().pixels, streamed.settled().pixels);
+    const TextureResidency now = textureResidency(*streamed.engine);
+    EXPECT_GT(now.textures, 4u);
+    EXPECT_GT(now.residentBytes, now.wholeBytes / 2);
+}
+
+/// The mask is in the alpha of the texture: shadow maps sample it, and are drawn again when it arrives.
+TEST(TextureStreaming, CutsOutShadowsAsWholeTexturesDo) {
+    std::vector<std::byte> texels(size_t{ 512 } * 512 * 4, std::byte{ 200 });
+    for (size_t i = 0; i < texels.size() / 4; ++i)
+        texels[i * 4 + 3] = static_cast<std::byte>(((i % 512 / 6 ^ i / 512 / 6) & 1) * 255); // squares of 6 texels
+    Result<assets::GlbImage> mask = assets::glbImageFromPixels("mask", 512, 512, texels);
+    ASSERT_TRUE(mask);
+    MaterialData material{ .name = "mask" };
+    material.baseColor = repeated(0);
+    material.alphaMode = assets::AlphaMode::Mask;
+    const std::vector<std::byte> file =
+            test::quadFile({ std::move(*mask) }, material, { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
+    const std::vector<std::byte> ground =
+            test::quadFile({}, MaterialData{ .name = "ground" }, { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
+    for (const Backend backend : test::kBothApis) {
+        Stage whole(backend, 0), streamed(backend, 64);
+        for (Stage* const stage : { &whole, &streamed }) {
+            stage->show(loadGltf(*stage->engine, GltfMemory{ .file = file, .name = "mask" }, stage->options));
+            Result<Model> behind = loadGltf(*stage->engine, GltfMemory{ .file = ground, .name = "ground" });
+            ASSERT_TRUE(behind);
+            stage->behind = std::make_unique<Model>(std::move(*behind));
+            double4x4 back(1.0);
+            back[3] = double4(0, 0, -0.5, 1);
+            stage->scene.setTransform(stage->scene.add(*stage->behind), back);
+            stage->view.quality.shadows = ShadowFilter::Pcf3;
+            stage->lookFrom(1.5);
+        }
+        const Image first = streamed.draw(); // with the coarsest levels
+        expectAlmostEqual(whole.draw(), streamed.settled());
+        EXPECT_GT(differenceOf(first, whole.draw()).count, 100u);
+    }
+}
+
+TEST(TextureStreaming, SurvivesTheLossOfItsDevice) {
+    const auto faults = std::make_shared<backend::FaultInjector>();
+    Result<Engine> engine = Engine::create({ .workers = 1, .debug = { .faults = faults } });
+    ASSERT_TRUE(engine) << engine.error().message;
+    Result<Model> model =
+            loadGltf(*engine, GltfMemory{ .file = modelOfNoise(), .name = "noise" }, { .textureBudgetMegabytes = 64 });
+    ASSERT_TRUE(model);
+    Scene scene(*engine);
+    Renderer renderer(*engine);
+    scene.add(*model);
+    View view{ .size = { 64, 64 } };
+    view.camera = Camera::lookAt({ 0, 0, 0.3 }, { 0, 0, 0 });
+    const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = view.size }));
+    renderer.render(scene, view, target);
+    engine->waitIdle();
+    faults->arm({ .loseDeviceAt = 3 });
+    for (int i = 0; i < 4; ++i) {
+        waitForTextures(*engine);
+        renderer.render(scene, view, target);
+    }
+    engine->waitIdle();
+    EXPECT_TRUE(faults->hasStruck());
+    EXPECT_FALSE(engine->takeErrors().empty());
+    EXPECT_EQ(textureResidency(*engine).textures, 2u);
 }
 
 TEST(TextureStreaming, HasOnTheDeviceWhatAViewNeeds) {
