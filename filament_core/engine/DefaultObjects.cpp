@@ -144,6 +144,8 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     engine.dispatches.destroy(engine.pending);
     if (engine.drawingMotion) engine.destroy(std::exchange(engine.drawingMotion, {}));
     if (engine.drawingSplats) engine.destroy(std::exchange(engine.drawingSplats, {}));
+    for (MaterialInstance& instance : engine.fadingLevels)
+        if (instance) engine.destroy(std::exchange(instance, {}));
     for (MaterialInstance& instance : engine.drawingDebug)
         if (instance) engine.destroy(std::exchange(instance, {}));
     for (auto const& [key, material] : engine.engineMaterials) engine.retire(engine.materials, material);

@@ -232,6 +232,8 @@ struct Engine::Impl {
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
     /// Of the material `motion`, created once: for objects whose materials have no motion variant.
     scene::MaterialInstance const* motionInstance();
+    /// Of the material `level_fade`, created once: of front faces and of both.
+    scene::MaterialInstance const* levelFadeInstance(bool hasBothSides);
     /// Of the material `debug_draw`, created once: with and without depth test.
     scene::MaterialInstance const* debugDrawInstance(bool isTested);
     /// Of the material `splats`, created once.
@@ -300,6 +302,7 @@ struct Engine::Impl {
 
     engine::Defaults defaults;
     MaterialInstance drawingMotion;                  ///< none: no frame needed motion vectors
+    std::array<MaterialInstance, 2> fadingLevels;    ///< by whether both faces are drawn; none: none faded yet
     std::array<MaterialInstance, 2> drawingDebug;    ///< by whether surfaces hide it; none: no view had a DebugDraw
     MaterialInstance drawingSplats;                  ///< none: no scene had splats
     std::map<std::string, Material> engineMaterials; ///< by package and constants

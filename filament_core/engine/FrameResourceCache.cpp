@@ -49,6 +49,8 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();
     if (packet.demand.needs(prepare::Effect::Motion)) resources.motion = mEngine.motionInstance();
+    if (packet.mainView().counts.fadingLevels > 0)
+        resources.levelFade = { mEngine.levelFadeInstance(false), mEngine.levelFadeInstance(true) };
     if (view.debugDraw && !view.debugDraw->empty()) {
         resources.debugTested = mEngine.debugDrawInstance(true);
         resources.debugThrough = mEngine.debugDrawInstance(false);

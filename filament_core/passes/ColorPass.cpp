@@ -10,6 +10,8 @@
 #include "filament_core/passes/TransparencyPass.h"
 #include "shaders/interface/ShaderInterface.h"
 
+#include <algorithm>
+
 namespace filament_core::passes {
 namespace {
 
@@ -43,6 +45,7 @@ struct ColorBlocks {
     PassBlock target;
     PassTextures textures;
     std::span<const PassBlock> discs; ///< parameters of the discs of suns
+    bool hasDepth = false;            ///< of the prepass
 };
 
 std::span<const PassBlock> declareDiscs(FrameContext const& context) {
@@ -104,6 +107,25 @@ void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlock
     }
 }
 
+/// Where no prepass left the depths of levels of detail that fade, those that appear are drawn as any other.
+std::span<const DrawCall> opaqueDraws(FrameContext const& context, bool hasDepth) {
+    prepare::ViewPacket const& view = context.packet.mainView();
+    if (view.counts.fadingLevels == 0 || hasDepth) return view.opaque;
+    const std::span<DrawCall> draws = context.arena->copy(view.opaque);
+    const auto end = std::remove_if(draws.begin(), draws.end(), [](DrawCall const& draw) { return draw.fade < 0; });
+    const auto drawn = draws.first(static_cast<size_t>(end - draws.begin()));
+    for (DrawCall& draw : drawn) draw.fade = 0;
+    return drawn;
+}
+
+/// Of two levels of detail that fade into each other, a pixel shows the one that left its depth.
+DrawSlots slotsOf(PassContext& pass, FrameContext const& context, uint32_t slot) {
+    if (context.packet.mainView().counts.fadingLevels == 0) return slot;
+    PassSlot fading = slotOf(context, pass.passLayout(), pass.subpass());
+    fading.equalsDepth = true;
+    return { slot, context.resources.pipelines.slot(fading) };
+}
+
 Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
@@ -112,9 +134,9 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
     chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
     chosen.blendedDraws = blocks.part.blended;
     if (blocks.part.isFirst) {
-        chosen.opaqueDraws = view.opaque;
-        chosen.opaque =
-                choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
+        chosen.opaqueDraws = opaqueDraws(context, blocks.hasDepth);
+        chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slotsOf(pass, context, slot),
+                                        chosen.opaqueDraws, view.variant, view.channels);
         chooseBackground(pass, context, blocks, slot, chosen);
     }
     const uint32_t blendedAt = blendedSlot(pass, context, pipelines, blocks.part.transparency);
@@ -270,6 +292,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     if (targets.sceneColor) showPicture(context, like, wholeSceneColor(context), targets.sceneColor, blocks);
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
+    blocks.hasDepth = to.hasDepth;
     targets.depth = to.depth;
     targets.sceneDepth = to.sceneDepth;
     prepare::ViewPacket const& view = context.packet.mainView();

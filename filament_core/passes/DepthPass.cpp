@@ -17,10 +17,24 @@ using framegraph::PassBuilder;
 using framegraph::PassContext;
 using framegraph::TextureId;
 
+/// Levels of detail that fade into each other leave their depths where their pattern has pixels.
+std::span<const prepare::DrawCall> fadingDepths(FrameContext const& context) {
+    prepare::ViewPacket const& view = context.packet.mainView();
+    if (view.counts.fadingLevels == 0) return view.opaque;
+    const std::span<prepare::DrawCall> draws = context.arena->copy(view.opaque);
+    for (prepare::DrawCall& draw : draws) {
+        if (draw.fade == 0) continue;
+        scene::InstanceRaster const& raster = draw.material->raster;
+        const bool hasBothSides = raster.cullingDisabled || raster.culling == shader::Culling::None;
+        draw.material = context.resources.levelFade[hasBothSides];
+    }
+    return draws;
+}
+
 ChosenDraws chooseDepths(PassContext& pass, FrameContext const& context, PassBlock target) {
     const PassSlot at = depthSlot(context.settings().quality.depthRange, depthOfViewKey(context.shading));
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
-    return chooseDraws(pass, context, at, target, context.packet.mainView().opaque);
+    return chooseDraws(pass, context, at, target, fadingDepths(context));
 }
 
 void recordDepths(PassContext& pass, FrameContext const& context, ChosenDraws const& chosen) {

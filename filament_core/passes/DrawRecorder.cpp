@@ -93,7 +93,7 @@ constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
     return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
-           a.properties == b.properties && a.pass == b.pass &&
+           a.properties == b.properties && a.pass == b.pass && (a.fade == 0) == (b.fade == 0) &&
            (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
 }
 
@@ -111,7 +111,7 @@ PipelineUse useOf(DrawCall const& draw, DrawVariants const& variants) {
 }
 
 /// Looks pipelines up without changing the cache. Returns false if some are missing.
-bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, uint32_t slot,
+bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, DrawSlots slots,
             std::span<const DrawCall> draws, DrawVariants const& variants) {
     bool hasAll = true;
     for (size_t i = 0; i < draws.size(); ++i) {
@@ -119,25 +119,25 @@ bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, u
         DrawCall const& draw = draws[i];
         chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
                             ? chosen[i - 1]
-                            : pipelines.find(slot, useOf(draw, variants)).value_or(kMissing);
+                            : pipelines.find(slots.of(draw), useOf(draw, variants)).value_or(kMissing);
         hasAll = hasAll && chosen[i] != kMissing;
     }
     return hasAll;
 }
 
 /// Creates what lookUp() did not find, in drawing order.
-void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines, uint32_t slot,
+void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines, DrawSlots slots,
           std::span<const DrawCall> draws, DrawVariants const& variants) {
     for (size_t i = 0; i < draws.size(); ++i) {
         if (chosen[i] != kMissing) continue;
-        chosen[i] = pipelines.pipelineFor(setup, slot, useOf(draws[i], variants));
+        chosen[i] = pipelines.pipelineFor(setup, slots.of(draws[i]), useOf(draws[i], variants));
     }
 }
 
 } // namespace
 
 std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena, PipelineSource const& pipelines,
-                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant,
+                                                DrawSlots slots, std::span<const DrawCall> draws, uint8_t variant,
                                                 prepare::ChannelLists const& channels) {
     const DrawVariants variants{ variant, channels };
     const std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
@@ -145,12 +145,13 @@ std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena,
     std::atomic<bool> someAreMissing{ false };
     pass.forEachRange(draws.size(), kDrawsPerRange, [&](size_t begin, size_t end) {
         const std::span<PipelineHandle> range = chosen.subspan(begin, end - begin);
-        if (!lookUp(range, pipelines, slot, draws.subspan(begin, end - begin), variants))
+        if (!lookUp(range, pipelines, slots, draws.subspan(begin, end - begin), variants))
             someAreMissing.store(true, std::memory_order_relaxed);
     });
     // Jobs only look up. What is missing is created here, in the order of drawing, so that the command stream is the
     // same for any number of workers; after the first frames that is nothing.
-    if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, slot, draws, variants);
+    if (someAreMissing.load(std::memory_order_relaxed))
+        make(chosen, pass.commands(), pipelines, slots, draws, variants);
     return chosen;
 }
 

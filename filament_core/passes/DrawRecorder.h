@@ -24,8 +24,15 @@ inline constexpr size_t kDrawsPerRange = 1024;
 /// Parallel to `draws`; none if a draw has no pipeline. Call in `beforePass`: missing pipelines are recorded into its
 /// commands, in drawing order; for a frame that is only expected all are none. Looks up in ranges, on the job system if
 /// there is one.
+/// `fading`: for levels of detail that fade; elsewhere as `slot`.
+struct DrawSlots {
+    uint32_t slot = 0, fading = 0;
+    DrawSlots(uint32_t all) : slot(all), fading(all) {} // NOLINT(google-explicit-constructor): most have one
+    DrawSlots(uint32_t others, uint32_t ofFading) : slot(others), fading(ofFading) {}
+    uint32_t of(prepare::DrawCall const& draw) const { return draw.fade != 0 ? fading : slot; }
+};
 std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
-                                                         PipelineSource const& pipelines, uint32_t slot,
+                                                         PipelineSource const& pipelines, DrawSlots slots,
                                                          std::span<const prepare::DrawCall> draws, uint8_t variant,
                                                          prepare::ChannelLists const& channels = {});
 

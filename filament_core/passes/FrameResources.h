@@ -10,6 +10,8 @@
 #include "filament_core/passes/FrameData.h"
 #include "filament_core/passes/PipelineSource.h"
 
+#include <array>
+
 namespace filament_core::passes {
 
 /// The textures that lit materials read of their surroundings; every handle but the last is set.
@@ -41,7 +43,9 @@ struct FrameResources {
     backend::BufferHandle noFogCells;                ///< storage, of one float4: where no fog is lit
     backend::BufferHandle instanceIds;               ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::MaterialInstance const* motion = nullptr; ///< draws motion; null: none is asked for
-    scene::Material const* skybox = nullptr;         ///< full-screen material; null: the scene has no sky
+    /// Leave depths of levels of detail that fade, by their front faces and by both; null: none fades.
+    std::array<scene::MaterialInstance const*, 2> levelFade{};
+    scene::Material const* skybox = nullptr;    ///< full-screen material; null: the scene has no sky
     scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
     scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
     scene::Material const* debugView = nullptr; ///< full-screen material; null: no debug view

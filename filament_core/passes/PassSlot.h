@@ -37,6 +37,7 @@ struct PassSlot {
     shader::TransparencyTerm transparency = shader::kTransparencyInOrder; ///< all that is drawn blends in any order
     DebugSlot debug = DebugSlot::None;
     scene::Material const* edges = nullptr; ///< of DebugSlot::Edges
+    bool equalsDepth = false;               ///< surfaces are drawn where the prepass left their depth, and nowhere else
     bool isPick = false;                    ///< of depthOnly: whatever their material says, they test and leave depth
     std::optional<StencilState> stencil{};  ///< of what is drawn there, without references; PipelineCache's own
     friend bool operator==(PassSlot const&, PassSlot const&) = default;

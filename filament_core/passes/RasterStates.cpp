@@ -198,6 +198,7 @@ PipelineDesc statesOf(PassSlot const& slot, scene::Material const& material, sce
     if (slot.debug == DebugSlot::Edges) return leavingEdges(desc, raster, slot.depthRange);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
+    if (slot.equalsDepth) desc.depthStencil.depthCompare = CompareOp::Equal;
     if (slot.depthOnly) return desc;
     if (slot.stencil) {
         desc.depthStencil.stencilTest = true;

@@ -10,6 +10,29 @@ namespace {
 
 constexpr uint32_t kNotDrawn = ~0u;
 
+DrawnLevel const* findDrawn(scene::SceneData const& scene, std::span<const DrawnLevel> drawn, uint32_t at) {
+    const bool isKnown =
+            at < drawn.size() && drawn[at].renderable && drawn[at].renderable == scene.renderables.index.handleAt(at);
+    return isKnown ? &drawn[at] : nullptr;
+}
+
+/// What is drawn as it is, where its vertices are: of the parts of a mesh that fade, one leaves its depth by another
+/// material, and both are seen where they have that depth.
+bool mayFade(scene::Drawables const& drawables, uint32_t drawable) {
+    using scene::Drawables;
+    constexpr uint32_t kOthers = Drawables::kBlendedOrder | Drawables::kNoDepthWriteOrder |
+                                 Drawables::kNoDepthTestOrder | Drawables::kReadsSceneColorOrder |
+                                 Drawables::kStencilWriteOrder;
+    scene::Drawable const& drawn = drawables[drawable];
+    shader::MaterialPackage const& package = drawn.material->material->package;
+    scene::InstanceRaster const& raster = drawn.material->raster;
+    const bool hasSides = raster.cullingDisabled || raster.culling == shader::Culling::None ||
+                          raster.culling == shader::Culling::Back;
+    return (drawables.use(drawable).order & kOthers) == 0 && !raster.stencil && raster.colorWrite && hasSides &&
+           package.blending == shader::Blending::Opaque && !package.depthReadsParameters &&
+           !package.findVariant(shader::kVariantMotion);
+}
+
 /// The square of the tangent of the angle between the axis of a perspective view and its farthest corner.
 float squaredCornerTangent(float4x4 const& clip) {
     float largest = 0;
@@ -43,13 +66,22 @@ void writeDrawnLevels(scene::SceneData const& scene, ViewPacket const& view, std
     scene::Renderables const& renderables = scene.renderables;
     for (SortItem const& item : view.objects.order) {
         const uint32_t finest = renderables.drawable[item.renderable];
-        levels[item.renderable] = { renderables.index.handleAt(item.renderable),
-                                    levelOf(renderables.drawables, finest, drawableOf(item.draw)) };
+        const auto level = static_cast<uint16_t>(levelOf(renderables.drawables, finest, drawableOf(item.draw)));
+        const LevelFade fade = fadeOf(item.draw);
+        DrawnLevel& drawn = levels[item.renderable];
+        if (fade < 0) {
+            drawn.vanishing = level; // the other part of this renderable says the rest
+            continue;
+        }
+        drawn.renderable = renderables.index.handleAt(item.renderable);
+        drawn.level = level;
+        drawn.fade = static_cast<uint8_t>(fade);
     }
 }
 
-LevelChoice::LevelChoice(scene::SceneData const& scene, ViewInput const& view, std::span<const DrawnLevel> last)
-        : mScene(&scene), mLast(last), mPixels(view.lodPixels) {
+LevelChoice::LevelChoice(scene::SceneData const& scene, ViewInput const& view, std::span<const DrawnLevel> last,
+                         bool fades)
+        : mScene(&scene), mLast(last), mPixels(view.lodPixels), mFades(fades) {
     if (!isOn()) return;
     // Jitter would change the limit from frame to frame, and with it the levels near it. The size is that of the image
     // as it is shown: a guard band and a reduced resolution change no level.
@@ -91,21 +123,21 @@ float LevelChoice::scaleOf(uint32_t at) const {
     return own * largest;
 }
 
-uint32_t LevelChoice::levelIn(std::span<const DrawnLevel> drawn, uint32_t at, uint32_t otherwise) const {
-    const bool isKnown =
-            at < drawn.size() && drawn[at].renderable && drawn[at].renderable == mScene->renderables.index.handleAt(at);
-    return isKnown ? drawn[at].level : otherwise;
-}
-
 uint32_t LevelChoice::choose(uint32_t at, uint32_t finest, float3 center, float3 halfExtent) const {
     scene::Renderables const& renderables = mScene->renderables;
     scene::Drawables::Level level = renderables.drawables.level(finest);
     // Without bounds there is no distance by which an error could be judged.
     const bool hasBounds = (renderables.flags[at] & scene::kCulled) != 0;
     if (level.coarser == scene::kNoLevel || !hasBounds) return finest;
-    const float perMeter = pixelsPerMeter(center, halfExtent) * scaleOf(at);
-    const uint32_t last = levelIn(mLast, at, kNotDrawn), least = levelIn(mFinest, at, 0);
+    DrawnLevel const *const before = findDrawn(*mScene, mLast, at), *const inView = findDrawn(*mScene, mFinest, at);
     uint32_t chosen = finest;
+    if (before && before->isFading() && before->fade + 1u < kFadeFrames) {
+        for (uint32_t left = before->level; left > 0 && level.coarser != scene::kNoLevel; --left)
+            level = renderables.drawables.level(chosen = level.coarser);
+        return chosen;
+    }
+    const float perMeter = pixelsPerMeter(center, halfExtent) * scaleOf(at);
+    const uint32_t last = before ? before->level : kNotDrawn, least = inView ? inView->coarsest() : 0;
     for (uint32_t number = 1; level.coarser != scene::kNoLevel; ++number) {
         const float limit = number > last ? mPixels * kSteady : mPixels;
         const uint32_t coarser = level.coarser;
@@ -116,6 +148,18 @@ uint32_t LevelChoice::choose(uint32_t at, uint32_t finest, float3 center, float3
         chosen = coarser;
     }
     return chosen;
+}
+
+LevelChoice::Vanishing LevelChoice::vanishing(uint32_t at, uint32_t finest, uint32_t chosen) const {
+    scene::Drawables const& drawables = mScene->renderables.drawables;
+    DrawnLevel const* const before = mFades ? findDrawn(*mScene, mLast, at) : nullptr;
+    if (!before) return {};
+    const bool continues = before->isFading() && before->fade + 1u < kFadeFrames;
+    uint32_t drawable = finest;
+    for (uint32_t left = continues ? before->vanishing : before->level; left > 0 && drawable != scene::kNoLevel; --left)
+        drawable = drawables.level(drawable).coarser;
+    if (drawable == chosen || drawable == scene::kNoLevel || !mayFade(drawables, finest)) return {};
+    return { drawable, static_cast<LevelFade>(continues ? before->fade + 1 : 1) };
 }
 
 } // namespace filament_core::prepare

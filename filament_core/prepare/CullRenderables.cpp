@@ -18,7 +18,7 @@ using simd::kLanes;
 static_assert(kCullRange % 64 == 0, "only the last range of a scene has boxes left over, and words of bits");
 
 struct Tally {
-    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0, tooSmall = 0;
+    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0, inOtherLayers = 0, tooSmall = 0, fading = 0;
     uint64_t trianglesSaved = 0;
 };
 
@@ -214,7 +214,8 @@ private:
             // The span belongs to the level that is drawn: sort keys slice the members of a draw by depth, and each
             // level is a draw.
             extend(mSpans[draw], coarseStep(depth));
-            *next++ = { depth, renderable, draw };
+            const uint32_t fade = mLevels.isOn() ? fadeFor(renderable, draw, depth, tally) : 0;
+            *next++ = { depth, renderable, draw | fade };
         }
         return next;
     }
@@ -232,6 +233,15 @@ private:
         const uint32_t level = mLevels.choose(renderable, finest, center, mRenderables.bounds.halfExtentAt(renderable));
         tally.trianglesSaved += drawables.level(finest).triangles - drawables.level(level).triangles;
         return level;
+    }
+
+    uint32_t fadeFor(uint32_t renderable, uint32_t draw, uint32_t depth, Tally& tally) const {
+        const LevelChoice::Vanishing other =
+                mLevels.vanishing(renderable, mRenderables.drawable[renderable], drawableOf(draw));
+        if (other.drawable == scene::kNoLevel) return 0;
+        ++tally.fading;
+        extend(mSpans[drawOf(other.drawable, isMirrored(draw))], coarseStep(depth));
+        return fadeBits(other.fade);
     }
 
     static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
@@ -280,6 +290,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
         all.nothingToDraw += tallies[range].nothingToDraw;
         all.inOtherLayers += tallies[range].inOtherLayers;
         all.tooSmall += tallies[range].tooSmall;
+        all.fading += tallies[range].fading;
         all.trianglesSaved += tallies[range].trianglesSaved;
     }
     firsts[ranges] = all.visible;
@@ -289,8 +300,9 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     counts.nothingToDraw = all.nothingToDraw;
     counts.inOtherLayers = all.inOtherLayers;
     counts.tooSmall = all.tooSmall;
+    counts.fadingLevels = all.fading;
     counts.trianglesSaved = all.trianglesSaved;
-    return { slots, firsts, spans };
+    return { slots, firsts, spans, all.fading };
 }
 
 } // namespace filament_core::prepare

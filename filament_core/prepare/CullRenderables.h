@@ -32,10 +32,14 @@ struct VisibleItems {
     std::span<const SortItem> slots;  ///< those of range r begin at r * kCullRange; their keys are depthBits()
     std::span<const uint32_t> firsts; ///< how many are visible before range r; one entry more than ranges
     std::span<const uint16_t> spans;  ///< by draw; read them with spanOf()
+    uint32_t fading = 0; ///< of these: whose level of detail appears while another one vanishes, which is not in here
 
     uint32_t count() const { return firsts.back(); }
     bool isSeen(uint32_t draw) const { return spans[draw] != kNoSpan; }
-    DepthSpan spanOf(uint32_t draw) const { return { spans[draw] & 0xFFu, 0xFFu - (spans[draw] >> 8) }; }
+    DepthSpan spanOf(uint32_t draw) const {
+        const uint16_t span = spans[withoutFade(draw)];
+        return { span & 0xFFu, 0xFFu - (span >> 8) };
+    }
 };
 
 /// `levels`: which level of detail is visible of each.

@@ -65,7 +65,8 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              isMirrored(draw),
              drawable.properties,
              isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only,
-             drawable.deformation };
+             drawable.deformation,
+             fadeOf(draw) };
 }
 
 void widen(AnyOrderExtent& extent, uint32_t depth) {
@@ -118,9 +119,11 @@ AnyOrderExtent findAnyOrder(jobs::JobSystem& jobs, Arena& arena, scene::Drawable
     return all;
 }
 
-std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, DrawOrder const& order) {
-    const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
+std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
+                              VisibleItems const& visible, LevelChoice const& levels, DrawOrder const& order) {
+    scene::Drawables const& drawables = renderables.drawables;
+    const auto all = arena.arrayForOverwrite<SortItem>(visible.count() + visible.fading);
+    const auto items = all.first(visible.count());
     const uint32_t specials = specialOrders(order);
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
@@ -136,7 +139,19 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
                          from->draw | (special & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });
-    return items;
+    if (visible.fading == 0) return items;
+    // Few, and for a few frames.
+    SortItem* next = all.data() + items.size();
+    for (SortItem const& item : items) {
+        if (fadeOf(item.draw) == 0) continue;
+        const uint32_t finest = renderables.drawable[item.renderable];
+        const LevelChoice::Vanishing other = levels.vanishing(item.renderable, finest, drawableOf(item.draw));
+        const uint32_t draw = drawOf(other.drawable, isMirrored(item.draw));
+        // What fades is opaque and has no other order than that of its depth, which the key of the other level has.
+        const uint64_t key = item.key & ~kDrawableKeyMask | uint64_t{ other.drawable } << kDrawableKeyShift;
+        *next++ = { key, item.renderable, draw | fadeBits(static_cast<LevelFade>(-other.fade)) };
+    }
+    return all;
 }
 
 std::span<const SortItem> itemsBefore(std::span<const SortItem> sorted, uint64_t key) {

@@ -40,9 +40,10 @@ struct DrawOrder {
     uint32_t farthest = 0; ///< of AnyOrderExtent
 };
 
-/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
-std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, DrawOrder const& order = {});
+/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene; then the levels
+/// of detail that vanish, in that order.
+std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
+                              VisibleItems const& visible, LevelChoice const& levels = {}, DrawOrder const& order = {});
 
 /// The part of a sorted list with keys below `key`: kLateKey for what comes before the sky, kPictureEndKey for what
 /// refracting objects see.

@@ -181,6 +181,7 @@ EffectDemand demandOfPrepass(DemandInput const& input, SceneDemand const& demand
     const auto readsDepth = [&](EffectRow const& row) { return row.has(kReadsDepth) && demand.needs(row.effect); };
     auto readers = static_cast<uint32_t>(std::ranges::count_if(kEffectTable, readsDepth));
     if (demand.needs(Effect::Taa) && input.cameraMoved) ++readers; // reprojects what stays where it is by its depth
+    if (input.counts.fadingLevels > 0) ++readers;                  // each pixel shows the level that left its depth
     if (readers) return { true, R::DepthRead, readers };
     if (input.settings.quality.depthPrepass == DepthPrepass::On) return { true, R::PrepassEnabled };
     return { .reason = R::DepthUnread };

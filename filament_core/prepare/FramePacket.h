@@ -51,6 +51,7 @@ struct DrawCall {
     scene::DrawProperties properties{};
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
+    LevelFade fade = 0; ///< of all instances; the depth prepass says which pixels show them (passes/DepthPass.h)
 };
 
 inline constexpr uint32_t kNowhere = ~0u;

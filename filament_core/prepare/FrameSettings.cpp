@@ -121,6 +121,8 @@ FrameSettings resolve(ViewInput const& main) {
                             .tracksMotion = accumulates || main.debugView == DebugView::Motion ||
                                             (main.effects.motionBlur.enabled && isImage),
                             .mipBias = mipBias(main, accumulates) };
+    settings.fadesLevels = accumulates && main.lodPixels > 0 && settings.samples == 1 &&
+                           settings.quality.depthPrepass != DepthPrepass::Off;
     settings.lightsFog = lightsFog(settings.effects.fog) && showsLight(main.debugView);
     settings.composesAnyOrder = isImage && settings.quality.transparency != TransparencyOrder::Sorted;
     // Positions that are not relative to the camera are rounded by more than the margin of occluders.

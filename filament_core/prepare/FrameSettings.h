@@ -25,6 +25,7 @@ struct FrameSettings {
     bool accumulatesFrames =
             false; ///< the image is accumulated over frames (temporal anti-aliasing), if there is anything in it
     bool upscalesOverFrames = false; ///< and accumulation, not a filter, makes it as large as it is shown
+    bool fadesLevels = false;        ///< of detail, where the depth prepass may say which pixel shows which
     bool composesAnyOrder = false;   ///< transparent objects, if they may overlap
     bool cullsOccluded = false;      ///< hides opaque objects behind others; debug views show what it leaves out
     bool cullsCasters = false;       ///< hides casters behind others from the lights of shadow maps

@@ -15,7 +15,7 @@ uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
     seed = hashWords(seed, geometry.vertices.bits, geometry.indices.bits, geometry.layout, geometry.firstIndex,
                      geometry.indexCount, geometry.indexFormat);
     return hashWords(seed, draw.material->material->id, draw.material->id, draw.firstObject, draw.instanceCount,
-                     draw.mirrored, draw.properties.bits(), draw.pass, draw.deformation);
+                     draw.mirrored, draw.properties.bits(), draw.pass, draw.deformation, draw.fade);
 }
 
 uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {

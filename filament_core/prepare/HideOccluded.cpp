@@ -68,6 +68,7 @@ private:
 
     float pixelsOf(SortItem const& item) const {
         if (!mRenderables.drawables.use(drawableOf(item.draw)).occludes || drawsNoFaces(rasterOf(item))) return 0;
+        if (fadeOf(item.draw) != 0) return 0; // has holes where the other level of detail is seen, or is not there
         const float3 center = centerOf(item.renderable);
         const float radius = glm::length(mRenderables.bounds.halfExtentAt(item.renderable));
         const float4 clip = mSpace.clipFromWorld * float4(center, 1);

@@ -88,7 +88,7 @@ bool LastFrame::isFixed(ViewInput const& view, FramePacket const& packet) const 
                         last.camera.exposure == view.camera.exposure && mSeen->settings.quality == settings.quality &&
                         lastEffects == settings.effects && last.visibleLayers == view.visibleLayers &&
                         last.lodPixels == view.lodPixels;
-    if (!isSame || packet.motionView != kNowhere) return false;
+    if (!isSame || packet.motionView != kNowhere || packet.mainView().counts.fadingLevels > 0) return false;
     if (last.timeSeconds == view.timeSeconds && last.materialGlobals == view.materialGlobals) return true;
     const auto readsFrame = [](DrawCall const& draw) { return draw.material->material->package.readsFrame; };
     ViewPacket const& main = packet.mainView();

@@ -173,7 +173,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const std::span<const ViewInput> drawn = jittered(arena, scene, views, settings, last);
     const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
     for (size_t i = 0; i < views.size(); ++i) {
-        const LevelChoice levels(scene, drawn[i], i == 0 ? last.levels() : std::span<const DrawnLevel>{});
+        const LevelChoice levels(scene, drawn[i], i == 0 ? last.levels() : std::span<const DrawnLevel>{},
+                                 i == 0 && settings.fadesLevels);
         asked[i] = prepareView(jobs, arena, scene, drawn[i], settings, levels);
     }
     // Shadows need the receivers of the main view, and give its lights their maps; lists by channel copy these lights.

@@ -63,6 +63,7 @@ public:
         mPlacements[at] = now;
         mPlacements[at + 1] = last;
         for (const uint32_t record : { at, at + 1 }) mOrder[record] = { .renderable = record };
+        draw.fade = 0; // wherever either level is seen, it has the depth that is known
         draw.firstObject = at;
         draw.instanceCount = 1;
         mDraws[mCount++] = draw;

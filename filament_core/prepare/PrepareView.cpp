@@ -120,7 +120,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
                                           isShaded(view.kind) && settings.composesAnyOrder, prepared.visible);
     const bool composes = overlaps(any.count);
     packet.counts.anyOrderObjects = any.count;
-    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible,
+    const std::span<SortItem> items = writeKeys(jobs, arena, renderables, prepared.visible, levels,
                                                 { view.kind, refraction, composes, any.farthest });
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);

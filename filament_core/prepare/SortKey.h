@@ -44,7 +44,7 @@ namespace filament_core::prepare {
 struct SortItem {
     uint64_t key = 0; ///< from culling until writeKeys(): the bits of its depth
     uint32_t renderable = 0;
-    uint32_t draw = 0; ///< drawable << 1 | mirrored, and kDrawnTwice: equal draws can be instances of one draw call
+    uint32_t draw = 0; ///< drawable << 1 | mirrored, LevelFade, kDrawnTwice: equal draws can be instances of one call
 };
 static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
 
@@ -57,9 +57,25 @@ inline constexpr uint64_t kBlendedKey = 3ull << 62;
 /// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
 inline constexpr uint32_t kDrawnTwice = 1u << 31;
 
+/// How far a level of detail has faded into another (ChooseLevels.h), of kFadeFrames: that of the level that appears;
+/// negative: of the one that vanishes; 0: none does.
+using LevelFade = int8_t;
+inline constexpr uint32_t kFadeFrames = 32;
+inline constexpr uint32_t kFadeShift = 21, kFadeStepMask = (kFadeFrames - 1) << kFadeShift,
+                          kFadeVanishes = kFadeFrames << kFadeShift, kFadeMask = kFadeStepMask | kFadeVanishes;
+
 constexpr uint32_t drawOf(uint32_t drawable, bool mirrored) { return drawable << 1 | (mirrored ? 1 : 0); }
-constexpr uint32_t drawableOf(uint32_t draw) { return (draw & ~kDrawnTwice) >> 1; }
+constexpr uint32_t withoutFade(uint32_t draw) { return draw & ~kFadeMask; }
+constexpr uint32_t drawableOf(uint32_t draw) { return (withoutFade(draw) & ~kDrawnTwice) >> 1; }
 constexpr bool isDrawnTwice(uint32_t draw) { return (draw & kDrawnTwice) != 0; }
+constexpr uint32_t fadeBits(LevelFade fade) {
+    return fade < 0 ? kFadeVanishes | static_cast<uint32_t>(-fade) << kFadeShift
+                    : static_cast<uint32_t>(fade) << kFadeShift;
+}
+constexpr LevelFade fadeOf(uint32_t draw) {
+    const auto step = static_cast<int>((draw & kFadeStepMask) >> kFadeShift);
+    return static_cast<LevelFade>((draw & kFadeVanishes) != 0 ? -step : step);
+}
 constexpr bool isMirrored(uint32_t draw) { return (draw & 1) != 0; }
 
 /// The bits of a non-negative float grow with its value; everything else, NaN included, counts as 0.
@@ -93,13 +109,16 @@ constexpr uint32_t sliceStart(DepthSpan span, uint32_t members, uint32_t step) {
 /// Of opaqueKey(): all that changes stencil values, before the first slice of the others.
 inline constexpr uint32_t kStencilSlice = 0, kFirstSlice = 1;
 
+inline constexpr uint32_t kDrawableKeyShift = 10;
+inline constexpr uint64_t kDrawableKeyMask = uint64_t{ 0xF'FFFF } << kDrawableKeyShift;
+
 /// `order`: of the draw's drawable (scene::Drawables::Use).
 constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint32_t depth) {
     using scene::Drawables;
     const uint64_t material = order >> Drawables::kInstanceBits & ((1u << Drawables::kMaterialBits) - 1);
     const uint64_t instance = order & ((1u << Drawables::kInstanceBits) - 1);
     return static_cast<uint64_t>(slice) << 55 | material << 43 | static_cast<uint64_t>(isMirrored(draw)) << 42 |
-           instance << 30 | static_cast<uint64_t>(drawableOf(draw)) << 10 | depthStep(depth);
+           instance << 30 | static_cast<uint64_t>(drawableOf(draw)) << kDrawableKeyShift | depthStep(depth);
 }
 
 /// `depth`: depthBits(), whose highest bit is 0.

@@ -40,6 +40,7 @@ struct ViewCounts {
     uint32_t reflectiveDraws = 0;            ///< reflective: `reflections : screenspace`
     uint32_t stencilDraws = 0;               ///< that test or change stencil values
     uint32_t contactLights = 0;              ///< of the lights in view, the sun among them: those with contact shadows
+    uint32_t fadingLevels = 0;               ///< renderables that are drawn by two levels of detail
     uint64_t triangles = 0;
     uint64_t trianglesSaved = 0; ///< by coarser levels of detail of what is in view
 };

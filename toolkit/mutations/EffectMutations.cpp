@@ -100,6 +100,16 @@ public:
     }
 };
 
+/// Of two levels of detail that fade into each other, both are drawn where they are in front.
+class FadedLevelsEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        CompareOp& compare = command.desc.depthStencil.depthCompare;
+        if (compare == CompareOp::Equal) compare = CompareOp::GreaterEqual;
+    }
+};
+
 /// Of the lobes of bloom only the narrowest is left.
 class BloomLevelsEdit final : public StreamEdit {
 public:
@@ -176,6 +186,7 @@ constexpr Mutation kEffectMutations[] = {
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
     { "stillObjects", "objects that move show no motion of their own", make<StillObjectsEdit> },
+    { "fadedLevels", "pixels show both of two levels of detail that fade", make<FadedLevelsEdit> },
     { "bloomLevels", "bloom without its wider lobes", make<BloomLevelsEdit> },
     { "bloomResolution", "the picture is halved for bloom where it is to be quartered, and the other way round",
       []() -> std::unique_ptr<StreamEdit> { return std::make_unique<SwitchEdit>("bloom_down", 1); } },

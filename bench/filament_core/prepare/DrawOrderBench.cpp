@@ -70,7 +70,7 @@ void drawOrder(benchmark::State& state) {
     Setup setup(state);
     const auto order = static_cast<Order>(state.range(3));
     const VisibleItems visible = setup.cull();
-    const std::span<SortItem> keyed = writeKeys(setup.jobs, setup.arena, setup.renderables().drawables, visible);
+    const std::span<SortItem> keyed = writeKeys(setup.jobs, setup.arena, setup.renderables(), visible);
     std::vector<SortItem> items(keyed.begin(), keyed.end());
     for (size_t i = 0; i < items.size(); ++i) {
         // everything is visible: no gaps between the slots

@@ -40,7 +40,7 @@ void keys(benchmark::State& state) {
     timeStep(
             state, setup, [&] { return setup.cull(); },
             [&](VisibleItems const& visible) {
-                return writeKeys(setup.jobs, setup.arena, setup.renderables().drawables, visible);
+                return writeKeys(setup.jobs, setup.arena, setup.renderables(), visible);
             });
 }
 

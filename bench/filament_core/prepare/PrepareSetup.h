@@ -29,7 +29,7 @@ struct Setup {
 
     scene::Renderables const& renderables() const { return boxes.scene.renderables; }
     VisibleItems cull() { return cullRenderables(jobs, arena, renderables(), space, prepare::ViewKind::Color, counts); }
-    std::span<SortItem> keys() { return writeKeys(jobs, arena, renderables().drawables, cull()); }
+    std::span<SortItem> keys() { return writeKeys(jobs, arena, renderables(), cull()); }
     std::span<const SortItem> order() { return sortItems(jobs, arena, keys()); }
 
     uint32_t count;

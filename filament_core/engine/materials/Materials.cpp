@@ -69,6 +69,15 @@ scene::MaterialInstance const* Engine::Impl::motionInstance() {
     return &instances.get(drawingMotion);
 }
 
+scene::MaterialInstance const* Engine::Impl::levelFadeInstance(bool hasBothSides) {
+    MaterialInstance& known = fadingLevels[hasBothSides];
+    if (!known) {
+        known = createInstance(engineMaterial("level_fade", {}), "level fade");
+        instances.get(known).raster.cullingDisabled = hasBothSides;
+    }
+    return &instances.get(known);
+}
+
 scene::MaterialInstance const* Engine::Impl::debugDrawInstance(bool isTested) {
     MaterialInstance& known = drawingDebug[isTested];
     if (!known) {

@@ -2,6 +2,7 @@
 // Levels of detail: at which distances a view draws which, by closed forms; when it returns to a coarser one; what
 // shadow maps, picks and deformed objects draw.
 #include "filament_core/prepare/ChooseLevels.h"
+#include "filament_core/prepare/ObjectData.h"
 #include "filament_core/prepare/PreparePick.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneNodes.h"
@@ -12,6 +13,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace filament_core::prepare {
 namespace {
@@ -220,6 +223,95 @@ TEST_F(ChooseLevelsTest, PicksDrawTheLevelOfTheView) {
     EXPECT_EQ(levelOfDraw(preparePick(jobs, arena, scene, view, { 500, 500 }).packet.views[0]), 1u);
     setTransform(scene, scene.renderables.index.handleAt(0), at(fine * 0.999));
     EXPECT_EQ(levelOfDraw(preparePick(jobs, arena, scene, view, { 500, 500 }).packet.views[0]), 0u);
+}
+
+struct FadingLevelsTest : ChooseLevelsTest {
+    static constexpr double kSwitch = kFine * kPerMeter, kReturn = kSwitch / 0.75;
+    Renderable fading{};
+
+    FadingLevelsTest() { view.quality.antiAliasing = AntiAliasing::Taa; }
+    /// Fades of the frame with the front of the box at that distance, by level; 0: a level is drawn alone, -100: not.
+    std::array<int, 3> fadesAt(double nearest) {
+        if (!fading) fading = addRenderable(scene, detailed(at(0.5 + nearest)));
+        setTransform(scene, fading, at(0.5 + nearest));
+        const FramePacket packet = frame();
+        std::array<int, 3> fades{ -100, -100, -100 };
+        for (DrawCall const& draw : packet.mainView().opaque)
+            fades[static_cast<size_t>(std::ranges::find(kIndices, draw.geometry->indexCount) - kIndices.begin())] =
+                    draw.fade;
+        EXPECT_EQ(packet.mainView().counts.fadingLevels, packet.mainView().opaque.size() - 1);
+        if (packet.mainView().opaque.size() > 1) {
+            EXPECT_TRUE(packet.demand.needs(Effect::DepthPrepass));
+        }
+        return fades;
+    }
+    using Fades = std::array<int, 3>;
+};
+
+TEST_F(FadingLevelsTest, TwoLevelsAreDrawnForAsManyFramesAsAFadeLasts) {
+    EXPECT_EQ(fadesAt(kSwitch * 0.9), (Fades{ 0, -100, -100 }));
+    for (int i = 1; i < static_cast<int>(kFadeFrames); ++i) EXPECT_EQ(fadesAt(kReturn * 1.001), (Fades{ -i, i, -100 }));
+    EXPECT_EQ(fadesAt(kReturn * 1.001), (Fades{ -100, 0, -100 }));
+    EXPECT_EQ(fadesAt(kReturn * 1.001), (Fades{ -100, 0, -100 }));
+}
+
+TEST_F(FadingLevelsTest, TheChoiceStaysUntilTheOtherLevelIsGone) {
+    (void)fadesAt(kSwitch * 0.9);
+    EXPECT_EQ(fadesAt(kReturn * 1.001), (Fades{ -1, 1, -100 }));
+    for (int i = 2; i < static_cast<int>(kFadeFrames); ++i) EXPECT_EQ(fadesAt(4), (Fades{ -i, i, -100 }));
+    EXPECT_EQ(fadesAt(4), (Fades{ 1, -1, -100 }));
+    EXPECT_EQ(fadesAt(kCoarse / kFine * kReturn * 1.001), (Fades{ 2, -2, -100 }));
+}
+
+TEST_F(FadingLevelsTest, NothingFadesWherePixelsCannotTell) {
+    const Fades replaced{ -100, 0, -100 };
+    const auto replacedBy = [&] {
+        if (fading) removeRenderable(scene, std::exchange(fading, {}));
+        last.forget();
+        (void)fadesAt(kSwitch * 0.9);
+        return fadesAt(kReturn * 1.001);
+    };
+    EXPECT_NE(replacedBy(), replaced);
+    view.quality.antiAliasing = AntiAliasing::Fxaa;
+    EXPECT_EQ(replacedBy(), replaced);
+    view.quality.antiAliasing = AntiAliasing::Taa;
+    view.quality.depthPrepass = DepthPrepass::Off;
+    EXPECT_EQ(replacedBy(), replaced);
+    view.quality.depthPrepass = DepthPrepass::On;
+    view.samples = 4;
+    EXPECT_EQ(replacedBy(), replaced);
+    view.samples = 1;
+    EXPECT_NE(replacedBy(), replaced);
+    solid = material(shader::Blending::Masked);
+    EXPECT_EQ(replacedBy(), replaced);
+}
+
+TEST_F(FadingLevelsTest, ShadowMapsDrawTheCoarserOfBothLevels) {
+    addLight(scene, { .type = scene::LightRecord::Type::Sun, .intensity = 1000 });
+    view.quality.shadows = ShadowFilter::Pcf3;
+    view.quality.shadowCascades = 1;
+    view.quality.shadowMapSize = 4096;
+    (void)fadesAt(kReturn * 1.001); // the coarser level at once: there is no last frame
+    (void)fadesAt(4);
+    setTransform(scene, fading, at(4.5));
+    const FramePacket packet = frame();
+    ASSERT_EQ(packet.views.size(), 2u);
+    EXPECT_EQ(packet.mainView().counts.fadingLevels, 1u);
+    EXPECT_EQ(levelOfDraw(packet.views[1]), 1u);
+    EXPECT_EQ(packet.views[1].counts.fadingLevels, 0u);
+}
+
+TEST_F(FadingLevelsTest, ObjectsSayHowFarTheyHaveFaded) {
+    (void)fadesAt(kSwitch * 0.9);
+    for (int i = 1; i < 6; ++i) (void)fadesAt(kReturn * 1.001);
+    const FramePacket packet = frame();
+    std::vector<shader::ObjectData> objects(packet.mainView().objects.size());
+    writeObjects(jobs, packet.mainView().objects, objects);
+    ASSERT_EQ(objects.size(), 2u);
+    for (DrawCall const& draw : packet.mainView().opaque) {
+        EXPECT_EQ(objects[draw.firstObject].flags.z, draw.fade);
+        EXPECT_EQ(std::abs(draw.fade), 6);
+    }
 }
 
 TEST_F(ChooseLevelsTest, BonesScaleTheErrorAndEveryLevelIsDeformed) {

@@ -59,7 +59,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         const bool isDeformable = isSurface && package.vertexDomain == VertexDomain::Object;
         const bool stopsLight = package.blending == Blending::Opaque || package.blending == Blending::Masked;
         const size_t depth = isSurface && stopsLight && (package.depthWrite || isDeformable) ? 1 : 0;
-        const size_t motion = name == "motion" || name == "built_in_wireframe" ? 1 : 0; // no other has a vertex block
+        const bool hasVertexBlock = name == "motion" || name == "level_fade" || name == "built_in_wireframe";
+        const size_t motion = hasVertexBlock ? 1 : 0;
         const bool isOfGeometry = (package.requiredAttributes >> kAttributePosition & 1) != 0;
         const size_t debug = isSurface && isOfGeometry ? 1 : 0;
         EXPECT_EQ(package.variants.size(), (color + depth + motion + debug) * (isDeformable ? 2 : 1)) << name;
