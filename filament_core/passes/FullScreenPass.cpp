@@ -27,8 +27,7 @@ struct Input {
 };
 
 /// In the order of the parameters, which is that of the layout.
-std::span<Input> boundInputs(Arena& arena, FullScreenPass const& pass) {
-    MaterialPackage const& package = pass.material.package;
+std::span<const Input> boundInputs(Arena& arena, FullScreenPass const& pass, MaterialPackage const& package) {
     const std::span<Input> inputs = arena.array<Input>(package.parameters.size());
     size_t count = 0;
     for (Parameter const& parameter : package.parameters) {
@@ -64,16 +63,20 @@ struct Part {
     Rect rect; ///< without a width: all of the target
     PassBlock values;
     scene::Material const* material = nullptr;
+    std::span<const Input> inputs; ///< of the material
 };
 
-std::span<const Part> declareParts(Arena& arena, FrameContext const& context, FullScreenPass const& pass) {
-    MaterialPackage const& package = pass.material.package;
+/// `inputs`: of the pass. Materials of other tiles may read fewer of them.
+std::span<const Part> declareParts(Arena& arena, FrameContext const& context, FullScreenPass const& pass,
+                                   std::span<const Input> inputs) {
     const auto parts = arena.array<Part>(std::max<size_t>(pass.tiles.size(), 1));
-    if (pass.tiles.empty()) parts[0] = { {}, declareValues(arena, context, package, pass.values), &pass.material };
+    if (pass.tiles.empty())
+        parts[0] = { {}, declareValues(arena, context, pass.material.package, pass.values), &pass.material, inputs };
     for (size_t i = 0; i < pass.tiles.size(); ++i) {
         FullScreenTile const& tile = pass.tiles[i];
-        parts[i] = { tile.rect, declareValues(arena, context, package, tile.values),
-                     tile.material ? tile.material : &pass.material };
+        scene::Material const& material = tile.material ? *tile.material : pass.material;
+        parts[i] = { tile.rect, declareValues(arena, context, material.package, tile.values), &material,
+                     &material == &pass.material ? inputs : boundInputs(arena, pass, material.package) };
     }
     return parts;
 }
@@ -113,7 +116,6 @@ struct ChosenPipelines {
 
 /// What the pass keeps until it is drawn.
 struct Declared {
-    scene::Material const* material = nullptr;
     std::span<const Input> inputs;
     std::span<const Part> parts;
     PassBlock target;
@@ -130,14 +132,13 @@ TextureHandle imageOf(PassContext& pass, FrameContext const& context, FullScreen
     return input.image ? input.image : context.resources.white;
 }
 
-BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, Declared const& declared,
-                              PassBlock values) {
-    MaterialPackage const& package = declared.material->package;
-    const bool merged = isMerged(pass, declared.inputs);
+BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, Part const& part) {
+    MaterialPackage const& package = part.material->package;
+    const bool merged = isMerged(pass, part.inputs);
     std::array<BindGroupEntry, kMaxBindings> entries{};
     size_t count = 0;
-    if (values.bytes > 0) entries[count++] = context.blocks->entry(0, values);
-    for (Input const& input : declared.inputs) {
+    if (part.values.bytes > 0) entries[count++] = context.blocks->entry(0, part.values);
+    for (Input const& input : part.inputs) {
         const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.samplers.nearest;
         entries[count++] = { .binding = input.parameter->binding,
                              .texture = imageOf(pass, context, input.from),
@@ -156,7 +157,7 @@ ChosenPipelines choose(PassContext& pass, FrameContext const& context, Declared 
     const auto parts = context.arena->array<ChosenPart>(declared.parts.size());
     std::ranges::transform(declared.parts, parts.begin(), [&](Part const& part) {
         return ChosenPart{ pipelines.fullscreenPipeline(pass.commands(), slot, *part.material),
-                           materialGroup(pass, context, declared, part.values) };
+                           materialGroup(pass, context, part) };
     });
     return { passGroup(pass, context, PassKind::Picture, declared.target), parts };
 }
@@ -191,8 +192,8 @@ std::array<Rect, 4> rectsAround(Rect const& inside, uint2 size) {
 }
 
 framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& context, FullScreenPass const& pass) {
-    const Declared declared{ &pass.material, boundInputs(graph.arena(), pass),
-                             declareParts(graph.arena(), context, pass),
+    const std::span<const Input> inputs = boundInputs(graph.arena(), pass, pass.material.package);
+    const Declared declared{ inputs, declareParts(graph.arena(), context, pass, inputs),
                              declareTarget(context, graph.texture(pass.target).desc, pass.level) };
     return graph.addPass(
             pass.name,

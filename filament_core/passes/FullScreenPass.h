@@ -60,7 +60,8 @@ std::array<FullScreenParameter, N> parametersOf(std::array<FullScreenValue, N> c
 struct FullScreenTile {
     backend::Rect rect; ///< pixels of the level that is drawn to
     std::span<const FullScreenValue> values{};
-    scene::Material const* material = nullptr; ///< none: that of the pass; otherwise one of the same package
+    scene::Material const* material = nullptr; ///< none: that of the pass; otherwise one of the same package, which may
+                                               ///< leave inputs of the pass unread
 };
 
 /// The pixels of a target around `inside`, which lies in it; some rectangles may be empty.

@@ -18,6 +18,25 @@ constexpr FullScreenParameter kValues[] = { { "lastFromPixel", ParameterType::Fl
                                             { "perSample", ParameterType::Float2 } };
 constexpr FullScreenInterface kInterface{ .pass = "taa", .inputs = kInputs, .values = kValues };
 
+/// What is known of the surfaces of a part of the image.
+struct KnownSurfaces {
+    bool hasDepth = false, hasMotion = false;
+};
+
+scene::Material const& temporalMaterial(FrameContext const& context, KnownSurfaces surfaces, bool isEnlarged,
+                                        bool showsShares) {
+    const bool isElsewhere = context.packet.last.isElsewhere;
+    // A still camera and still objects need no depth: pixels stay where they are.
+    const bool hasDepth = surfaces.hasDepth && (isElsewhere || surfaces.hasMotion);
+    const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
+                                EffectConstant{ "hasDepth", hasDepth },
+                                EffectConstant{ "isFixed", context.packet.accumulation.isFixed },
+                                EffectConstant{ "hasMotion", surfaces.hasMotion },
+                                EffectConstant{ "isEnlarged", isEnlarged },
+                                EffectConstant{ "showsShares", showsShares } };
+    return context.resources.effects->get("taa", constants, kInterface);
+}
+
 } // namespace
 
 bool isUpscaledOverFrames(FrameContext const& context) {
@@ -43,24 +62,24 @@ void addTemporalPass(framegraph::FrameGraph& graph, FrameContext const& context,
                              FullScreenValue{ "weight", context.packet.accumulation.weight },
                              FullScreenValue{ "ramp", context.packet.accumulation.ramp },
                              FullScreenValue{ "perSample", 1.0f / float2(context.settings().size) } };
-    const bool isElsewhere = context.packet.last.isElsewhere, hasMotion = static_cast<bool>(targets.motionVectors);
-    // A still camera and still objects need no depth: pixels stay where they are.
-    const bool hasDepth = targets.prepassDepth && (isElsewhere || hasMotion);
-    const std::array constants{ EffectConstant{ "isElsewhere", isElsewhere },
-                                EffectConstant{ "hasDepth", hasDepth },
-                                EffectConstant{ "isFixed", context.packet.accumulation.isFixed },
-                                EffectConstant{ "hasMotion", hasMotion },
-                                EffectConstant{ "isEnlarged", isEnlarged },
-                                EffectConstant{ "showsShares", false } };
     const auto add = [&](std::string_view name, bool showsShares, framegraph::TextureId target) {
-        auto all = constants;
-        all.back().value = showsShares;
+        const KnownSurfaces there{ static_cast<bool>(targets.prepassDepth), static_cast<bool>(targets.motionVectors) };
+        scene::Material const &around = temporalMaterial(context, {}, isEnlarged, showsShares),
+                              &material = temporalMaterial(context, there, isEnlarged, showsShares);
+        std::array<FullScreenTile, 5> tiles{ FullScreenTile{ context.packet.covered, values } };
+        size_t count = 1;
+        for (backend::Rect const& rect : rectsAround(context.packet.covered, size))
+            if (rect.width > 0 && rect.height > 0) tiles[count++] = { rect, values, &around };
+        // The covered part is one of the smaller image. Where nothing is different beside objects, one draw will do.
+        const bool isOne = isEnlarged || &around == &material || count == 1;
         addFullScreenPass(graph, context,
                           { .name = name,
-                            .material = context.resources.effects->get("taa", all, kInterface),
+                            .material = material,
                             .inputs = inputs,
                             .values = values,
-                            .target = target });
+                            .target = target,
+                            .tiles = std::span(tiles).first(isOne ? 0 : count),
+                            .fillsTarget = true });
     };
     add("taa", false, history.current);
     if (context.settings().debugView == DebugView::HistoryWeight) {

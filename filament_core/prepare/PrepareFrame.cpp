@@ -103,8 +103,9 @@ float largestBlur(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& s
 /// Looked for only where an effect draws nothing beside them.
 backend::Rect coveredPixelsIn(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
                               FramePacket const& packet) {
+    const bool accumulates = packet.demand.needs(Effect::Taa) && packet.demand.needs(Effect::DepthPrepass);
     const bool isAsked = packet.demand.needs(Effect::AmbientOcclusion) || packet.demand.needs(Effect::Fxaa) ||
-                         packet.demand.needs(Effect::Sraa);
+                         packet.demand.needs(Effect::Sraa) || accumulates;
     return isAsked ? coveredPixels(jobs, arena, scene, packet.mainView(), makeViewSpace(view), view.size)
                    : backend::Rect{ 0, 0, view.size.x, view.size.y };
 }
