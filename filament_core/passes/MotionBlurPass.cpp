@@ -72,16 +72,48 @@ private:
                                                   isParallel(clip) ? distanceOfDepth(clip) : inverseOfDepth(clip) },
                                  FullScreenValue{ "scale", float2(mSize) * (share / 2) },
                                  FullScreenValue{ "most", mMost } };
-        const std::array constants{ EffectConstant{ "isElsewhere", mContext.packet.last.isElsewhere },
-                                    EffectConstant{ "hasDepth", static_cast<bool>(mTargets.prepassDepth) },
-                                    EffectConstant{ "hasMotion", static_cast<bool>(mTargets.motionVectors) },
-                                    EffectConstant{ "isParallel", isParallel(clip) } };
+        const auto materialOf = [&](bool hasDepth, bool hasMotion) -> scene::Material const& {
+            const std::array constants{ EffectConstant{ "isElsewhere", mContext.packet.last.isElsewhere },
+                                        EffectConstant{ "hasDepth", hasDepth },
+                                        EffectConstant{ "hasMotion", hasMotion },
+                                        EffectConstant{ "isParallel", isParallel(clip) } };
+            return material("motion_blur_way", constants, kWay);
+        };
+        // Beside objects there are neither depths nor vectors.
+        scene::Material const& inside =
+                materialOf(static_cast<bool>(mTargets.prepassDepth), static_cast<bool>(mTargets.motionVectors));
+        const Tiles tiles = tilesOf(mContext.packet.covered, materialOf(false, false), values);
         addFullScreenPass(mGraph, mContext,
                           { .name = "ways",
-                            .material = material("motion_blur_way", constants, kWay),
+                            .material = inside,
                             .inputs = inputs,
                             .values = values,
-                            .target = target });
+                            .target = target,
+                            .tiles = tiles.used(),
+                            .fillsTarget = true });
+    }
+    /// A part of the image, and what is around it, by another material.
+    struct Tiles {
+        std::array<FullScreenTile, 5> all{};
+        size_t count = 1;
+        std::span<const FullScreenTile> used() const { return std::span(all).first(count); }
+    };
+    Tiles tilesOf(backend::Rect const& inside, scene::Material const& around,
+                  std::span<const FullScreenValue> values) const {
+        Tiles tiles{ { FullScreenTile{ inside, values } } };
+        for (backend::Rect const& rect : rectsAround(inside, mSize))
+            if (rect.width > 0 && rect.height > 0) tiles.all[tiles.count++] = { rect, values, &around };
+        return tiles;
+    }
+    /// What blur may reach: all if the camera moved, otherwise the tiles of objects and those beside them.
+    backend::Rect reached() const {
+        if (mContext.packet.last.isElsewhere) return { 0, 0, mSize.x, mSize.y };
+        backend::Rect const& covered = mContext.packet.covered;
+        const auto tile = static_cast<uint32_t>(mTile);
+        const uint2 first = uint2(covered.x, covered.y) / tile,
+                    end = (uint2(covered.x, covered.y) + uint2(covered.width, covered.height) + tile - 1u) / tile;
+        const uint2 from = (max(first, 1u) - 1u) * tile, to = min((end + 1u) * tile, mSize);
+        return { static_cast<int32_t>(from.x), static_cast<int32_t>(from.y), to.x - from.x, to.y - from.y };
     }
     void addTiles(TextureId source, TextureId target, bool isDilation) {
         const std::array inputs{ FullScreenInput{ .name = "source", .texture = source } };
@@ -96,12 +128,18 @@ private:
         const std::array inputs{ FullScreenInput{ .name = "color", .texture = mTargets.color },
                                  FullScreenInput{ .name = "ways", .texture = ways },
                                  FullScreenInput{ .name = "tiles", .texture = tiles } };
-        const std::array constants{ EffectConstant{ "tile", mTile } };
+        const auto materialOf = [&](bool moves) -> scene::Material const& {
+            const std::array constants{ EffectConstant{ "tile", mTile }, EffectConstant{ "moves", moves } };
+            return material("motion_blur", constants, kMotionBlur);
+        };
+        const Tiles all = tilesOf(reached(), materialOf(false), {});
         addFullScreenPass(mGraph, mContext,
                           { .name = "motion blur",
-                            .material = material("motion_blur", constants, kMotionBlur),
+                            .material = materialOf(true),
                             .inputs = inputs,
-                            .target = target });
+                            .target = target,
+                            .tiles = all.used(),
+                            .fillsTarget = true });
     }
 
     FrameGraph& mGraph;

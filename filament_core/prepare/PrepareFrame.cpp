@@ -105,7 +105,7 @@ backend::Rect coveredPixelsIn(jobs::JobSystem& jobs, Arena& arena, scene::SceneD
                               FramePacket const& packet) {
     const bool accumulates = packet.demand.needs(Effect::Taa) && packet.demand.needs(Effect::DepthPrepass);
     const bool isAsked = packet.demand.needs(Effect::AmbientOcclusion) || packet.demand.needs(Effect::Fxaa) ||
-                         packet.demand.needs(Effect::Sraa) || accumulates;
+                         packet.demand.needs(Effect::Sraa) || packet.demand.needs(Effect::MotionBlur) || accumulates;
     return isAsked ? coveredPixels(jobs, arena, scene, packet.mainView(), makeViewSpace(view), view.size)
                    : backend::Rect{ 0, 0, view.size.x, view.size.y };
 }
