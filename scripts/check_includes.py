@@ -83,8 +83,8 @@ TOOLKIT = {
     "tools/reference": ["toolkit/program", "toolkit/machine", "toolkit/json"],  # the path tracer, and a program around it
 }
 # Folders of programs. Each may include all of the toolkit, but no other program: what two of them need belongs to the toolkit.
-PROGRAMS = ["tools/accuracy", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff", "tools/ltcfit", "tools/matc",
-            "tools/matinfo", "tools/numerics", "tools/replay", "tools/tables", "tools/view"]
+PROGRAMS = ["tools/accuracy", "tools/bake", "tools/cmgen", "tools/conformance", "tools/filament-render", "tools/imgdiff",
+            "tools/ltcfit", "tools/matc", "tools/matinfo", "tools/numerics", "tools/replay", "tools/tables", "tools/view"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
 # A public header lies in the lowest room that uses it; users see one folder, <filament_core/...>.
