@@ -6,6 +6,7 @@
 #include "framegraph/Memory.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filament_core::engine {
 
@@ -163,6 +164,59 @@ std::string explainProbes(std::span<const ProbeLine> lines) {
         const std::string name = lines[i].name.empty() ? fmt::format("{}", i) : fmt::format("'{}'", lines[i].name);
         text += fmt::format("reflection probe {}: {}\n", name, kWords[static_cast<size_t>(lines[i].use)]);
     }
+    return text;
+}
+
+namespace {
+
+GridLines::Line lineOf(scene::GridRecord const& grid, bool isInView) {
+    GridLines::Line line{ .name = grid.name, .count = grid.probes->count, .isInView = isInView };
+    double squares = 0, mean = 0;
+    for (IrradianceProbe const& probe : grid.probes->probes) {
+        line.inside += probe.isInside ? 1 : 0;
+        if (probe.isInside) continue;
+        squares += double{ probe.standardError } * double{ probe.standardError };
+        mean += double{ glm::dot(probe.irradianceSh[0], float3(0.2126f, 0.7152f, 0.0722f)) };
+    }
+    const auto lit = static_cast<double>(grid.probes->probes.size() - line.inside);
+    line.standardError = mean > 0 ? static_cast<float>(std::sqrt(squares / lit) / (mean / lit)) : 0.0f;
+    return line;
+}
+
+} // namespace
+
+void keepGrids(scene::SceneData const& scene, prepare::GridPacket const& packet, GridLines& lines) {
+    scene::Grids const& grids = scene.grids;
+    // What it says of probes is found once: grids seldom change.
+    if (lines.scene != scene.serial || lines.changes != grids.changes) {
+        lines.grids.clear();
+        for (scene::GridRecord const& grid : grids.records) lines.grids.push_back(lineOf(grid, false));
+        lines.scene = scene.serial;
+        lines.changes = grids.changes;
+    }
+    for (size_t i = 0; i < lines.grids.size(); ++i)
+        lines.grids[i].isInView = !packet.inView.empty() && packet.inView[i] != 0;
+    lines.fields = static_cast<uint32_t>(packet.fields.size());
+    lines.evaluated = packet.evaluated;
+    lines.largestError = packet.largestError;
+}
+
+std::string explainGrids(GridLines const& lines) {
+    std::string text;
+    for (size_t i = 0; i < lines.grids.size(); ++i) {
+        GridLines::Line const& grid = lines.grids[i];
+        const std::string name = grid.name.empty() ? fmt::format("{}", i) : fmt::format("'{}'", grid.name);
+        text += fmt::format(
+                "irradiance grid {}: {}; {} x {} x {} probes, {} of them inside of geometry; standard error "
+                "{:.2f} %\n",
+                name, grid.isInView ? "used" : "not used: its box is out of view", grid.count.x, grid.count.y,
+                grid.count.z, grid.inside, 100 * grid.standardError);
+    }
+    if (lines.fields > 0)
+        text += fmt::format(
+                "irradiance fields: {} objects, {} of them evaluated in this frame; the field that describes "
+                "its box worst is {:.1f} % off\n",
+                lines.fields, lines.evaluated, 100 * lines.largestError);
     return text;
 }
 

@@ -48,4 +48,21 @@ struct ProbeLine {
 void keepProbes(scene::Probes const& probes, prepare::ProbePacket const& packet, std::vector<ProbeLine>& lines);
 std::string explainProbes(std::span<const ProbeLine> lines);
 
+/// The irradiance grids of the scene in the last frame, and the objects that they light.
+struct GridLines {
+    struct Line {
+        std::string name;
+        uint3 count{ 0 };
+        uint32_t inside = 0;     ///< probes in geometry
+        float standardError = 0; ///< root mean square of the probes', in shares of their mean
+        bool isInView = false;
+    };
+    std::vector<Line> grids;
+    uint64_t scene = 0, changes = 0; ///< serial, and scene::Grids::changes, of these lines
+    uint32_t fields = 0, evaluated = 0;
+    float largestError = 0;
+};
+void keepGrids(scene::SceneData const& scene, prepare::GridPacket const& packet, GridLines& lines);
+std::string explainGrids(GridLines const& lines);
+
 } // namespace filament_core::engine

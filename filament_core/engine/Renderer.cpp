@@ -18,6 +18,7 @@
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/SplatPass.h"
 #include "filament_core/prepare/GuardBand.h"
+#include "filament_core/prepare/PlaceGrids.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "filament_core/prepare/PrepareSplats.h"
 #include "framegraph/CompiledGraph.h"
@@ -187,7 +188,7 @@ struct Renderer::Impl final : engine::Dependent {
         plan = {};
         const std::array views{ inputFor(scene, view, effects, static_cast<bool>(output.depth)) };
         const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().settled(), views,
-                                                                  shadows.held(), last, probes.held());
+                                                                  shadows.held(), last, probes.held(), &fields);
         if (engine.streamer && !pipelines.isRequesting())
             engine.streamer->note(engine.jobs, arena, scene.impl().data, packet);
         FrameContext& context = *passes::makeFrameContext(
@@ -282,6 +283,7 @@ struct Renderer::Impl final : engine::Dependent {
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
         engine::keepProbes(scene.impl().data.probes, context.packet.probes, probeLines);
+        engine::keepGrids(scene.impl().data, context.packet.grids, gridLines);
         return {};
     }
 
@@ -403,6 +405,7 @@ struct Renderer::Impl final : engine::Dependent {
     passes::QuadBuffers debugBuffers, splatBuffers;
     engine::ShadowTexture shadows;
     engine::ProbeTexture probes;
+    prepare::FieldCache fields;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;
@@ -418,6 +421,7 @@ struct Renderer::Impl final : engine::Dependent {
     ResolutionController shares;
     engine::FrameSummary summary;
     std::vector<engine::ProbeLine> probeLines;
+    engine::GridLines gridLines;
 };
 
 Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(std::make_shared<Impl>(engine, options)) {}
@@ -529,7 +533,7 @@ std::vector<EffectDecision> Renderer::decisions() const {
 std::string Renderer::explain() const {
     const PublicCall call(mImpl, "Renderer::explain()");
     return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses()) +
-           engine::explainProbes(mImpl->probeLines) +
+           engine::explainProbes(mImpl->probeLines) + engine::explainGrids(mImpl->gridLines) +
            (mImpl->engine.streamer ? mImpl->engine.streamer->explain() : std::string());
 }
 

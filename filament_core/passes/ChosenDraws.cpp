@@ -18,7 +18,8 @@ DrawContext shadedDraws(FrameContext const& context,
              context.resources.instanceIds,
              context.deformations,
              context.settings().quality.textureFilter,
-             view.packet.channels };
+             view.packet.channels,
+             !context.packet.grids.empty() };
 }
 
 } // namespace filament_core::passes

@@ -5,6 +5,7 @@
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/Package.h"
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 
@@ -28,14 +29,7 @@ public:
             // Lit, unlit and full-screen programs have different layouts of this group.
             bindPass(draw.material->material->package);
         }
-        const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
-        const uint32_t list = mContext.channels.of(draw.properties.lightChannels);
-        if (window != mWindow || list != mList) {
-            ViewGroup const& view = list == 0 ? mContext.view : mContext.view.lists[list - 1];
-            mCommands.record(view.bind(draw.firstObject));
-            mWindow = window;
-            mList = list;
-        }
+        if (!hasField(draw)) bindWindow(draw);
         const BindGroupHandle material = draw.material->group(mContext.textureFilter);
         if (material != mMaterial) {
             mCommands.record(CmdBindGroup{ material, shader::kGroupMaterial });
@@ -49,7 +43,25 @@ public:
         bindGeometry(*draw.geometry);
     }
 
+    bool hasField(DrawCall const& draw) const { return mContext.readsFields && draw.firstField != prepare::kNowhere; }
+    /// Of the nth object of a draw that has one.
+    void bindField(DrawCall const& draw, uint32_t nth) {
+        mCommands.record(viewOf(mContext.channels.of(draw.properties.lightChannels)).bindField(draw.firstField + nth));
+        mWindow = ~0u;
+    }
+
 private:
+    ViewGroup const& viewOf(uint32_t list) const { return list == 0 ? mContext.view : mContext.view.lists[list - 1]; }
+
+    void bindWindow(DrawCall const& draw) {
+        const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
+        const uint32_t list = mContext.channels.of(draw.properties.lightChannels);
+        if (window == mWindow && list == mList) return;
+        mCommands.record(viewOf(list).bind(draw.firstObject));
+        mWindow = window;
+        mList = list;
+    }
+
     void bindPass(shader::MaterialPackage const& package) {
         const shader::PassKind kind = shader::passKind(package);
         const BindGroupHandle group = mContext.passGroups[static_cast<size_t>(kind)];
@@ -94,13 +106,19 @@ constexpr PipelineHandle kMissing{ ~0u };
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
     return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
            a.properties == b.properties && a.pass == b.pass && (a.fade == 0) == (b.fade == 0) &&
-           (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
+           (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed) &&
+           (a.firstField == prepare::kNowhere) == (b.firstField == prepare::kNowhere);
 }
 
 /// What the scene selects for a draw; the geometry adds its own part.
 struct DrawVariants {
     uint8_t ofView = 0;
     prepare::ChannelLists const& channels;
+    DrawSlots slots, slotsOfFields; ///< of draws without and with an irradiance field
+
+    uint32_t slotOf(DrawCall const& draw) const {
+        return (draw.firstField == prepare::kNowhere ? slots : slotsOfFields).of(draw);
+    }
 };
 
 PipelineUse useOf(DrawCall const& draw, DrawVariants const& variants) {
@@ -111,26 +129,26 @@ PipelineUse useOf(DrawCall const& draw, DrawVariants const& variants) {
 }
 
 /// Looks pipelines up without changing the cache. Returns false if some are missing.
-bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, DrawSlots slots,
-            std::span<const DrawCall> draws, DrawVariants const& variants) {
+bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, std::span<const DrawCall> draws,
+            DrawVariants const& variants) {
     bool hasAll = true;
     for (size_t i = 0; i < draws.size(); ++i) {
         prepare::prefetchDraw(draws, i);
         DrawCall const& draw = draws[i];
         chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
                             ? chosen[i - 1]
-                            : pipelines.find(slots.of(draw), useOf(draw, variants)).value_or(kMissing);
+                            : pipelines.find(variants.slotOf(draw), useOf(draw, variants)).value_or(kMissing);
         hasAll = hasAll && chosen[i] != kMissing;
     }
     return hasAll;
 }
 
 /// Creates what lookUp() did not find, in drawing order.
-void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines, DrawSlots slots,
+void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines,
           std::span<const DrawCall> draws, DrawVariants const& variants) {
     for (size_t i = 0; i < draws.size(); ++i) {
         if (chosen[i] != kMissing) continue;
-        chosen[i] = pipelines.pipelineFor(setup, slots.of(draws[i]), useOf(draws[i], variants));
+        chosen[i] = pipelines.pipelineFor(setup, variants.slotOf(draws[i]), useOf(draws[i], variants));
     }
 }
 
@@ -139,19 +157,22 @@ void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource
 std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena, PipelineSource const& pipelines,
                                                 DrawSlots slots, std::span<const DrawCall> draws, uint8_t variant,
                                                 prepare::ChannelLists const& channels) {
-    const DrawVariants variants{ variant, channels };
+    const bool hasFields =
+            std::ranges::any_of(draws, [](DrawCall const& draw) { return draw.firstField != prepare::kNowhere; });
+    const DrawSlots slotsOfFields =
+            hasFields ? DrawSlots(pipelines.slotOfFields(slots.slot), pipelines.slotOfFields(slots.fading)) : slots;
+    const DrawVariants variants{ variant, channels, slots, slotsOfFields };
     const std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
     if (pipelines.isRequesting()) return chosen;
     std::atomic<bool> someAreMissing{ false };
     pass.forEachRange(draws.size(), kDrawsPerRange, [&](size_t begin, size_t end) {
         const std::span<PipelineHandle> range = chosen.subspan(begin, end - begin);
-        if (!lookUp(range, pipelines, slots, draws.subspan(begin, end - begin), variants))
+        if (!lookUp(range, pipelines, draws.subspan(begin, end - begin), variants))
             someAreMissing.store(true, std::memory_order_relaxed);
     });
     // Jobs only look up. What is missing is created here, in the order of drawing, so that the command stream is the
     // same for any number of workers; after the first frames that is nothing.
-    if (someAreMissing.load(std::memory_order_relaxed))
-        make(chosen, pass.commands(), pipelines, slots, draws, variants);
+    if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, draws, variants);
     return chosen;
 }
 
@@ -164,6 +185,13 @@ void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<
         if (!pipelines[i]) continue;
         DrawCall const& draw = draws[i];
         state.bind(draw, pipelines[i]);
+        if (state.hasField(draw)) {
+            for (uint32_t nth = 0; nth < draw.instanceCount; ++nth) {
+                state.bindField(draw, nth);
+                commands.record(CmdDrawIndexed{ draw.geometry->indexCount, 1, draw.geometry->firstIndex, 0, 0 });
+            }
+            continue;
+        }
         commands.record(CmdDrawIndexed{ draw.geometry->indexCount, draw.instanceCount, draw.geometry->firstIndex, 0,
                                         draw.firstObject % shader::kObjectsPerWindow });
     }

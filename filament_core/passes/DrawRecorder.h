@@ -44,6 +44,7 @@ struct DrawContext {
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     TextureFilter textureFilter = TextureFilter::AsAuthored;
     prepare::ChannelLists channels{}; ///< of the view; its lists are in `view`
+    bool readsFields = false;         ///< irradiance fields: draws that have one are drawn object by object
 };
 
 /// One range, starting with nothing bound. Draws without a pipeline are skipped.

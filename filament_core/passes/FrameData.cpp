@@ -79,6 +79,14 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
         needs.windows += windowsOf(view);
         needs.hasTable = needs.hasTable || view.hasAreaLights;
     }
+    if (!packet.grids.fields.empty()) {
+        mViews[0].fields = needs.windows * kWindowBytes;
+        for (ViewGroup& list : std::span(mLists).first(packet.mainView().channels.lists.size()))
+            list.fields = mViews[0].fields;
+        // One more: what is bound with the last field is a whole window.
+        const auto bytes = static_cast<uint32_t>(packet.grids.fields.size_bytes());
+        needs.windows += (bytes + kWindowBytes - 1) / kWindowBytes + 1;
+    }
     needs.table = needs.words;
     if (needs.hasTable) needs.words += static_cast<uint32_t>(shader::kLtcTable.size());
     for (size_t i = 0; i < mViews.size(); ++i) {
@@ -130,6 +138,8 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
         prepare::writeObjects(jobs, list, objects);
         commands.recordAdopted(CmdUpdateBuffer{ set.objects.buffer, first, std::as_bytes(objects) });
     }
+    const std::span fields = std::as_bytes(packet.grids.fields);
+    if (!fields.empty()) commands.record(CmdUpdateBuffer{ set.objects.buffer, mViews[0].fields, fields });
 }
 
 // The only bytes of lights and froxels that a frame uploads are those that it uses.
@@ -200,6 +210,12 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
 CmdBindGroup ViewGroup::bind(uint32_t object) const {
     // In the order of the layout: frame, objects.
     return { handle, shader::kGroupView, 2, { uniforms, objects + object / kObjectsPerWindow * kWindowBytes } };
+}
+
+CmdBindGroup ViewGroup::bindField(uint32_t field) const {
+    constexpr uint32_t kFieldBytes = sizeof(shader::IrradianceField);
+    static_assert(kFieldBytes % kAlignment == 0);
+    return { handle, shader::kGroupView, 2, { uniforms, fields + field * kFieldBytes } };
 }
 
 void FrameData::destroy(CommandBuffer& commands) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see those of a view.
 ///   In      a FramePacket.   Out: a ViewGroup for each of its views, with offsets into buffers that all views share.
-///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights and
+///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other; then the
+///           irradiance fields of the main view (shader::IrradianceField), each of which begins a window. Lights and
 ///           froxels: storage buffers that hold those of all views, one view after the other; the uniforms of a view
 ///           say where its own begin (FrameUniforms::froxelPlaces, written here). Behind the froxels of a frame with
 ///           area lights: shader::kLtcTable; then the light profiles of each view that has some.
@@ -28,10 +29,13 @@ struct ViewGroup {
     uint32_t uniforms = 0, objects = 0;     ///< bytes
     uint32_t firstLight = 0, firstWord = 0; ///< elements of the storage buffers
     uint32_t firstProfileWord = 0;          ///< of the words of profiles; 0: the view has none
+    uint32_t fields = 0;                    ///< bytes: where the irradiance fields of the view begin
     ViewGroup const* lists = nullptr;       ///< one for each of ViewPacket::channels, with the same objects
 
     /// For draws of the window that holds `object` of the view.
     backend::CmdBindGroup bind(uint32_t object) const;
+    /// For the draw of one object that has an irradiance field.
+    backend::CmdBindGroup bindField(uint32_t field) const;
 };
 
 class FrameData {

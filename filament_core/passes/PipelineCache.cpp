@@ -134,6 +134,14 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
     return static_cast<uint32_t>(mSlots.size() - 1);
 }
 
+uint32_t PipelineCache::slotOfFields(uint32_t slot) {
+    PassSlot const& plain = mSlots[slot];
+    if (plain.depthOnly || plain.motionOnly || plain.debug != DebugSlot::None) return slot; // nothing is lit
+    PassSlot lit = plain;
+    lit.shading = withField(lit.shading);
+    return this->slot(lit);
+}
+
 PipelineCache::Program const* PipelineCache::findProgram(scene::Material const& material, uint64_t key) const {
     const auto state = mMaterials.find(material.id);
     if (state == mMaterials.end()) return nullptr;

@@ -35,6 +35,8 @@ public:
     /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame. What has a stencil
     /// state gets slots of its own, because there are too many states for a key.
     uint32_t slot(PassSlot const& slot);
+    /// Where draws with an irradiance field go: the same place, lit by that.
+    uint32_t slotOfFields(uint32_t slot);
     std::span<const PassSlot> slots() const { return mSlots; }
 
     /// What pipelineFor() answers, if it has answered that before.

@@ -30,6 +30,7 @@ public:
     bool isRequesting() const { return mRequests != nullptr; }
 
     uint32_t slot(PassSlot const& slot) const { return mCache->slot(slot); }
+    uint32_t slotOfFields(uint32_t slot) const { return mCache->slotOfFields(slot); }
 
     /// PipelineCache's functions of these names; none for requests.
     std::optional<backend::PipelineHandle> find(uint32_t slot, PipelineUse const& use) const {

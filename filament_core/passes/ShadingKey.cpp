@@ -83,6 +83,11 @@ ShadingKey depthOfViewKey(ShadingKey key) { return key & maskOf(shader::kQuality
 
 ShadingKey withoutOcclusion(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenOcclusion); }
 
+ShadingKey withField(ShadingKey key) {
+    return (key & ~maskOf(shader::kQualityDiffuseIrradiance)) | ShadingKey{ shader::kIrradianceOfField }
+                                                                        << shiftOf(shader::kQualityDiffuseIrradiance);
+}
+
 ShadingKey withoutRefraction(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenRefraction); }
 
 ShadingKey withoutReflections(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenReflections); }

@@ -47,6 +47,8 @@ ShadingKey depthOfViewKey(ShadingKey key);
 
 /// For what leaves no depth: ambient occlusion is that of the surfaces behind it.
 ShadingKey withoutOcclusion(ShadingKey key);
+/// For objects with a shader::IrradianceField.
+ShadingKey withField(ShadingKey key);
 /// For objects that are not refractive, and for those drawn before the copy.
 ShadingKey withoutRefraction(ShadingKey key);
 /// For what does not mirror the scene colour.

@@ -71,14 +71,19 @@ EffectDemand demandOfIndirectLight(DemandInput const& input) {
     return demand;
 }
 
-EffectDemand demandOfProbes(DemandInput const& input) {
-    ProbeCounts const& probes = input.probes;
+EffectDemand demandOfBoxes(DemandInput const& input, ProbeCounts const& probes) {
     if (probes.inScene == 0) return { .reason = R::NotInScene };
-    if (input.settings.quality.reflectionProbes == 0) return { .reason = R::SwitchedOff };
     if (input.counts.litDraws == 0) return { false, R::NoLitSurface, 0, probes.inScene };
     if (probes.used) return { true, R::ProbesInView, probes.used, probes.outOfReach, probes.leftOut };
     return { false, probes.leftOut ? R::ProbesUnusable : R::ProbesOutOfReach, 0, probes.outOfReach, probes.leftOut };
 }
+
+EffectDemand demandOfProbes(DemandInput const& input) {
+    const bool isOff = input.probes.inScene > 0 && input.settings.quality.reflectionProbes == 0;
+    return isOff ? EffectDemand{ .reason = R::SwitchedOff } : demandOfBoxes(input, input.probes);
+}
+
+EffectDemand demandOfGrids(DemandInput const& input) { return demandOfBoxes(input, input.grids); }
 
 EffectDemand demandOfSky(DemandInput const& input) {
     return input.hasSky ? EffectDemand{ true, R::BackgroundVisible } : EffectDemand{};
@@ -371,6 +376,7 @@ constexpr std::array<EffectRow, kEffects> kEffectTable{ {
         { Effect::ColoredShadows, "coloured shadows", Stage::Lighting, demandOfColoredShadows, "coloredShadows=off" },
         { Effect::IndirectLight, "indirect light", Stage::Lighting, demandOfIndirectLight },
         { Effect::ReflectionProbes, "reflection probes", Stage::Lighting, demandOfProbes, "reflectionProbes=0" },
+        { Effect::IrradianceGrids, "irradiance grids", Stage::Lighting, demandOfGrids },
         { Effect::Sky, "sky", Stage::Lighting, demandOfSky },
         { Effect::SunDisc, "sun disc", Stage::Lighting, demandOfDiscs },
         { Effect::Blending, "blending", Stage::Geometry, demandOfBlending },

@@ -10,6 +10,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/FrameSettings.h"
+#include "filament_core/prepare/GridPacket.h"
 #include "filament_core/prepare/ProbePacket.h"
 #include "filament_core/prepare/SceneColorCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
@@ -52,6 +53,8 @@ struct DrawCall {
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
     LevelFade fade = 0; ///< of all instances; the depth prepass says which pixels show them (passes/DepthPass.h)
+    /// Into GridPacket::fields: that of the first object, the others follow; kNowhere: the environment lights them.
+    uint32_t firstField = ~0u;
 };
 
 inline constexpr uint32_t kNowhere = ~0u;
@@ -202,6 +205,7 @@ struct FramePacket {
     uint32_t discsOutOfView = 0;
     SplatPacket splats; ///< of the main view
     ProbePacket probes; ///< of the main view
+    GridPacket grids;   ///< of the main view
     SceneDemand demand; ///< of the main view
 
     /// Of the view that the user asked for.

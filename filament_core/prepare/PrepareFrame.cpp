@@ -6,6 +6,7 @@
 #include "filament_core/prepare/Focus.h"
 #include "filament_core/prepare/HideOccluded.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PlaceGrids.h"
 #include "filament_core/prepare/PlaceProbes.h"
 #include "filament_core/prepare/PrepareMotion.h"
 #include "filament_core/prepare/PrepareShadows.h"
@@ -50,26 +51,30 @@ uint32_t movedObjects(FramePacket const& packet) {
 
 SceneDemand demandOf(scene::SceneData const& scene, FramePacket const& packet, ShadowCounts const& shadows,
                      float blurRadius) {
-    return findDemand({ .counts = packet.mainView().counts,
-                        .shadows = shadows,
-                        .hasIndirectLight = packet.environment.specular || !packet.probes.empty(),
-                        .hasSky = static_cast<bool>(packet.environment.sky),
-                        .deformed = countDeformed(packet.deformations),
-                        .copiedPixels = copiedPixels(packet.mainView().pictures),
-                        .moved = movedObjects(packet),
-                        .cameraMoved = packet.last.isElsewhere,
-                        .blurRadius = blurRadius,
-                        .settings = packet.settings,
-                        .cascades = cascadesOf(packet.shadows),
-                        .atlasSize = packet.shadows.atlasSize,
-                        .discsInView = static_cast<uint32_t>(packet.discs.size()),
-                        .discsOutOfView = packet.discsOutOfView,
-                        .splats = packet.splats.count(),
-                        .splatClouds = packet.splats.inScene,
-                        .probes = { .inScene = static_cast<uint32_t>(scene.probes.records.size()),
-                                    .used = packet.probes.used,
-                                    .outOfReach = packet.probes.outOfReach,
-                                    .leftOut = packet.probes.leftOut } });
+    return findDemand(
+            { .counts = packet.mainView().counts,
+              .shadows = shadows,
+              .hasIndirectLight = packet.environment.specular || !packet.probes.empty() || packet.grids.used > 0,
+              .hasSky = static_cast<bool>(packet.environment.sky),
+              .deformed = countDeformed(packet.deformations),
+              .copiedPixels = copiedPixels(packet.mainView().pictures),
+              .moved = movedObjects(packet),
+              .cameraMoved = packet.last.isElsewhere,
+              .blurRadius = blurRadius,
+              .settings = packet.settings,
+              .cascades = cascadesOf(packet.shadows),
+              .atlasSize = packet.shadows.atlasSize,
+              .discsInView = static_cast<uint32_t>(packet.discs.size()),
+              .discsOutOfView = packet.discsOutOfView,
+              .splats = packet.splats.count(),
+              .splatClouds = packet.splats.inScene,
+              .probes = { .inScene = static_cast<uint32_t>(scene.probes.records.size()),
+                          .used = packet.probes.used,
+                          .outOfReach = packet.probes.outOfReach,
+                          .leftOut = packet.probes.leftOut },
+              .grids = { .inScene = static_cast<uint32_t>(scene.grids.records.size()),
+                         .used = packet.grids.used,
+                         .outOfReach = packet.grids.outOfView } });
 }
 
 /// The views of the maps follow those that were asked for.
@@ -165,7 +170,7 @@ void hideFromMainView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData cons
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                          std::span<const ViewInput> views, ShadowAtlas const& held, LastFrame const& kept,
-                         HeldProbes const& heldProbes) {
+                         HeldProbes const& heldProbes, FieldCache* fields) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
     ViewInput const& main = views[0]; // without jitter, so that shadow maps and places of the last frame stay
     const FrameSettings settings = resolve(main);
@@ -182,11 +187,13 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const PreparedShadows shadows = prepareShadows(jobs, arena, scene, main, settings, asked[0], held);
 
     const ProbePacket probes = probesOf(jobs, arena, scene, main, heldProbes, asked[0].packet);
+    const GridPacket grids = findGrids(arena, scene, main, asked[0].packet);
     for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, drawn[i], asked[i]);
     FramePacket packet = packetOf(arena, scene, { asked, shadows.views });
     packet.shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size()));
     packet.environment = environmentOf(scene);
     packet.probes = probes;
+    packet.grids = grids;
     packet.settings = settings;
     packet.last = last.seenFrom(makeViewSpace(main), main, packet.mainView().uniforms.time);
     if (settings.readsMotion(packet.mainView().counts)) addMotion(arena, scene, last, packet);
@@ -201,6 +208,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (packet.demand.needs(Effect::Taa)) packet.accumulation = last.accumulation(scene, main, packet);
     // Last: receivers of shadows, blur and the rest follow from what is in view, hidden or not, as without.
     if (settings.cullsOccluded) hideFromMainView(jobs, arena, scene, drawn[0], packet);
+    placeFields(jobs, arena, scene, main, fields, packet); // of what is drawn
     return packet;
 }
 

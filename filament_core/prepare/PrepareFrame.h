@@ -21,8 +21,11 @@
 
 namespace filament_core::prepare {
 
+class FieldCache;
+
+/// `fields`: of irradiance grids, known from earlier frames; null: none are, or will be.
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
                          std::span<const ViewInput> views, ShadowAtlas const& held = {}, LastFrame const& last = {},
-                         HeldProbes const& probes = {});
+                         HeldProbes const& probes = {}, FieldCache* fields = nullptr);
 
 } // namespace filament_core::prepare

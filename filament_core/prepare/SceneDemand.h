@@ -28,6 +28,7 @@ enum class Effect : uint8_t {
     ColoredShadows, ///< of what transmits light
     IndirectLight,
     ReflectionProbes, ///< boxes of light, in place of the environment
+    IrradianceGrids,  ///< diffuse light by the place of renderables, in place of the environment's
     Sky,
     SunDisc, ///< discs of suns, and their halos
     Blending,
@@ -83,7 +84,7 @@ struct SceneDemand {
     friend bool operator==(SceneDemand const&, SceneDemand const&) = default;
 };
 
-/// Reflection probes; those that are left out are in view.
+/// Reflection probes or irradiance grids; those that are left out are in view.
 struct ProbeCounts {
     uint32_t inScene = 0, used = 0, outOfReach = 0, leftOut = 0;
 };
@@ -102,7 +103,7 @@ struct DemandInput {
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
     uint32_t splats = 0, splatClouds = 0;         ///< in view; in the scene
-    ProbeCounts probes{};
+    ProbeCounts probes{}, grids{};
 };
 
 SceneDemand findDemand(DemandInput const& input);

@@ -7,6 +7,7 @@
 #include "filament_core/scene/Attachments.h"
 #include "filament_core/scene/ContentVersions.h"
 #include "filament_core/scene/Deformations.h"
+#include "filament_core/scene/Grids.h"
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/PickRules.h"
 #include "filament_core/scene/Probes.h"
@@ -109,6 +110,7 @@ struct SceneData {
     Renderables renderables{ ownerTag(serial) };
     Lights lights{ ownerTag(serial) };
     Probes probes{ ownerTag(serial) };
+    Grids grids{ ownerTag(serial) };
     Transforms transforms{ ownerTag(serial) }; ///< of the nodes
     NodeContents atNodes;
     Deformations deformations{ ownerTag(serial) };

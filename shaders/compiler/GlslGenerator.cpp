@@ -309,7 +309,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     declareVariants(out);
     const bool hasLightList = mayHave(definition, kVariantPunctual);
     Result<void> done = includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl",
-                                          "shaders/lib/probes.glsl" });
+                                          "shaders/lib/probes.glsl", "shaders/lib/field.glsl" });
     if (done && isStandard(definition)) done = out.include("shaders/lib/look_ups.glsl");
     if (done && hasLightList) done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
@@ -330,7 +330,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface/half.glsl");
     if (!done) return done;
     done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface/quality.glsl",
-                             "shaders/material/surface/probe_shares.glsl", "shaders/material/surface/incoming.glsl",
+                             "shaders/material/surface/object_field.glsl", "shaders/material/surface/probe_shares.glsl",
+                             "shaders/material/surface/incoming.glsl",
                              "shaders/material/surface/parameters.glsl", "shaders/material/surface/occlusion.glsl" });
     for (Layer const& layer : kLayers) {
         if (done && needs.has(layer.term)) done = out.include(layer.text);

@@ -14,7 +14,8 @@
 namespace filament_core::shader {
 
 /// With the parenthesis that follows in a name of glslang.
-inline constexpr std::array<std::string_view, 2> kKeptCalls{ "probedRadiance(", "probedIrradiance(" };
+inline constexpr std::array<std::string_view, 4> kKeptCalls{ "probedRadiance(", "probedIrradiance(", "fieldColor(",
+                                                              "objectIrradiance(" };
 
 std::vector<uint32_t> keepCalls(std::span<const uint32_t> module);
 

@@ -160,6 +160,19 @@ struct ObjectUniforms {
     std::array<ObjectData, kObjectsPerWindow> objects; // 16 KiB: the least that every device offers
 };
 
+/// Diffuse light over the box of one object (irradiance grids). The first records of ObjectUniforms of a draw that has
+/// one: the object alone, then this. u: where in the box a point is, in [-1, 1] along the axes of the world.
+struct IrradianceField {
+    ObjectData object;
+    float4 center;      ///< xyz: of the box, relative to the camera; w: unused
+    float4 inverseHalf; ///< xyz: 1 / half its sides, 1 / metres; w: unused
+    /// Of the first four coefficients of irradiance / pi, as FrameUniforms::irradianceSh, red, green and blue each: xyz:
+    /// change with u; w: in the middle. Before FrameUniforms::ambient.x.
+    std::array<float4, 12> linear;
+    std::array<float4, 5> constant; ///< rgb: the other five; w: unused
+    std::array<float4, 9> unused;   ///< so that each begins where a uniform offset may
+};
+
 inline constexpr uint32_t kMaxPunctualLights = 4096; ///< of a view
 inline constexpr uint32_t kMaxLightsOfFroxel = 256;
 
@@ -263,7 +276,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityDiffuse = 1002,
     kQualityWithoutEnergyCompensation = 1003, ///< 1: one bounce only
     kQualitySplitSum = 1004,
-    kQualityDiffuseIrradiance = 1005,
+    kQualityDiffuseIrradiance = 1005, ///< DiffuseIrradiance, or kIrradianceOfField
     kQualityEnvironmentEncoding = 1006, ///< 1: RGBM (of the environment, not of the view)
     kQualityRoughnessMapping = 1007,    ///< (of the environment)
     kQualityWithoutDiffuseCoupling = 1008, ///< 1: lights give the diffuse lobe what is reflected, too
@@ -285,6 +298,9 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityReflectionProbes = 1022, ///< 0: no reflection probe lights what is visible; else ProbeTerms
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
+
+/// Of kQualityDiffuseIrradiance, for objects with an IrradianceField.
+inline constexpr uint32_t kIrradianceOfField = 3;
 
 /// What shaders compute of fog; a set.
 enum FogTerms : uint8_t {
@@ -345,6 +361,7 @@ inline constexpr std::array kQualityConstants{
 // clang-format on
 static_assert(sizeof(BoneData) == 48 && sizeof(DeformationUniforms) == 16384);
 static_assert(sizeof(ProbeUniforms) == 1792);
+static_assert(sizeof(IrradianceField) == 512 && sizeof(ObjectUniforms) % sizeof(IrradianceField) == 0);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
 static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);

@@ -38,6 +38,7 @@ namespace {
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/distance.glsl"
 #include "shaders/lib/exposure.glsl"
+#include "shaders/lib/field.glsl"
 #include "shaders/lib/fog.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/grading.glsl"

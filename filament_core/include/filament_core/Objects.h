@@ -54,6 +54,7 @@ using Light = ObjectHandle<struct LightObject>;                     ///< of one 
 using Skin = ObjectHandle<struct SkinObject>;                       ///< of one Scene
 using Node = ObjectHandle<struct NodeObject>;                       ///< of one Scene
 using ReflectionProbe = ObjectHandle<struct ReflectionProbeObject>; ///< of one Scene
+using IrradianceGrid = ObjectHandle<struct IrradianceGridObject>;   ///< of one Scene
 
 /// What a pick is for. Nodes can be left out of picks of the first two aims: Scene::setPickable().
 enum class PickAim : uint8_t { Select, Hover, Anything };

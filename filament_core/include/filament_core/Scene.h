@@ -11,6 +11,7 @@
 #include <filament_core/Box.h>
 #include <filament_core/Engine.h>
 #include <filament_core/GeometryLevel.h>
+#include <filament_core/IrradianceGrid.h>
 #include <filament_core/Light.h>
 #include <filament_core/LoadOptions.h>
 #include <filament_core/Node.h>
@@ -204,12 +205,18 @@ public:
     void remove(ReflectionProbe probe);
     void set(ReflectionProbe probe, ReflectionProbeDesc const& desc);
 
+    /// Renderables in its box have its diffuse light from the next frame on.
+    IrradianceGrid add(IrradianceGridDesc const& desc);
+    void remove(IrradianceGrid grid);
+    void set(IrradianceGrid grid, IrradianceGridDesc const& desc);
+
     Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
     Box bounds(Renderable renderable) const; ///< in world space; conservative, like bounds()
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;
     uint32_t reflectionProbeCount() const;
+    uint32_t irradianceGridCount() const;
 
     struct Impl;
     Impl& impl() { return *mImpl; }

@@ -19,6 +19,7 @@
 #include <filament_core/EnvironmentLights.h>
 #include <filament_core/Gltf.h>
 #include <filament_core/Image.h>
+#include <filament_core/IrradianceGrid.h>
 #include <filament_core/JobTimeline.h>
 #include <filament_core/Light.h>
 #include <filament_core/LightProfile.h>

@@ -87,7 +87,11 @@ vec3 environmentRadiance(highp vec3 direction, highp float perceptualRoughness) 
 // Reflected radiance of a white Lambert surface with this normal. Before frameUniforms.ambient.x.
 vec3 environmentIrradiance(highp vec3 normal) {
     vec3 irradiance = vec3(0.0);
-    if (addsEnvironment()) irradiance = irradianceTerm(environmentFromWorld(normal));
-    if (quality_reflectionProbes != 0) irradiance = probedIrradiance(normal, irradiance);
+    if (quality_diffuseIrradiance == kIrradianceOfField) {
+        irradiance = objectIrradiance(normal);
+    } else {
+        if (addsEnvironment()) irradiance = irradianceTerm(environmentFromWorld(normal));
+        if (quality_reflectionProbes != 0) irradiance = probedIrradiance(normal, irradiance);
+    }
     return irradiance;
 }

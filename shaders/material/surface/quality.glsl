@@ -9,6 +9,7 @@ const int kDiffuseDisney = 1;
 const int kSplitSumAnalytic = 1;
 const int kIrradianceLastSpecularLevel = 1;
 const int kIrradianceCube = 2;
+const int kIrradianceOfField = 3; // shader::IrradianceField (docs/irradiance-grids.md)
 const int kEncodingRgbm = 1;
 const int kLookUpsQuadratic = 1;
 const int kLookUpsTwo = 2;

@@ -99,6 +99,17 @@ TEST(ShadingKey, EveryTermOfTransparencyIsAKeyAndNoViewHasOne) {
     EXPECT_EQ(keys.size(), 7u);
 }
 
+TEST(ShadingKey, AFieldReplacesTheSourceOfDiffuseLightAlone) {
+    for (const DiffuseIrradiance source :
+         { DiffuseIrradiance::SphericalHarmonics, DiffuseIrradiance::LastSpecularLevel }) {
+        const ShadingKey key = shadingKey({ .fresnel = FresnelTerm::Exact, .diffuseIrradiance = source });
+        const ShadingKey with = withField(key);
+        EXPECT_EQ(bitsOf(with, shader::kQualityDiffuseIrradiance), shader::kIrradianceOfField);
+        EXPECT_EQ(bitsOf(with, shader::kQualityFresnel), 1u);
+        EXPECT_EQ(with, withField(shadingKey({ .fresnel = FresnelTerm::Exact })));
+    }
+}
+
 TEST(ShadingKey, MipBiasIsAKeyOfAllSurfacesAndOfTheirDepths) {
     const ShadingKey key = shadingKey({}, {}, {}, { .fogTerms = 3, .hasMipBias = true });
     EXPECT_EQ(bitsOf(key, shader::kQualityMipBias), 1u);

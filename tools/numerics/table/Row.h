@@ -109,6 +109,7 @@ std::vector<Row> resolutionRows();
 std::vector<Row> transparencyRows();
 std::vector<Row> splatRows();
 std::vector<Row> probeRows();
+std::vector<Row> fieldRows();
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

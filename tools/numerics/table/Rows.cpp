@@ -9,7 +9,7 @@ std::span<const Row> rows() {
         for (auto const& source :
              { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(), imageRows(), areaRows(),
                geometryRows(), screenRows(), temporalRows(), gradingRows(), toneRows(), resolutionRows(),
-               transparencyRows(), splatRows(), probeRows() })
+               transparencyRows(), splatRows(), probeRows(), fieldRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();

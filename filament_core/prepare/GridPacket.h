@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GridPacket: the irradiance grids of the main view, and the fields of the objects that they light.
+///   Thread  plain values.   Memory: spans into the frame arena.
+#pragma once
+
+#include "shaders/interface/ShaderInterface.h"
+
+#include <cstdint>
+#include <span>
+
+namespace filament_core::prepare {
+
+struct GridPacket {
+    std::span<const uint8_t> inView;                 ///< by scene::Grids::records: its box reaches into the view
+    std::span<const shader::IrradianceField> fields; ///< DrawCall::firstField
+    uint32_t used = 0, outOfView = 0;                ///< grids
+    uint32_t evaluated = 0;                          ///< fields that were not known from an earlier frame
+    float largestError = 0; ///< of a field: root mean square of what it lacks at the points that it was fitted to, in
+                            ///< shares of their mean
+
+    bool empty() const { return fields.empty(); }
+};
+
+} // namespace filament_core::prepare
