@@ -62,6 +62,42 @@ class ProbeShiftEdit final : public FrameEdit {
     }
 };
 
+/// The irradiance fields of objects: as if all grids were a quarter of each object's box further along x.
+class FieldShiftEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        replay(commands, *this);
+    }
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBuffer const& command) {
+        if (command.desc.debugName == "objects") mObjects.insert(command.handle);
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        if (!mObjects.contains(command.buffer) || !isOfFields(command.bytes)) return;
+        Bytes& bytes = copy(command.bytes);
+        for (size_t at = 0; at < bytes.size(); at += sizeof(shader::IrradianceField)) {
+            const size_t x = at + offsetof(shader::IrradianceField, center);
+            const size_t inverse = at + offsetof(shader::IrradianceField, inverseHalf);
+            writeFloat(bytes, x, readFloat(bytes, x) + 0.25f / std::max(readFloat(bytes, inverse), 1e-6f));
+        }
+    }
+
+private:
+    /// Records of objects leave nothing 0 for so long.
+    static bool isOfFields(std::span<const std::byte> bytes) {
+        constexpr size_t kUnused = offsetof(shader::IrradianceField, unused);
+        if (bytes.empty() || bytes.size() % sizeof(shader::IrradianceField) != 0) return false;
+        return std::ranges::all_of(bytes.subspan(kUnused, sizeof(shader::IrradianceField) - kUnused),
+                                   [](std::byte byte) { return byte == std::byte{ 0 }; });
+    }
+
+    std::set<BufferHandle> mObjects;
+};
+
 /// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.
 bool isBeforePicture(Bytes const& bytes, size_t at) {
     const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
@@ -222,6 +258,7 @@ constexpr Mutation kEffectMutations[] = {
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
     { "skyGround", "the camera of the panorama 3 % higher above its ground", make<SkyGroundEdit> },
+    { "fieldShift", "irradiance fields a quarter of each box beside their places", make<FieldShiftEdit> },
     { "probeShift", "a reflection probe 2 cm beside its place", make<ProbeShiftEdit> },
     { "fogPhase", "volumetric fog scatters light a little more forwards", make<FogPhaseEdit> },
 };

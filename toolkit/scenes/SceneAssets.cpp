@@ -129,6 +129,9 @@ std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
     for (ProbeSpec const& probe : spec.probes) {
         if (std::string name = isBuiltIn(probe.file) ? std::string() : missing(probe.file); !name.empty()) return name;
     }
+    for (GridSpec const& grid : spec.grids) {
+        if (std::string name = grid.file.empty() ? grid.file : missing(grid.file); !name.empty()) return name;
+    }
     return isBuiltIn(spec.environment) ? std::string() : missing(spec.environment);
 }
 
@@ -185,6 +188,24 @@ Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, Scen
         };
         std::visit(setProfile, lights[i]);
         scene.add(lights[i]);
+    }
+    return {};
+}
+
+Result<void> addGrids(Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
+    for (GridSpec const& grid : spec.grids) {
+        IrradianceGridDesc desc = grid.grid;
+        if (!grid.file.empty()) {
+            const fs::path path = resolve(grid.file, spec, folders.assets);
+            const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
+            if (!bytes) return bytes.error();
+            Result<IrradianceGridDesc> read = readIrradianceGrid(*bytes);
+            if (!read) return fail(read.error().code, "{}: {}", path.string(), read.error().message);
+            desc = std::move(*read);
+            desc.intensity *= grid.grid.intensity;
+        }
+        desc.centerWorld += spec.origin;
+        scene.add(desc);
     }
     return {};
 }

@@ -34,6 +34,8 @@ std::vector<LightDesc> placedLights(SceneSpec const& spec);
 std::filesystem::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& folders);
 /// Adds the lights of the case, with their profiles.
 Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders);
+/// Adds the irradiance grids of the case, with its origin.
+Result<void> addGrids(Scene& scene, SceneSpec const& spec, SceneFolders const& folders);
 /// The transform of each copy of the model.
 std::vector<double4x4> placedCopies(SceneSpec const& spec);
 /// `bounds`: of the whole scene, for a case without a camera.

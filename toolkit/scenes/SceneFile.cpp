@@ -231,6 +231,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     readModel(reader, spec);
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
     reader.objects("probes", [&](JsonReader& r) { readProbe(r, spec.probes.emplace_back()); });
+    reader.objects("grids", [&](JsonReader& r) { readGrid(r, spec.grids.emplace_back()); });
     reader.object("geometry", [&](JsonReader& r) { readOptions(r, spec.modelOptions); });
     reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });
     readLights(reader, spec);

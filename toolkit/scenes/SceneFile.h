@@ -8,6 +8,7 @@
 #pragma once
 
 #include "toolkit/json/JsonReader.h"
+#include "toolkit/scenes/SceneGrids.h"
 #include "toolkit/scenes/SceneProbes.h"
 #include "toolkit/scenes/SceneRaster.h"
 
@@ -55,6 +56,7 @@ struct SceneSpec {
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     std::vector<ProbeSpec> probes;
+    std::vector<GridSpec> grids;
     GltfLoadOptions modelOptions{};
     std::optional<double> animationSeconds; ///< none: the rest pose
     uint32_t animation = 0;                 ///< index in the file

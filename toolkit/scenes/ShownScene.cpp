@@ -127,6 +127,7 @@ Result<ShownScene> SceneLoader::show(SceneSpec const& spec, GltfLoadOptions cons
     else if (shown.model && shown.model->environment())
         shown.scene.setEnvironment(*shown.model->environment(), spec.environmentSettings);
     if (Result<void> added = addProbes(shown, spec, environmentOptions); !added) return added.error();
+    if (Result<void> added = addGrids(shown.scene, spec, mFolders); !added) return added.error();
     return shown;
 }
 

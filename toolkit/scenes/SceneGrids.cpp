@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "toolkit/scenes/SceneGrids.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+
+namespace filament_core::tools {
+namespace {
+
+constexpr uint32_t kMostOfAxis = 64;
+
+/// Light of one direction in three bands: its product with each basis function.
+IrradianceProbe probeOf(float3 ambient, float3 directed, float3 from) {
+    const float length = glm::length(from);
+    const float3 n = length > 0 ? from / length : float3(0, 1, 0);
+    const std::array<float, 9> shares{ 0.25f,
+                                       0.5f * n.y,
+                                       0.5f * n.z,
+                                       0.5f * n.x,
+                                       0.9375f * n.x * n.y,
+                                       0.9375f * n.y * n.z,
+                                       0.078125f * (3 * n.z * n.z - 1),
+                                       0.9375f * n.z * n.x,
+                                       0.234375f * (n.x * n.x - n.y * n.y) };
+    IrradianceProbe probe;
+    for (size_t i = 0; i < shares.size(); ++i) probe.irradianceSh[i] = shares[i] * directed;
+    probe.irradianceSh[0] += ambient;
+    return probe;
+}
+
+void readProbes(JsonReader& reader, IrradianceGridDesc& grid) {
+    auto probes = std::make_shared<IrradianceProbes>();
+    double3 count(2.0);
+    reader.numbers("count", &count.x, 3, 1, kMostOfAxis);
+    probes->count = uint3(count);
+    reader.objects("probes", [&](JsonReader& r) {
+        float3 ambient(0), directed(0), from(0, 1, 0);
+        r.read("ambient", ambient);
+        r.read("directed", directed);
+        r.read("from", from);
+        probes->probes.push_back(probeOf(ambient, directed, from));
+        r.read("inside", probes->probes.back().isInside);
+    });
+    if (probes->probes.empty()) {
+        reader.complain("probes", "expected one at least, or a file");
+        return;
+    }
+    probes->probes.resize(size_t{ probes->count.x } * probes->count.y * probes->count.z, probes->probes.back());
+    grid.probes = probes;
+}
+
+} // namespace
+
+void readGrid(JsonReader& reader, GridSpec& grid) {
+    IrradianceGridDesc& desc = grid.grid;
+    reader.read("at", desc.centerWorld);
+    reader.read("halfExtent", desc.halfExtentMeters);
+    double3 degrees(0.0);
+    reader.read("degrees", degrees);
+    double4x4 world(1.0); // as copies of the model turn
+    world = glm::rotate(world, glm::radians(degrees.y), double3(0, 1, 0));
+    world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
+    world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
+    desc.worldFromBox = float3x3(double3x3(world));
+    reader.read("blend", desc.blendMeters, 0, 1e9);
+    reader.read("intensity", desc.intensity, 0, 1e9);
+    reader.read("name", desc.name);
+    reader.read("file", grid.file);
+    const float3 half = desc.halfExtentMeters;
+    if (!(half.x > 0 && half.y > 0 && half.z > 0) || std::max({ half.x, half.y, half.z }) > 1e9f)
+        reader.complain("halfExtent", "expected three numbers of (0, 1e9]");
+    if (grid.file.empty()) readProbes(reader, desc);
+}
+
+} // namespace filament_core::tools
