@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/effects/Pairs.h"
 
+#include <memory>
 #include <utility>
 
 namespace filament_core::bench {
@@ -28,6 +29,35 @@ std::function<void(Scene&, View&)> withFog(Fog const& fog) {
         view.quality.shadows = ShadowFilter::Off;
         view.effects.fog = fog;
     };
+}
+
+/// Probes around the model, whose light changes from place to place.
+void addGrid(Scene& scene, View&) {
+    auto probes = std::make_shared<IrradianceProbes>();
+    probes->count = uint3(6);
+    for (uint32_t i = 0; i < 216; ++i) {
+        const float3 at = float3(uint3(i % 6, i / 6 % 6, i / 36));
+        IrradianceProbe probe;
+        probe.irradianceSh[0] = 2000.0f + 800.0f * at;
+        probe.irradianceSh[1] = 300.0f * float3(at.y, at.z, at.x);
+        probe.irradianceSh[4] = float3(100);
+        probes->probes.push_back(probe);
+    }
+    scene.add(IrradianceGridDesc{ .halfExtentMeters = float3(1.5f), .probes = probes });
+}
+
+void addGridPairs(std::vector<Pair>& all, const char* file) {
+    const auto nothing = [](Scene&, View& view) { view.quality.shadows = ShadowFilter::Off; };
+    const auto grid = [](Scene& scene, View& view) {
+        view.quality.shadows = ShadowFilter::Off;
+        addGrid(scene, view);
+    };
+    all.push_back({ .name = "irradiance grid", .file = file, .plain = nothing, .effect = grid });
+    all.push_back({ .name = "irradiance grid, the model turns",
+                    .file = file,
+                    .plain = nothing,
+                    .effect = grid,
+                    .moving = Moving::Model });
 }
 
 void addFogPairs(std::vector<Pair>& all, const char* file) {
@@ -348,6 +378,7 @@ std::vector<Pair> effectPairs() {
     probes("reflection probe in a part", { 0.1f });
     probes("two reflection probes in parts", { 0.1f, 0.15f });
     probes("eight reflection probes in parts", { 0.08f, 0.09f, 0.1f, 0.11f, 0.12f, 0.13f, 0.14f, 0.15f });
+    addGridPairs(all, kHelmet);
     addFogPairs(all, kHelmet);
     addVolumetricFogPairs(all, kHelmet);
     addContactPairs(all, kHelmet);
