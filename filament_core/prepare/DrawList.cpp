@@ -148,7 +148,7 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Render
         const LevelChoice::Vanishing other = levels.vanishing(item.renderable, finest, drawableOf(item.draw));
         const uint32_t draw = drawOf(other.drawable, isMirrored(item.draw));
         // What fades is opaque and has no other order than that of its depth, which the key of the other level has.
-        const uint64_t key = item.key & ~kDrawableKeyMask | uint64_t{ other.drawable } << kDrawableKeyShift;
+        const uint64_t key = (item.key & ~kDrawableKeyMask) | uint64_t{ other.drawable } << kDrawableKeyShift;
         *next++ = { key, item.renderable, draw | fadeBits(static_cast<LevelFade>(-other.fade)) };
     }
     return all;

@@ -56,8 +56,15 @@ public:
     void lookFrom(double meters) {
         view.camera = Camera::lookAt({ 0, 0, meters }, { 0, 0, 0 }, { .verticalFovDegrees = 32 });
     }
-    Image draw() { return draw(renderer); }
-    Image draw(Renderer& with) { return test::renderLinear(engine, with, scene, view); }
+    Image draw() { return test::renderLinear(engine, renderer, scene, view); }
+    /// A second one, below the first, for which the colour pass has depths of its own.
+    void addWithStencil() {
+        mWithStencil = engine.own(engine.createInstance(mMaterial));
+        engine.setStencil(mWithStencil, StencilState{});
+        double4x4 below(0.25);
+        below[3] = double4(0, -0.5, 0, 1);
+        scene.add({ .vertices = mVertices, .indices = mIndices, .material = mWithStencil, .worldFromObject = below });
+    }
     /// After so many frames of the finest level, the first frames in which the coarser one is wanted.
     std::vector<Image> replaced(uint32_t frames) {
         view.lod.pixels = 0.01f;
@@ -75,7 +82,7 @@ public:
 
 private:
     Owned<Material> mMaterial;
-    Owned<MaterialInstance> mInstance;
+    Owned<MaterialInstance> mInstance, mWithStencil;
     Owned<VertexBuffer> mVertices;
     Owned<IndexBuffer> mIndices;
 };
@@ -164,6 +171,16 @@ TEST(LevelFade, HasTheSameBitsOnBothApisAndForAnyNumberOfWorkers) {
     for (size_t i = 0; i < images.size(); ++i) {
         EXPECT_EQ(test::differingPixels(images[i], others[i]), 0u) << i;
         EXPECT_EQ(test::differingPixels(images[i], third[i]), 0u) << i;
+    }
+}
+
+TEST(LevelFade, ReplacesAtOnceWhereTheColorPassHasItsOwnDepths) {
+    for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+        Ball with(backend), without(backend);
+        with.addWithStencil();
+        without.addWithStencil();
+        without.view.quality.depthPrepass = DepthPrepass::Off;
+        EXPECT_EQ(test::differingPixels(with.replaced(1)[0], without.replaced(1)[0]), 0u);
     }
 }
 
