@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PlaceGrids.h"
 
+#include "base/math/IrradianceSh.h"
 #include "filament_core/prepare/ObjectData.h"
 #include "filament_core/prepare/ViewConstants.h"
 
@@ -42,7 +43,7 @@ IrradianceSh environmentOf(scene::SceneData const& scene, shader::FrameUniforms 
     if (!scene.indirectLight.specular) return light;
     for (size_t i = 0; i < light.size(); ++i)
         light[i] = float3(scene.indirectLight.irradianceSh[i]) * scene.indirectLight.illuminance.value;
-    return scene::rotateIrradiance(light, float3x3(frame.worldFromEnvironment));
+    return rotateIrradianceSh(light, float3x3(frame.worldFromEnvironment));
 }
 
 FieldBox boxOf(scene::Renderables const& renderables, uint32_t renderable) {
@@ -140,7 +141,7 @@ GridPacket findGrids(Arena& arena, scene::SceneData const& scene, ViewInput cons
     GridPacket grids;
     for (size_t i = 0; i < records.size(); ++i) {
         inView[i] = reachesIntoView(records[i], space) ? 1 : 0;
-        ++(inView[i] != 0 ? grids.used : grids.outOfView);
+        ++(inView[i] != 0 ? grids.used : grids.outOfReach);
     }
     grids.inView = inView;
     // Light is stored in units of the environment's. One of 0 lux stays dark: its light is 2^-40 of a lux.

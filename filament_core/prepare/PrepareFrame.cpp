@@ -74,7 +74,7 @@ SceneDemand demandOf(scene::SceneData const& scene, FramePacket const& packet, S
                           .leftOut = packet.probes.leftOut },
               .grids = { .inScene = static_cast<uint32_t>(scene.grids.records.size()),
                          .used = packet.grids.used,
-                         .outOfReach = packet.grids.outOfView } });
+                         .outOfReach = packet.grids.outOfReach } });
 }
 
 /// The views of the maps follow those that were asked for.

@@ -43,7 +43,4 @@ struct Grids {
 /// Of a valid description.
 GridRecord gridRecord(IrradianceGridDesc const& desc);
 
-/// What irradiance / pi becomes when the frame of its coefficients turns: `to[axis]` is where the axis goes.
-std::array<float3, 9> rotateIrradiance(std::array<float3, 9> const& irradianceSh, float3x3 const& to);
-
 } // namespace filament_core::scene

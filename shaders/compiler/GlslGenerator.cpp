@@ -331,8 +331,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (!done) return done;
     done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface/quality.glsl",
                              "shaders/material/surface/object_field.glsl", "shaders/material/surface/probe_shares.glsl",
-                             "shaders/material/surface/incoming.glsl",
-                             "shaders/material/surface/parameters.glsl", "shaders/material/surface/occlusion.glsl" });
+                             "shaders/material/surface/incoming.glsl", "shaders/material/surface/parameters.glsl",
+                             "shaders/material/surface/occlusion.glsl" });
     for (Layer const& layer : kLayers) {
         if (done && needs.has(layer.term)) done = out.include(layer.text);
     }

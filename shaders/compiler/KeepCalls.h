@@ -15,7 +15,7 @@ namespace filament_core::shader {
 
 /// With the parenthesis that follows in a name of glslang.
 inline constexpr std::array<std::string_view, 4> kKeptCalls{ "probedRadiance(", "probedIrradiance(", "fieldColor(",
-                                                              "objectIrradiance(" };
+                                                             "objectIrradiance(" };
 
 std::vector<uint32_t> keepCalls(std::span<const uint32_t> module);
 

@@ -3,7 +3,6 @@
 #include "filament_core/scene/SampleGrid.h"
 #include "tests/scenes/GridOf.h"
 
-#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,16 +14,6 @@ namespace {
 using scenes::ambientOf;
 using scenes::gridOf;
 
-/// The sum of IrradianceProbe::irradianceSh.
-float3 irradianceAt(IrradianceSh const& sh, double3 n) {
-    const std::array<double, 9> basis{
-        1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.z * n.x, n.x * n.x - n.y * n.y
-    };
-    double3 sum(0);
-    for (size_t i = 0; i < basis.size(); ++i) sum += basis[i] * double3(sh[i]);
-    return float3(sum);
-}
-
 float3 randomUnit(std::mt19937& random) {
     std::normal_distribution<float> normal;
     return glm::normalize(float3(normal(random), normal(random), normal(random)));
@@ -35,19 +24,6 @@ IrradianceSh randomLight(std::mt19937& random) {
     IrradianceSh light;
     for (float3& coefficient : light) coefficient = float3(value(random), value(random), value(random));
     return light;
-}
-
-TEST(RotateIrradiance, ATurnedLightHasTheOldValueInTheTurnedDirection) {
-    std::mt19937 random(1);
-    for (int i = 0; i < 50; ++i) {
-        const IrradianceSh light = randomLight(random);
-        const double3x3 turn(glm::rotate(double4x4(1.0), 0.3 * i, double3(randomUnit(random))));
-        const IrradianceSh turned = rotateIrradiance(light, float3x3(turn));
-        for (int j = 0; j < 8; ++j) {
-            const double3 n(randomUnit(random));
-            EXPECT_LT(glm::length(irradianceAt(turned, turn * n) - irradianceAt(light, n)), 2e-6f);
-        }
-    }
 }
 
 TEST(Octahedral, PlacesAndDirectionsAreInverse) {
