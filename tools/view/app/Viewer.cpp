@@ -8,6 +8,7 @@
 #include "tools/view/panels/AnimationModel.h"
 #include "tools/view/panels/CameraModel.h"
 
+#include <filament_core/TextureStreaming.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -315,6 +316,7 @@ void Viewer::pollLoads() {
         mFramesToDraw = std::max(mFramesToDraw, 1u);
     }
     if (std::exchange(mGeneration, mStage->generation()) != mStage->generation()) touch();
+    if (!textureResidency(mStage->engine()).isSettled) touch(); // streamed textures arrive with frames
 }
 
 void Viewer::pollPick() {
