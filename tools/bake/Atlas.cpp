@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/Atlas.h"
+
+#include "tools/bake/Packing.h"
+
+#include <cmath>
+#include <map>
+
+namespace filament_core::bake {
+namespace {
+
+constexpr double kMostTexels = 1e9; // of a chart's side, before it is rounded to whole texels
+
+std::optional<Packing> pack(std::vector<AtlasChart>& charts, AtlasOptions const& options) {
+    std::vector<uint2> sizes;
+    for (AtlasChart& chart : charts) {
+        const double2 texels = glm::min(glm::ceil(chart.chart.size * options.texelsPerMeter), kMostTexels);
+        chart.size = uint2(texels) + 2 * kPadding;
+        if (std::max(chart.size.x, chart.size.y) > options.maxSide) return std::nullopt;
+        sizes.push_back(chart.size);
+    }
+    return packRectangles(sizes, options.maxSide);
+}
+
+AtlasSurface newVertices(BakeSurface const& surface, std::span<const AtlasChart> charts, Atlas const& atlas) {
+    AtlasSurface result;
+    result.indices.resize(surface.indices.size());
+    for (AtlasChart const& chart : charts) {
+        std::map<uint32_t, uint32_t> made; // vertices of this chart
+        for (size_t i = 0; i < chart.chart.corners.size(); ++i) {
+            const size_t at = size_t(chart.chart.triangles[i / 3]) * 3 + i % 3;
+            const uint32_t source = surface.indices[at];
+            const auto [entry, isNew] = made.try_emplace(source, static_cast<uint32_t>(result.sources.size()));
+            result.indices[at] = entry->second;
+            if (!isNew) continue;
+            result.sources.push_back(source);
+            result.uvs.emplace_back(chart.corner(i, atlas.texelsPerMeter) / double(atlas.side));
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions const& options, jobs::JobSystem& jobs) {
+    std::vector<std::vector<Chart>> cut(surfaces.size());
+    jobs::parallelFor<"charts">(jobs, surfaces.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            cut[i] = makeCharts(surfaces[i].positions, surfaces[i].indices, options.charts);
+    });
+    Atlas atlas{ .texelsPerMeter = options.texelsPerMeter };
+    std::vector<size_t> first;
+    double area = 0;
+    for (uint32_t i = 0; i < surfaces.size(); ++i) {
+        first.push_back(atlas.charts.size());
+        for (Chart& chart : cut[i]) {
+            area += chart.size.x * chart.size.y;
+            atlas.charts.push_back({ .surface = i, .chart = std::move(chart) });
+        }
+    }
+    first.push_back(atlas.charts.size());
+    const std::optional<Packing> packing = pack(atlas.charts, options);
+    if (!packing) {
+        const double density = 0.8 * double(options.maxSide) / std::sqrt(std::max(area, 1e-12));
+        return fail(ErrorCode::InvalidArgument,
+                    "{} charts at {} texels a metre do not fit into {} x {} texels; try --density {:.3g}",
+                    atlas.charts.size(), options.texelsPerMeter, options.maxSide, options.maxSide,
+                    std::min(density, options.texelsPerMeter / 2));
+    }
+    atlas.side = packing->side;
+    for (size_t i = 0; i < atlas.charts.size(); ++i) atlas.charts[i].place = packing->places[i];
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+        const auto charts = std::span(atlas.charts).subspan(first[i], first[i + 1] - first[i]);
+        atlas.surfaces.push_back(newVertices(surfaces[i], charts, atlas));
+    }
+    return atlas;
+}
+
+} // namespace filament_core::bake

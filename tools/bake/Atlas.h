@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Atlas: the surfaces of a scene as charts in one square image.
+///   In      surfaces in world space; texels per metre, and how large the image may become.
+///   Out     for each surface its vertices anew (those on the border of several charts once for each), with texture
+///           coordinates in [0, 1]^2, row 0 at v = 0. No two charts come closer than 2 * kPadding texels, so that
+///           neither bilinear filtering nor the first coarser mip level mixes them.
+///   Fails   InvalidArgument if the charts do not fit: it names the density at which they may.
+///   Thread  makeAtlas(): any; surfaces are cut in parallel. The same atlas for any number of workers.
+#pragma once
+
+#include "base/Result.h"
+#include "base/math/Math.h"
+#include "jobsystem/JobSystem.h"
+#include "tools/bake/Charts.h"
+
+#include <span>
+#include <vector>
+
+namespace filament_core::bake {
+
+inline constexpr uint32_t kPadding = 2; ///< texels around each chart
+
+/// One primitive at one node.
+struct BakeSurface {
+    std::vector<double3> positions; ///< world, metres
+    std::vector<double3> normals;   ///< world, unit; empty: those of the faces
+    std::vector<uint32_t> indices;  ///< three for each triangle, counter-clockwise from its front
+};
+
+struct AtlasSurface {
+    std::vector<uint32_t> sources; ///< by new vertex: the vertex of the BakeSurface
+    std::vector<float2> uvs;       ///< by new vertex
+    std::vector<uint32_t> indices; ///< new vertices, in the order of the surface's triangles
+};
+
+/// Where a chart is.
+struct AtlasChart {
+    uint32_t surface = 0;
+    uint2 place{ 0 }, size{ 0 }; ///< texels, with the padding
+    Chart chart;                 ///< corners in metres
+    /// In texels of the image.
+    double2 corner(size_t i, double texelsPerMeter) const {
+        return double2(place) + double(kPadding) + chart.corners[i] * texelsPerMeter;
+    }
+};
+
+struct Atlas {
+    uint32_t side = 0; ///< texels
+    double texelsPerMeter = 0;
+    std::vector<AtlasChart> charts;     ///< of the first surface first
+    std::vector<AtlasSurface> surfaces; ///< as many as there were
+};
+
+struct AtlasOptions {
+    double texelsPerMeter = 16;
+    uint32_t maxSide = 4096;
+    ChartOptions charts{};
+};
+
+Result<Atlas> makeAtlas(std::span<const BakeSurface> surfaces, AtlasOptions const& options, jobs::JobSystem& jobs);
+
+} // namespace filament_core::bake
