@@ -8,6 +8,7 @@
 #include "tools/reference/ScatteringMedium.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace filament_core::reference {
 
@@ -77,6 +78,38 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     if (!first && !mScene.skybox()) return light;
     const double3 seen = mFog.inFront(light, share, ray.direction, distance);
     return mFog.isLit() ? seen + share * scatteredByFog(path, ray, distance) : seen;
+}
+
+// As the light that a white Lambert surface reflects, which is the irradiance over pi.
+Arriving PathTracer::arriving(ReceivingPoint const& point, LampLight lamps, SampleStream const& numbers,
+                              uint64_t& rays) const {
+    SurfaceSample surface;
+    surface.position = point.position;
+    surface.normal = surface.view = point.normal;
+    surface.geometricNormal = point.geometricNormal;
+    surface.diffuse = double3(1.0);
+    surface.selfAvoidance = point.selfAvoidance;
+    const Bsdf white(surface, { .coupling = CouplingTerm::Never, .lobes = LobeChoice::Diffuse }, false, false);
+    Path path{ .numbers = numbers, .rays = rays };
+    double3 sum(0.0);
+    if (!mScene.environment().isBlack() && mSettings.sampling != Sampling::Bsdf)
+        sum += environmentSample(path, surface, white) * mExposure;
+    if (lamps == LampLight::Direct && !mScene.directLights().empty())
+        sum += directSample(path, surface, white) * mExposure;
+    sum += emissiveSample(path, surface, white);
+    Arriving arriving;
+    if (reflect(path, surface, white)) {
+        const std::optional<SurfaceSample> first = nextSurface(path);
+        arriving.fromSky = !first;
+        if (first) {
+            Part const& part = mScene.part(path.hit);
+            const bool isBack = glm::dot(faceNormal(part, path.hit.point.triangle), path.ray.direction) > 0;
+            arriving.fromBehind = isBack && !part.material->doubleSided && !first->transmits();
+        }
+        sum += follow(path, first);
+    }
+    arriving.irradiance = sum * std::numbers::pi;
+    return arriving;
 }
 
 /// The light of one lamp at one point of the fog.

@@ -24,6 +24,24 @@
 
 namespace filament_core::reference {
 
+/// A point whose irradiance is wanted; positions are relative to the scene's origin.
+struct ReceivingPoint {
+    double3 position{ 0.0 };
+    double3 normal{ 0, 0, 1 };          ///< shading normal, unit
+    double3 geometricNormal{ 0, 0, 1 }; ///< unit; below it nothing arrives
+    double selfAvoidance = 1e-6;        ///< metres, as SurfaceSample::selfAvoidance
+};
+
+/// What one path from a point of a surface finds.
+struct Arriving {
+    double3 irradiance{ 0.0 }; ///< lux times exposure; its mean over many paths is that of the surface
+    bool fromSky = false;      ///< the path left without meeting a surface
+    bool fromBehind = false;   ///< it first met the back of a single-sided surface, as from inside of a wall
+};
+
+/// Which light counts that arrives straight from lamps: suns, points, spots and areas.
+enum class LampLight : uint8_t { None, Direct };
+
 class PathTracer {
 public:
     PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background,
@@ -31,6 +49,10 @@ public:
 
     /// `ray` is relative to the scene's origin. `rays` counts the rays traced.
     double3 radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const;
+
+    /// The environment, glowing surfaces and all light that was reflected before count, whatever `lamps` is.
+    ///   Method  cosine-weighted directions, with multiple importance sampling of environment and glowing surfaces.
+    Arriving arriving(ReceivingPoint const& point, LampLight lamps, SampleStream const& numbers, uint64_t& rays) const;
 
 private:
     struct Path;
