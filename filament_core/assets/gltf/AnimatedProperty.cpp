@@ -108,6 +108,7 @@ constexpr std::array kTexturePaths{
     TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionColorTexture", MapName::DiffuseTransmission },
     TexturePath{ EXTENSION "diffuse_transmission/diffuseTransmissionTexture", MapName::DiffuseTransmissionFactor },
     TexturePath{ EXTENSION "volume_scatter/multiscatterColorTexture", MapName::Multiscatter },
+    TexturePath{ "extensions/FILAMENT_lightmap/lightmapTexture", MapName::Light },
 };
 #undef EXTENSION
 
@@ -300,6 +301,8 @@ TextureRef& mapOf(MaterialData& m, MapName map) {
         return secondOf(m.diffuseTransmission.maps);
     case MapName::Multiscatter:
         return m.volumeScatter.map;
+    case MapName::Light:
+        return m.light.map;
     case MapName::BaseColor:
     case MapName::None:
         break;

@@ -99,6 +99,7 @@ enum class MapName : uint8_t {
     DiffuseTransmission,
     DiffuseTransmissionFactor,
     Multiscatter,
+    Light,
 };
 
 struct AnimatedProperty {

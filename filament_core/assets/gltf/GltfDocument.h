@@ -222,7 +222,7 @@ struct GltfTexturePair {
 struct GltfMaterial {
     MaterialData values;
     GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive, bump;
-    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness, multiscatter;
+    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness, multiscatter, light;
     GltfTexturePair clearCoat, sheen, specular, iridescence, transmission, diffuseTransmission;
 };
 

@@ -166,6 +166,13 @@ void warnAboutLayers(Extensions const& extensions, const char* model) {
     }
 }
 
+void parseLightmap(Extensions const& extensions, GltfMaterial& material) {
+    const JsonNode node = extensions.at("FILAMENT_lightmap");
+    material.light = extensions.texture(node, "lightmapTexture");
+    material.values.light.intensityLux = node["intensity"].numberInRange(1, 0, kMaxFloat);
+    material.values.light.hasDirectLight = node["directLight"].boolean(false);
+}
+
 } // namespace
 
 void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material) {
@@ -191,6 +198,7 @@ void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMate
     parseTransmission(extensions, material);
     parseDiffuseTransmission(extensions, material);
     parseVolumeScatter(extensions, material);
+    parseLightmap(extensions, material);
 }
 
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,

@@ -348,8 +348,8 @@ GltfTexture parseTexture(JsonNode const& node, Counts const& counts) {
     GltfTexture texture{ node["sampler"].index(counts.samplers, "samplers"),
                          node["source"].index(counts.images, "images") };
     // the last one comes first
-    for (const char* extension :
-         { "MSFT_texture_dds", "EXT_texture_avif", "EXT_texture_webp", "EXT_texture_astc", "KHR_texture_basisu" }) {
+    for (const char* extension : { "MSFT_texture_dds", "EXT_texture_avif", "EXT_texture_webp", "EXT_texture_astc",
+                                   "KHR_texture_basisu", "FILAMENT_lightmap" }) {
         const uint32_t image = node.extension(extension)["source"].index(counts.images, "images");
         if (image != kNone) texture.image = image;
     }

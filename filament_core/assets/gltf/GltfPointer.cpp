@@ -224,6 +224,8 @@ GltfTextureInfo* textureInfoOf(GltfMaterial& m, MapName map) {
         return &m.diffuseTransmission.second;
     case MapName::Multiscatter:
         return &m.multiscatter;
+    case MapName::Light:
+        return &m.light;
     }
     return nullptr;
 }

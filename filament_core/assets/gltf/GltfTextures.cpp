@@ -43,6 +43,7 @@ public:
         }
         data.metallicRoughness = textureFor(material.metallicRoughness, Use::Data);
         resolveExtensions(material, data);
+        data.light.map = textureFor(material.light, Use::Light);
         return data;
     }
 
@@ -68,7 +69,7 @@ private:
         if (data.scatters()) data.volumeScatter.map = textureFor(material.multiscatter, Use::Color);
     }
 
-    enum class Use : uint8_t { Color, Data, Normals };
+    enum class Use : uint8_t { Color, Data, Normals, Light };
 
     TextureRef textureFor(GltfTextureInfo const& info, Use use) {
         TextureRef reference = referenceTo(info);
@@ -153,7 +154,10 @@ private:
             mTextures.jobs.emplace_back().source = source;
         }
         GltfImageJob& job = mTextures.jobs[mJobOfSource[source]];
-        uint32_t& slot = use == Use::Color ? job.colorTexture : use == Use::Data ? job.dataTexture : job.normalTexture;
+        uint32_t& slot = use == Use::Color     ? job.colorTexture
+                         : use == Use::Data    ? job.dataTexture
+                         : use == Use::Normals ? job.normalTexture
+                                               : job.lightTexture;
         if (slot == kNone) slot = mTextures.textureCount++;
         return slot;
     }
@@ -206,6 +210,14 @@ uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
 /// The smaller of two limits, of which 0 is none.
 uint32_t smallerLimit(uint32_t a, uint32_t b) { return a == 0 || b == 0 ? std::max(a, b) : std::min(a, b); }
 
+/// Its levels are those of the file: others would mix charts, which lie apart by less than their texels.
+void decodeLight(GltfDocument const& document, GltfImageSource const& source, GltfImageJob& job) {
+    Result<DecodedTexture> texture = decode(document, source, 0, TextureDepth::Floats);
+    if (!texture) return job.diagnostics.refuse(texture.error());
+    const bool isFloat = backend::formatInfo(texture->image.format).isFloat;
+    job.light = isFloat ? std::move(texture->image) : withAllLevels(std::move(*texture), false, 0);
+}
+
 } // namespace
 
 TextureBlocks blocksOf(GltfImageJob const& job, GltfBlocks blocks) {
@@ -255,13 +267,15 @@ void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, 
     GltfImageSource const& source = textures.sources[job.source];
     maxSize = smallerLimit(maxSize, job.maxSize);
     try {
+        if (job.lightTexture != kNone) decodeLight(document, source, job);
+        if (job.useCount() == (job.lightTexture != kNone ? 1u : 0u)) return;
         const bool hasNormals = job.normalTexture != kNone; // of which the first level counts, even if it is dropped
         Result<DecodedTexture> texture =
                 decode(document, source, hasNormals ? 0 : maxSize, TextureDepth::AllBits, blocksOf(job, blocks));
         if (!texture) return job.diagnostics.refuse(texture.error());
         warnAboutTransfer(document, source, texture->isSrgb, job);
         if (job.colorTexture != kNone) warnAboutColorSpace(document, source, job.diagnostics);
-        uint32_t uses = job.useCount();
+        uint32_t uses = job.useCount() - (job.lightTexture != kNone ? 1u : 0u);
         // An image may be both a colour and data. The last use takes it; only the others copy.
         const auto take = [&] { return --uses == 0 ? std::move(*texture) : *texture; };
         if (job.colorTexture != kNone) job.color = withAllLevels(take(), true, maxSize);
@@ -304,6 +318,7 @@ std::vector<Image> collectImages(GltfTextures& textures) {
         if (job.colorTexture != kNone) images[job.colorTexture] = std::move(job.color);
         if (job.dataTexture != kNone) images[job.dataTexture] = std::move(job.data);
         if (job.normalTexture != kNone) images[job.normalTexture] = std::move(job.normals);
+        if (job.lightTexture != kNone) images[job.lightTexture] = std::move(job.light);
     }
     for (GltfPackJob& job : textures.packs) images[job.texture] = std::move(job.image);
     return images;

@@ -164,6 +164,14 @@ struct VolumeScatterData {
     bool isUsed() const { return color != float3(0.0f) || isAnimated; }
 };
 
+/// FILAMENT_lightmap: baked light (docs/baking.md).
+struct LightMapData {
+    TextureRef map;              ///< RGB: irradiance over `intensityLux`; alpha: part of the sky that is seen
+    float intensityLux = 1;      ///< >= 0
+    bool hasDirectLight = false; ///< of lamps, which must then not light the surface again
+    bool isUsed() const { return map.image != kNone; }
+};
+
 /// KHR_materials_pbrSpecularGlossiness: replaces metallic and roughness; the base colour is the diffuse colour.
 struct SpecularGlossinessData {
     float3 specularFactor{ 1.0f };
@@ -203,6 +211,7 @@ struct MaterialData {
     TransmissionData transmission;
     DiffuseTransmissionData diffuseTransmission;
     VolumeScatterData volumeScatter;
+    LightMapData light;
 
     bool isAnimated = false, isIorAnimated = false; ///< KHR_animation_pointer: any property; the index of refraction
 

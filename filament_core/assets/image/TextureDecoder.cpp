@@ -66,7 +66,7 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
         if (!isPngOrJpeg(bytes) && !isWebp(bytes) && !isAvif(bytes))
             return fail(ErrorCode::Unsupported,
                         "image '{}' is none of PNG, JPEG, WebP, AVIF, KTX2 and DDS; convert it to one of them", name);
-        if (depth == TextureDepth::AllBits && isDeepImage(bytes)) {
+        if (depth != TextureDepth::EightBits && isDeepImage(bytes)) {
             Result<DeepImage> deep = decodeDeepImage(bytes, name);
             if (!deep) return deep.error();
             return DecodedTexture{ .image = {}, .deep = std::move(*deep) };
@@ -84,6 +84,8 @@ Result<DecodedTexture> decodeTexture(std::span<const std::byte> bytes, std::stri
             bytes, name,
             { .maxSize = isWhole ? maxSize : 0, .isOneLevel = !isWhole, .keepsBc7 = blocks == TextureBlocks::KeptBc7 });
     if (!texture) return texture.error();
+    const bool isFloat = backend::formatInfo(texture->image.format).isFloat;
+    if (isFloat && depth == TextureDepth::Floats) return DecodedTexture{ .image = std::move(texture->image) };
     if (Result<void> checked = checkTexels(texture->image, name, "UASTC"); !checked) return checked.error();
     setTransfer(texture->image, false);
     return DecodedTexture{ .image = std::move(texture->image), .isSrgb = texture->isSrgb };

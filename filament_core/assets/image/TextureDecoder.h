@@ -21,7 +21,7 @@
 namespace filament_core::assets {
 
 struct DecodedTexture {
-    Image image;                  ///< RGBA8 or BC7, also of colours; empty if `deep` is not
+    Image image;                  ///< RGBA8 or BC7, also of colours; RGBA16F if asked for; empty if `deep` is not
     std::optional<bool> isSrgb{}; ///< what the file says of its colours, if it says it
     DeepImage deep{};             ///< an image with more than 8 bits a channel
 };
@@ -29,6 +29,7 @@ struct DecodedTexture {
 enum class TextureDepth : uint8_t {
     EightBits, ///< images with more are rounded
     AllBits,
+    Floats, ///< also those of KTX 2.0, as RGBA16F in DecodedTexture::image
 };
 
 enum class TextureBlocks : uint8_t {
