@@ -120,6 +120,10 @@ constexpr MaterialMember kMembers[] = {
       1, kZero, isLit, kNeutral, "HAS_IRIDESCENCE", kZero },
     { "iridescenceIor", "index of refraction of the film", 1, { 1.3f }, isLit },
     { "iridescenceThickness", "of the film, nanometres", 1, { 400 }, isLit }, // nanometres
+    { "bakedLight",
+      "irradiance, times the exposure, in place of the environment's diffuse light; w is the part of the sky that is "
+      "seen, [0, 1], and -1 where nothing is baked",
+      4, { 0, 0, 0, -1 }, isLit, kNeutral, "HAS_BAKED_LIGHT", { 0, 0, 0, -1 } },
     { "diffuseTransmission",
       "the part of the diffused light that leaves on the other side, [0, 1]",
       1, kZero, isLit, kNeutral, "HAS_DIFFUSE_TRANSMISSION", kZero },

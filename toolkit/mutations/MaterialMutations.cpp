@@ -120,6 +120,33 @@ private:
     std::byte (*const mChange)(std::byte);
     std::set<TextureHandle> mNormalMaps;
 };
+
+/// Moves the texels of lightmaps by one, so that those of one chart lie in the next.
+class LightmapShift final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mLightmaps.clear();
+        findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
+            shader::Parameter const* map = package.findParameter("lightMap");
+            for (BindGroupEntry const& entry : entries) {
+                if (map && entry.texture && entry.binding == map->binding) mLightmaps.insert(entry.texture);
+            }
+        });
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUploadTexture& command) override {
+        constexpr ptrdiff_t kTexel = 8; // RGBA16F
+        if (!mLightmaps.contains(command.texture)) return;
+        Bytes& texels = copy(command.bytes);
+        std::rotate(texels.begin(), texels.begin() + kTexel, texels.end());
+    }
+
+private:
+    std::set<TextureHandle> mLightmaps;
+};
+
 /// The picture of a loader that assumes DirectX's convention.
 std::unique_ptr<StreamEdit> normalY() {
     return std::make_unique<NormalMapEdit>(1, [](std::byte code) { return ~code; });
@@ -133,6 +160,8 @@ std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>(
 std::unique_ptr<StreamEdit> multiscatter() { return std::make_unique<ParameterEdit>("multiscatterColor", 3, 0.95f); }
 std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
 std::unique_ptr<StreamEdit> bump() { return std::make_unique<ParameterEdit>("bumpFactor", 1, 1.05f); }
+std::unique_ptr<StreamEdit> bakedLight() { return std::make_unique<ParameterEdit>("lightIntensity", 1, 1.02f); }
+std::unique_ptr<StreamEdit> lightmapShift() { return std::make_unique<LightmapShift>(); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMaterialMutations[] = {
@@ -141,6 +170,8 @@ constexpr Mutation kMaterialMutations[] = {
     { "normalVariance", "roughness without that of averaged normals", normalVariance },
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
+    { "bakedLight", "baked light + 2 %", bakedLight },
+    { "lightmapShift", "lightmaps moved by a texel", lightmapShift },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "multiscatter", "colour of light scattered in solids - 5 %", multiscatter },
     { "thickness", "thickness of solids + 5 %", thickness },

@@ -232,6 +232,12 @@ void setTransmission(Settings& settings, assets::TransmissionData const& data, b
     settings.parameter("absorption", glm::min(absorption, float3(kMaxHalf)));
 }
 
+void setLight(Settings& settings, assets::LightMapData const& light) {
+    if (!light.isUsed()) return;
+    settings.parameter("lightIntensity", light.intensityLux);
+    settings.map("light", "hasLightMap", light.map);
+}
+
 void setAll(Settings& settings, MaterialData const& material, GltfVertices const& vertices, float scale) {
     setCore(settings, material, vertices);
     if (material.unlit) return;
@@ -243,6 +249,7 @@ void setAll(Settings& settings, MaterialData const& material, GltfVertices const
                                 : setMetallicRoughness(settings, material);
     setCommonMaps(settings, material, vertices);
     if (material.specularGlossiness) return;
+    setLight(settings, material.light); // before layers, whose maps are left out first
     setClearCoat(settings, material.clearCoat, vertices);
     setSheen(settings, material.sheen);
     setSpecular(settings, material);

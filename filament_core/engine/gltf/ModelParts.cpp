@@ -88,6 +88,7 @@ constexpr std::array kMaps{
     MapRow{ MapName::DiffuseTransmission, "diffuseTransmission", "diffuseTransmissionUvMatrix" },
     MapRow{ MapName::DiffuseTransmissionFactor, "diffuseTransmissionFactor", "diffuseTransmissionFactorUvMatrix" },
     MapRow{ MapName::Multiscatter, "multiscatter", "multiscatterUvMatrix" },
+    MapRow{ MapName::Light, "light", "lightUvMatrix" },
 };
 
 void requireDone(Result<void> const& result) {

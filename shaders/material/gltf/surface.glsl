@@ -6,6 +6,13 @@
 #include "shaders/material/gltf/base_color.glsl"
 #include "shaders/material/gltf/maps.glsl"
 
+// The baked light of FILAMENT_lightmap, exposed: 110 000 lux have no place in 16 bits.
+vec4 gltfBakedLight() {
+    highp vec2 uv = mapUv(materialConstants_lightUv, materialConstants_lightTransform, materialParams.lightUvMatrix);
+    highp vec4 texel = texture(materialParams_lightMap, uv);
+    return vec4(texel.rgb * (materialParams.lightIntensity * getExposure()), texel.a);
+}
+
 // width: of the normal.
 void gltfSurface(inout MaterialInputs material, float width) {
     material.baseColor = gltfBaseColor();
@@ -26,4 +33,5 @@ void gltfSurface(inout MaterialInputs material, float width) {
         material.ambientOcclusion = occlusionOf(occlusion);
     }
     material.emissive = gltfEmissive();
+    if (materialConstants_hasLightMap) material.bakedLight = gltfBakedLight();
 }

@@ -40,8 +40,20 @@ vec3 environmentSeen(Surface surface) {
 
 #endif
 
+// Irradiance / pi, none where baked light is in its place.
+vec3 diffuseOfEnvironment(Surface surface) {
+    vec3 irradiance = vec3(0.0);
+#if defined(HAS_BAKED_LIGHT)
+    if (surface.baked.w < 0.0)
+#endif
+    {
+        irradiance = environmentIrradiance(openNormal(surface.normal));
+    }
+    return irradiance;
+}
+
 highp vec3 baseOfEnvironment(Surface surface) {
-    vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
+    vec3 irradiance = diffuseOfEnvironment(surface);
     vec3 diffuse = surface.diffuse * irradiance * leftBySpecular(surface);
     diffuse = seenDiffuse(diffuse, surface.visibility, surface.diffuse);
 #if defined(HAS_DIFFUSE_TRANSMISSION)
@@ -98,7 +110,7 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
 
 #endif
 
-#if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
+#if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE) || defined(HAS_BAKED_LIGHT)
 
 // Transmittance of the layers above for light from the base.
 highp vec3 throughLayers(Surface surface, highp vec3 light) {
@@ -130,6 +142,19 @@ highp vec3 reflectedPicture(Surface surface) {
     mirrored = aboveHorizon(mirrored, shading_isBumped, shading_reflected);
 #endif
     return throughLayers(surface, mirrored);
+}
+
+#endif
+
+#if defined(HAS_BAKED_LIGHT)
+
+// Diffuse reflection of baked light, which is exposed, and has met all that occludes it.
+highp vec3 bakedReflection(Surface surface) {
+    highp vec3 light = vec3(0.0);
+    if (surface.baked.w >= 0.0) {
+        light = throughLayers(surface, surface.diffuse * leftBySpecular(surface) * surface.baked.rgb * diffuseLambert());
+    }
+    return light;
 }
 
 #endif

@@ -31,6 +31,9 @@ struct Surface {
     vec3 boundary;            // its specularAlbedo: what this leaves enters the matter
     vec3 diffuseExit;         // view-dependent factor of the diffuse lobe under lights
     float visibility;         // ambient occlusion
+#if defined(HAS_BAKED_LIGHT)
+    vec4 baked;               // as MaterialInputs::bakedLight
+#endif
     vec3 normal, view;        // from prepareMaterial(), in the precision of the lighting
     float nov;
 #if defined(HAS_IRIDESCENCE)
@@ -295,5 +298,10 @@ Surface surfaceOf(MaterialInputs material) {
 #endif
     surface.diffuseExit = diffuseExitOf(surface);
     surface.visibility = ambientVisibility(material);
+#if defined(HAS_BAKED_LIGHT)
+    surface.baked = material.bakedLight;
+    // What hides the sky hides its reflections.
+    if (surface.baked.w >= 0.0) surface.visibility = min(surface.visibility, surface.baked.w);
+#endif
     return surface;
 }

@@ -34,6 +34,9 @@ void main() {
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
     if (ofFragment(frameUniforms.ambient.x) > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x;
+#if defined(HAS_BAKED_LIGHT)
+    light += bakedReflection(surface);
+#endif
 #if defined(REFRACTION_OF_PICTURE)
     if (quality_screenRefraction != 0) light += refractedPicture(surface);
 #endif
