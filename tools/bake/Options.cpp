@@ -4,21 +4,134 @@
 #include "toolkit/program/CommandLine.h"
 
 namespace filament_core::bake {
+namespace {
+
+using tools::finiteNumber;
+using tools::invalidOption;
+using tools::wholeNumber;
+
+struct Words {
+    std::string iblIntensity = "30000", rotation = "0", density = "16", maxSize = "4096", samples = "1024", error,
+                maxBounces = "64", seed = "1", direct, shard, threads;
+    std::vector<std::string> sun, exposure, merge;
+};
+
+void declare(tools::CommandLine& app, Words& words, Options& options) {
+    app.option("MODEL", options.model, ".gltf or .glb").required();
+    app.option("--environment", options.environment,
+               "equirectangular .hdr or .exr: the sky; or none (that of the model's file)");
+    app.option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
+    app.option("--ibl-rotation", words.rotation, "rotation of the environment around +Y in degrees (0)");
+    app.option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels").words(4);
+    app.option("--exposure", words.exposure,
+               "APERTURE SHUTTER_SECONDS ISO for which glowing surfaces are authored (16 0.008 100)")
+            .words(3);
+    app.option("--density", words.density, "texels a metre (16)");
+    app.option("--max-size", words.maxSize, "largest side of the lightmap in texels (4096)");
+    app.option("--samples", words.samples, "paths a texel; with --error the maximum (1024)");
+    app.option("--error", words.error, "stop at a texel when its relative standard error is below this");
+    app.option(
+            "--direct", words.direct,
+            "on or off: light straight from lamps and the sun counts, too; the engine must then not draw them (off)");
+    app.option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
+    app.option("--seed", words.seed, "seed of the noise (1)");
+    app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
+    app.option("--merge", words.merge, "do not trace: write the lightmap of parts").typeName("FILE...");
+    app.option("--out", options.out, "folder for what is written (out)");
+    app.option("--threads", words.threads, "number of tracing threads (one per core)");
+}
+
+template <class T>
+Result<void> number(const char* option, std::string const& word, double low, double high, const char* cure, T& value) {
+    const auto parsed = finiteNumber(word);
+    if (!parsed || *parsed < low || *parsed > high) return invalidOption(option, word, cure);
+    value = static_cast<T>(*parsed);
+    return {};
+}
+
+Result<void> whole(const char* option, std::string const& word, uint32_t low, uint32_t high, uint32_t& value) {
+    const auto parsed = wholeNumber(word, low, high);
+    if (!parsed) return invalidOption(option, word, fmt::format("a whole number from {} to {}", low, high));
+    value = *parsed;
+    return {};
+}
+
+Result<void> convertScene(Words const& words, Options& options) {
+    if (auto done =
+                number("--ibl-intensity", words.iblIntensity, 0, 1e9, "lux from 0 to 1e9", options.iblIntensity.value);
+        !done)
+        return done;
+    if (auto done = number("--ibl-rotation", words.rotation, -360, 360, "degrees from -360 to 360",
+                           options.rotationDegrees);
+        !done)
+        return done;
+    std::array<double, 4> sun{};
+    const char* const cure = "LUX DX DY DZ: a finite illuminance >= 0 and a direction that is not zero";
+    const auto isSun = [](std::array<double, 4> const& s) {
+        return s[0] >= 0 && s[0] <= 1e9 && (s[1] != 0 || s[2] != 0 || s[3] != 0);
+    };
+    if (auto done = tools::convertNumbers("--sun", words.sun, cure, sun, isSun); !done) return done;
+    if (!words.sun.empty())
+        options.sun = SunLight{ .directionWorld = float3(sun[1], sun[2], sun[3]),
+                                .illuminance = Lux{ static_cast<float>(sun[0]) } };
+    std::array<double, 3> exposure{ 16, 0.008, 100 };
+    const auto isExposure = [](std::array<double, 3> const& e) {
+        return e[0] > 0 && e[1] > 0 && e[2] > 0 && e[0] < 1e6 && e[1] < 1e6 && e[2] < 1e9;
+    };
+    if (auto done = tools::convertNumbers("--exposure", words.exposure, "three numbers above 0", exposure, isExposure);
+        !done)
+        return done;
+    options.light.exposure = { static_cast<float>(exposure[0]), static_cast<float>(exposure[1]),
+                               static_cast<float>(exposure[2]) };
+    return {};
+}
+
+Result<void> convertLight(Words const& words, Options& options) {
+    if (auto done = number("--density", words.density, 1e-6, 1e6, "texels a metre from 1e-6 to 1e6",
+                           options.atlas.texelsPerMeter);
+        !done)
+        return done;
+    if (auto done = whole("--max-size", words.maxSize, 16, 16384, options.atlas.maxSide); !done) return done;
+    if (auto done = whole("--samples", words.samples, kLeastPasses, 1u << 20, options.light.samplesPerTexel); !done)
+        return done;
+    if (auto done = whole("--max-bounces", words.maxBounces, 1, 4096, options.light.maxBounces); !done) return done;
+    if (auto done = whole("--seed", words.seed, 0, ~0u, options.light.seed); !done) return done;
+    if (!words.error.empty()) {
+        if (auto done = number("--error", words.error, 1e-6, 1, "a number from 1e-6 to 1", options.light.relativeError);
+            !done)
+            return done;
+    }
+    return tools::convertSwitch("--direct", words.direct, options.light.directLight);
+}
+
+Result<void> convertRun(Words const& words, Options& options) {
+    options.merge.assign(words.merge.begin(), words.merge.end());
+    if (!words.shard.empty()) {
+        if (!options.merge.empty())
+            return fail(ErrorCode::InvalidArgument, "--merge traces nothing; give --shard without it");
+        const Result<tools::Shard> shard = tools::parseShard(words.shard);
+        if (!shard) return shard.error();
+        options.shard = *shard;
+    }
+    if (words.threads.empty()) return {};
+    uint32_t threads = 1;
+    if (auto done = whole("--threads", words.threads, 1, 256, threads); !done) return done;
+    options.workers = static_cast<int>(threads) - 1; // this thread works, too
+    return {};
+}
+
+} // namespace
 
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     Options options;
-    std::string threads;
+    Words words;
     tools::CommandLine app{ "Bakes the light of a scene that does not move into textures.", "filament-bake" };
-    app.option("MODEL", options.model, ".gltf or .glb").required();
-    app.option("--out", options.out, "folder for what is written (out)");
-    app.option("--threads", threads, "number of tracing threads (one per core)");
+    declare(app, words, options);
     const Result<bool> parsed = app.parse(argc, argv);
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
-    if (!threads.empty()) {
-        const auto count = tools::wholeNumber(threads, 1, 256);
-        if (!count) return tools::invalidOption("--threads", threads, "a whole number from 1 to 256");
-        options.workers = static_cast<int>(*count) - 1; // this thread works, too
+    for (auto convert : { convertScene, convertLight, convertRun }) {
+        if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));
 }

@@ -4,16 +4,28 @@
 #pragma once
 
 #include "base/Result.h"
+#include "toolkit/program/Shard.h"
+#include "tools/bake/Atlas.h"
+#include "tools/bake/BakeLight.h"
 
 #include <filament_core/Light.h>
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace filament_core::bake {
 
 struct Options {
     std::filesystem::path model;
+    std::filesystem::path environment; ///< empty: the model's own; "none": none
+    Lux iblIntensity{ 30'000 };
+    double rotationDegrees = 0; ///< of the environment around +Y
+    std::optional<SunLight> sun;
+    AtlasOptions atlas{};
+    LightSettings light{ .exposure = { .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 } };
+    std::optional<tools::Shard> shard;        ///< bake this part alone, into a journal
+    std::vector<std::filesystem::path> merge; ///< journals of parts; empty: bake
     std::filesystem::path out = "out";
     int workers = -1; ///< as JobSystemOptions::workers
 };

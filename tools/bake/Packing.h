@@ -3,8 +3,8 @@
 ///   In      sizes in texels; each rectangle includes its border.
 ///   Out     the corner with the smallest coordinates of each, and the side of the image: a multiple of 4, as small as
 ///           the search finds. Nothing if no image of `most` texels a side holds them.
-///   Method  rectangles by descending height; each where it ends lowest on the skyline of those before (Jylanki 2010, "A
-///           Thousand Ways to Pack the Bin", section 2.4). The side is found by bisection.
+///   Method  rectangles by descending height; each where it ends lowest on the skyline of those before (Jylanki 2010,
+///           "A Thousand Ways to Pack the Bin", section 2.4). The side is found by bisection.
 ///   Thread  any; pure: the same places for the same sizes.  Cost: quadratic in the rectangles at worst.
 #pragma once
 

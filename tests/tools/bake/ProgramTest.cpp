@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-bake from outside, and the file that it writes as the loader reads it.
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
+#include "tests/scenes/CornellBox.h"
+#include "toolkit/paths/Paths.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace filament_core::bake {
+namespace {
+
+using ::testing::HasSubstr;
+
+class BakeProgram : public ::testing::Test {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directories(mFolder);
+        const auto bytes = assets::writeGlb(tests::cornellBox());
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        ASSERT_TRUE(assets::replaceFile(mFolder / "cornell.glb", *bytes));
+    }
+    void TearDown() override { std::filesystem::remove_all(mFolder); }
+
+    struct Outcome {
+        int status = -1;
+        std::string text;
+    };
+    Outcome run(std::string const& arguments) const {
+        const std::string command = "cd '" + mFolder.string() + "' && '" +
+                                    (tools::buildDir() / "bin/filament-bake").string() + "' " + arguments + " 2>&1";
+        std::FILE* const pipe = ::popen(command.c_str(), "r");
+        Outcome outcome;
+        std::array<char, 512> buffer{};
+        while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.text += buffer.data();
+        outcome.status = WEXITSTATUS(::pclose(pipe));
+        return outcome;
+    }
+    std::string read(std::filesystem::path const& name) const {
+        std::ifstream file(mFolder / name, std::ios::binary);
+        return { std::istreambuf_iterator<char>(file), {} };
+    }
+
+    std::filesystem::path mFolder =
+            std::filesystem::temp_directory_path() / ("filament-bake-" + std::to_string(::getpid()));
+};
+
+constexpr const char* kQuick = "cornell.glb --density 6 --samples 32 ";
+
+TEST_F(BakeProgram, WritesAModelWhoseMaterialsNameTheLightmap) {
+    const Outcome outcome = run(std::string(kQuick) + "--out whole");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_FALSE(std::filesystem::exists(mFolder / "whole/bake.part"));
+    for (const char* name : { "report.json", "report.md", "lightmap.png", "error.png" })
+        EXPECT_GT(std::filesystem::file_size(mFolder / "whole" / name), 100u) << name;
+
+    jobs::JobSystem jobs({ .workers = 1 });
+    const Result<assets::ModelData> model = assets::loadGltf(mFolder / "whole/baked.glb", jobs);
+    ASSERT_TRUE(model) << model.error().message;
+    EXPECT_TRUE(model->warnings.empty()) << model->warnings.front();
+    const Result<assets::ModelData> before = assets::loadGltf(mFolder / "cornell.glb", jobs);
+    ASSERT_TRUE(before);
+    EXPECT_EQ(model->nodes.size(), before->nodes.size());
+    EXPECT_EQ(model->meshes.size(), before->meshes.size() + 1) << "the blocks share a mesh no longer";
+    for (assets::MeshData const& mesh : model->meshes) {
+        for (assets::PrimitiveData const& primitive : mesh.primitives) {
+            EXPECT_TRUE(primitive.hasUv1);
+            assets::MaterialData const& material = model->materials[primitive.material];
+            ASSERT_TRUE(material.light.isUsed()) << material.name;
+            EXPECT_EQ(material.light.map.uvSet, 1u);
+            EXPECT_FALSE(material.light.hasDirectLight);
+            assets::Image const& image = model->images[material.light.map.image];
+            EXPECT_EQ(image.format, backend::Format::RGBA16F);
+            EXPECT_EQ(image.levels, 1u);
+        }
+    }
+}
+
+TEST_F(BakeProgram, PartsOnAnyThreadsMergeToTheBytesOfOneRun) {
+    ASSERT_EQ(run(std::string(kQuick) + "--threads 2 --out whole").status, 0);
+    ASSERT_EQ(run(std::string(kQuick) + "--shard 0/3 --threads 1 --out 0").status, 0);
+    ASSERT_EQ(run(std::string(kQuick) + "--shard 1/3 --out 1").status, 0);
+    const Outcome early = run(std::string(kQuick) + "--merge 0/bake.part 1/bake.part --out merged");
+    EXPECT_EQ(early.status, 1);
+    EXPECT_THAT(early.text, HasSubstr("are missing"));
+    ASSERT_EQ(run(std::string(kQuick) + "--shard 2/3 --out 2").status, 0);
+    const Outcome merged = run(std::string(kQuick) + "--merge 2/bake.part 0/bake.part 1/bake.part --out merged");
+    ASSERT_EQ(merged.status, 0) << merged.text;
+    for (const char* name : { "baked.glb", "report.json", "lightmap.png", "error.png" })
+        EXPECT_EQ(read(std::filesystem::path("whole") / name), read(std::filesystem::path("merged") / name)) << name;
+}
+
+// Stopped by Ctrl-C after a while, and started again: the bytes of a run that nothing stopped.
+TEST_F(BakeProgram, ContinuesAfterCtrlC) {
+    const std::string slow = "cornell.glb --density 14 --samples 32 --threads 1 ";
+    ASSERT_EQ(run(slow + "--out whole").status, 0);
+    const std::string program = (tools::buildDir() / "bin/filament-bake").string();
+    // as soon as the first block of texels is in the journal
+    const Outcome stopped = run("--help > /dev/null; '" + program + "' " + slow +
+                                "--out stopped & p=$!; until [ $(stat -c %s stopped/bake.part 2> /dev/null || echo 0) "
+                                "-gt 100 ]; do sleep 0.02; done; kill -INT $p; wait $p; echo status $?");
+    EXPECT_TRUE(std::filesystem::exists(mFolder / "stopped")) << stopped.text;
+    const Outcome rest = run(slow + "--out stopped");
+    ASSERT_EQ(rest.status, 0) << rest.text;
+    EXPECT_EQ(read("whole/baked.glb"), read("stopped/baked.glb")) << stopped.text;
+}
+
+TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
+    EXPECT_THAT(run("cornell.glb --density 0").text, HasSubstr("--density"));
+    EXPECT_THAT(run("cornell.glb --samples 3").text, HasSubstr("from 32 to 1048576"));
+    EXPECT_THAT(run("none.glb").text, HasSubstr("none.glb"));
+    EXPECT_THAT(run("cornell.glb --shard 0/2 --merge a").text, HasSubstr("without it"));
+    const Outcome large = run("cornell.glb --density 1e5 --max-size 256");
+    EXPECT_EQ(large.status, 1);
+    EXPECT_THAT(large.text, HasSubstr("try --density"));
+}
+
+} // namespace
+} // namespace filament_core::bake

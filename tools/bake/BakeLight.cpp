@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/BakeLight.h"
+
+#include "tools/reference/SampleStream.h"
+#include "tools/reference/TracedScene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament_core::bake {
+namespace {
+
+constexpr uint32_t kMostPerPass = 64; // samples; more would leave few passes to judge the error by
+constexpr size_t kBatch = 2048;       // texels between two reports
+
+double luminanceOf(double3 color) { return glm::dot(color, double3(0.2126, 0.7152, 0.0722)); }
+
+reference::ReferenceSettings tracerSettings(LightSettings const& settings) {
+    return { .maxBounces = settings.maxBounces, .seed = settings.seed };
+}
+
+/// Sums of the passes of a texel.
+struct Sums {
+    double3 sum{ 0.0 }, squares{ 0.0 };
+    uint32_t passes = 0;
+
+    void add(double3 mean) { sum += mean, squares += mean * mean, ++passes; }
+    double3 mean() const { return sum / double(passes); }
+    double3 standardError() const {
+        const double n = passes;
+        const double3 variance = glm::max(squares - sum * sum / n, double3(0.0)) / (n - 1);
+        // Student's t of n - 1 degrees of freedom is wider than the normal distribution: by 1.35 / (n - 1) at 95.4 %.
+        return glm::sqrt(variance / n) * (1 + 1.35 / (n - 1));
+    }
+};
+
+/// With whole doublings of the passes: to stop at whichever pass happens to look good would favour those that do.
+bool isDone(Sums const& sums, LightSettings const& settings) {
+    const bool isDoubling = sums.passes >= kLeastPasses && (sums.passes & (sums.passes - 1)) == 0;
+    if (!(settings.relativeError > 0) || !isDoubling) return false;
+    return luminanceOf(sums.standardError()) <= settings.relativeError * luminanceOf(sums.mean());
+}
+
+} // namespace
+
+TexelPasses passesOf(LightSettings const& settings) {
+    const uint32_t perPass = settings.relativeError > 0
+                                     ? std::clamp(settings.samplesPerTexel / 256, 1u, kMostPerPass)
+                                     : std::clamp(settings.samplesPerTexel / kLeastPasses, 1u, kMostPerPass);
+    return { std::max((settings.samplesPerTexel + perPass - 1) / perPass, kLeastPasses), perPass };
+}
+
+TexelLight lightOf(reference::PathTracer const& tracer, double3 origin, SurfacePoint const& point, uint64_t stream,
+                   LightSettings const& settings) {
+    const double3 position = point.position - origin;
+    const double3 size = glm::abs(position);
+    const reference::ReceivingPoint receiver{
+        .position = position,
+        .normal = point.normal,
+        .geometricNormal = point.faceNormal,
+        // as that of a surface that a ray hits: the precision of Embree's floats
+        .selfAvoidance = 0x1p-20 * (std::max({ size.x, size.y, size.z }) + point.longestEdge),
+    };
+    const reference::LampLight lamps = settings.directLight ? reference::LampLight::Direct : reference::LampLight::None;
+    const TexelPasses passes = passesOf(settings);
+    TexelLight light;
+    Sums sums;
+    uint64_t rays = 0, open = 0, backs = 0;
+    while (sums.passes < passes.count && !isDone(sums, settings)) {
+        double3 sum(0.0);
+        const uint64_t pass = reference::hashOf(stream, sums.passes);
+        for (uint32_t i = 0; i < passes.samples; ++i) {
+            const reference::Arriving arriving = tracer.arriving(receiver, lamps, { pass, i }, rays);
+            sum += arriving.irradiance;
+            open += arriving.fromSky;
+            backs += arriving.fromBehind;
+        }
+        sums.add(sum / double(passes.samples));
+    }
+    // What glows is not exposed: in lux it is what the exposure makes of it.
+    const double exposure = double(settings.exposure.factor());
+    light.samples = sums.passes * passes.samples;
+    light.irradiance = sums.mean() / exposure;
+    light.standardError = sums.standardError() / exposure;
+    light.openness = double(open) / light.samples;
+    light.backs = double(backs) / light.samples;
+    light.rays = static_cast<uint32_t>(std::min<uint64_t>(rays, ~0u));
+    return light;
+}
+
+void bakeTexels(reference::TracedScene const& scene, std::span<const BakeSurface> surfaces, Atlas const& atlas,
+                std::span<const AtlasTexel> texels, LightSettings const& settings, jobs::JobSystem& jobs,
+                std::function<bool(size_t first, std::span<const TexelLight> lights)> const& finished) {
+    const reference::ReferenceSettings tracing = tracerSettings(settings);
+    const reference::PathTracer tracer(scene, tracing, double(settings.exposure.factor()), double3(0.0));
+    std::vector<TexelLight> lights;
+    for (size_t first = 0; first < texels.size(); first += kBatch) {
+        lights.assign(std::min(kBatch, texels.size() - first), {});
+        jobs::parallelFor<"bake">(jobs, lights.size(), 8, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                AtlasTexel const& texel = texels[first + i];
+                const uint64_t place = (uint64_t(texel.y) << 32) | texel.x;
+                lights[i] = lightOf(tracer, scene.origin(), pointOf(surfaces[atlas.charts[texel.chart].surface], texel),
+                                    reference::hashOf(reference::mixBits(settings.seed), place), settings);
+            }
+        });
+        if (!finished(first, lights)) return;
+    }
+}
+
+} // namespace filament_core::bake

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/BakeScene.h"
+
+#include "base/Hash.h"
+#include "filament_core/assets/environment/Panorama.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "toolkit/machine/Machine.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+
+namespace filament_core::bake {
+namespace {
+
+Result<reference::ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs,
+                                            std::vector<std::string>& warnings) {
+    Result<assets::ModelData> model = assets::loadGltf(options.model, jobs);
+    if (!model) return model.error();
+    warnings = model->warnings;
+    reference::ReferenceScene scene;
+    scene.models.push_back({ std::make_shared<assets::ModelData>(std::move(*model)) });
+    std::shared_ptr<const assets::HdrImage> sky;
+    if (options.environment.empty()) {
+        sky = reference::pictureOfLight(*scene.models.front().data, jobs);
+    } else if (options.environment != "none") {
+        Result<assets::HdrImage> image = assets::readPanorama(options.environment);
+        if (!image) return image.error();
+        sky = std::make_shared<const assets::HdrImage>(std::move(*image));
+    }
+    if (sky) {
+        scene.environment = { .image = sky,
+                              .illuminance = options.iblIntensity,
+                              .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)) };
+    }
+    if (options.sun) scene.suns.push_back(*options.sun);
+    return scene;
+}
+
+/// Everything that changes a texel, and the build that computes it.
+uint64_t hashOf(Options const& options, BakeScene const& bake, reference::ReferenceScene const& scene) {
+    uint64_t hash = hashString(tools::builtCommit());
+    const auto add = [&hash](auto const& values) { hash = hashBytes(std::as_bytes(std::span(values)), hash); };
+    const auto addNumber = [&hash](double value) { hash = hashBytes(std::as_bytes(std::span(&value, 1)), hash); };
+    add(bake.model.file);
+    for (BakeSurface const& surface : bake.model.surfaces) add(surface.positions), add(surface.indices);
+    for (AtlasSurface const& surface : bake.atlas.surfaces) add(surface.uvs);
+    for (reference::ReferenceModel const& model : scene.models) {
+        for (assets::Image const& image : model.data->images) add(image.data);
+    }
+    if (scene.environment) add(scene.environment->image->pixels);
+    LightSettings const& light = options.light;
+    for (const double value :
+         { double(bake.atlas.side), bake.atlas.texelsPerMeter, double(light.samplesPerTexel), light.relativeError,
+           double(light.directLight), double(light.maxBounces), double(light.seed), double(light.exposure.factor()),
+           double(options.iblIntensity.value), options.rotationDegrees })
+        addNumber(value);
+    if (!options.sun) return hash;
+    addNumber(double(options.sun->illuminance.value));
+    for (int i = 0; i < 3; ++i) addNumber(double(options.sun->directionWorld[i]));
+    return hash;
+}
+
+} // namespace
+
+Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs) {
+    BakeScene bake;
+    Result<BakeModel> model = readBakeModel(options.model, jobs);
+    if (!model) return model.error();
+    bake.model = std::move(*model);
+    Result<Atlas> atlas = makeAtlas(bake.model.surfaces, options.atlas, jobs);
+    if (!atlas) return atlas.error();
+    bake.atlas = std::move(*atlas);
+    bake.texels = findTexels(bake.atlas);
+    const Result<reference::ReferenceScene> scene = loadScene(options, jobs, bake.warnings);
+    if (!scene) return scene.error();
+    bake.hash = hashOf(options, bake, *scene);
+    Result<reference::TracedScenePtr> traced = reference::prepare(*scene, jobs);
+    if (!traced) return traced.error();
+    bake.scene = std::move(*traced);
+    const auto warn = [&bake](std::vector<std::string> const& lines) {
+        for (std::string const& line : lines) {
+            if (std::ranges::find(bake.warnings, line) == bake.warnings.end()) bake.warnings.push_back(line);
+        }
+    };
+    warn(bake.model.warnings);
+    warn(reference::warnings(*bake.scene));
+    return bake;
+}
+
+} // namespace filament_core::bake

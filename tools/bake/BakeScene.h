@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// prepareBake: the files and lights of a command line, ready to be baked.
+///   Thread  any, one call at a time; works on the job system.
+///   Fails   errors of the loaders, with path; those of makeAtlas().
+#pragma once
+
+#include "tools/bake/BakeModel.h"
+#include "tools/bake/Options.h"
+
+namespace filament_core::bake {
+
+struct BakeScene {
+    BakeModel model;
+    Atlas atlas;
+    std::vector<AtlasTexel> texels;
+    reference::TracedScenePtr scene;
+    uint64_t hash = 0; ///< of all that the texels depend on
+    std::vector<std::string> warnings;
+};
+
+Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs);
+
+} // namespace filament_core::bake

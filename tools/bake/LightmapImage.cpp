@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/LightmapImage.h"
+
+#include "base/math/Half.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace filament_core::bake {
+namespace {
+
+/// Fills the texels of a chart's box that have no light; returns how many it filled.
+class Filler {
+public:
+    Filler(LightmapImage& image, std::vector<bool>& has) : mImage(image), mHas(has) {}
+
+    uint64_t fill(AtlasChart const& chart) {
+        std::vector<uint2> empty;
+        for (uint32_t y = 0; y < chart.size.y; ++y) {
+            for (uint32_t x = 0; x < chart.size.x; ++x) {
+                if (!mHas[indexOf(chart.place + uint2(x, y))]) empty.push_back(chart.place + uint2(x, y));
+            }
+        }
+        uint64_t filled = 0;
+        while (!empty.empty()) {
+            const size_t before = empty.size();
+            std::vector<uint2> left, done;
+            std::vector<double4> values;
+            for (const uint2 at : empty) {
+                const double4 mean = meanAround(at, chart);
+                if (mean.w < 0) {
+                    left.push_back(at);
+                } else {
+                    done.push_back(at), values.push_back(mean);
+                }
+            }
+            // All of a ring at once: a result must not depend on the order within it.
+            for (size_t i = 0; i < done.size(); ++i) {
+                mImage.texels[indexOf(done[i])] = values[i];
+                mHas[indexOf(done[i])] = true;
+            }
+            filled += done.size();
+            empty = std::move(left);
+            if (empty.size() == before) break; // the chart has no light at all
+        }
+        return filled;
+    }
+
+private:
+    size_t indexOf(uint2 at) const { return size_t(at.y) * mImage.side + at.x; }
+
+    /// w < 0: no neighbour has light.
+    double4 meanAround(uint2 at, AtlasChart const& chart) const {
+        double4 sum(0.0);
+        double count = 0;
+        const uint2 low = glm::max(at, chart.place + 1u) - 1u, high = glm::min(at + 1u, chart.place + chart.size - 1u);
+        for (uint32_t y = low.y; y <= high.y; ++y) {
+            for (uint32_t x = low.x; x <= high.x; ++x) {
+                if (!mHas[indexOf({ x, y })]) continue;
+                sum += mImage.texels[indexOf({ x, y })];
+                count += 1;
+            }
+        }
+        return count > 0 ? sum / count : double4(0, 0, 0, -1);
+    }
+
+    LightmapImage& mImage;
+    std::vector<bool>& mHas;
+};
+
+} // namespace
+
+LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights) {
+    LightmapImage image{ .side = atlas.side };
+    image.texels.assign(size_t(atlas.side) * atlas.side, double4(0.0));
+    std::vector<bool> has(image.texels.size(), false);
+    double brightest = 0;
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const bool isHidden = lights[i].backs > kMostBacks;
+        image.hidden += isHidden;
+        if (isHidden) continue;
+        const size_t at = size_t(texels[i].y) * atlas.side + texels[i].x;
+        image.texels[at] = double4(lights[i].irradiance, lights[i].openness);
+        has[at] = true;
+        brightest = std::max({ brightest, lights[i].irradiance.x, lights[i].irradiance.y, lights[i].irradiance.z });
+    }
+    Filler filler(image, has);
+    for (AtlasChart const& chart : atlas.charts) image.filled += filler.fill(chart);
+    if (brightest > 0) image.intensity = std::ldexp(1.0, std::ilogb(brightest) + 1 - kTopExponent);
+    return image;
+}
+
+assets::Image halvesOf(LightmapImage const& image) {
+    assets::Image halves{ .width = image.side, .height = image.side, .format = backend::Format::RGBA16F };
+    halves.data.resize(image.texels.size() * 8);
+    for (size_t i = 0; i < image.texels.size(); ++i) {
+        const double4 texel = image.texels[i] / double4(double3(image.intensity), 1.0);
+        uint16_t codes[4];
+        for (int c = 0; c < 4; ++c) codes[c] = halfFromFloat(static_cast<float>(texel[c]));
+        std::memcpy(&halves.data[i * 8], codes, sizeof(codes));
+    }
+    return halves;
+}
+
+std::vector<std::byte> previewOf(LightmapImage const& image) {
+    double sum = 0;
+    uint64_t count = 0;
+    for (double4 const& texel : image.texels) {
+        const double mean = (texel.x + texel.y + texel.z) / 3;
+        if (mean > 0) sum += mean, ++count;
+    }
+    const double scale = count > 0 ? 0.4 / (sum / double(count)) : 1; // the mean becomes a middle grey
+    std::vector<std::byte> pixels(image.texels.size() * 4, std::byte{ 255 });
+    for (size_t i = 0; i < image.texels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double value = std::clamp(image.texels[i][c] * scale, 0.0, 1.0);
+            const double code = value <= 0.0031308 ? value * 12.92 : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+            pixels[i * 4 + static_cast<size_t>(c)] = static_cast<std::byte>(std::lround(code * 255));
+        }
+    }
+    return pixels;
+}
+
+} // namespace filament_core::bake

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LightmapImage: baked texels as an image that the engine samples.
+///   Out     RGBA16F, one level: irradiance over `intensity`, and in alpha the part of the sky that is seen. The
+///           intensity is a power of two at which the brightest texel lies below 2^kTopExponent: so halves keep ten
+///           bits of every texel down to 2^-29 of that.
+///   Filled  texels that mostly see backs of surfaces, as inside of walls, and those that no surface has: from the
+///           nearest texels of the same chart, ring by ring, each the mean of its neighbours that have light.
+///   Thread  any; pure.
+#pragma once
+
+#include "filament_core/assets/image/Image.h"
+#include "tools/bake/BakeLight.h"
+
+namespace filament_core::bake {
+
+inline constexpr double kMostBacks = 0.5; ///< a texel that sees more of them is filled
+inline constexpr int kTopExponent = 14;
+
+struct LightmapImage {
+    uint32_t side = 0;
+    std::vector<double4> texels; ///< lux, and openness; row 0 at v = 0
+    double intensity = 1;        ///< lux
+    uint64_t hidden = 0;         ///< texels that see backs
+    uint64_t filled = 0;         ///< of charts, hidden ones among them
+};
+
+LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, std::span<const TexelLight> lights);
+
+/// As RGBA16F.
+assets::Image halvesOf(LightmapImage const& image);
+/// RGBA8 sRGB, brightest at 1: for reports.
+std::vector<std::byte> previewOf(LightmapImage const& image);
+
+} // namespace filament_core::bake

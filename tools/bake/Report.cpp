@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/Report.h"
+
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ImageWriter.h"
+#include "toolkit/json/JsonFile.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament_core::bake {
+namespace {
+
+using tools::Json;
+
+constexpr size_t kShownCharts = 20; // of the page: those with the largest errors
+
+double luminanceOfLight(double3 color) { return glm::dot(color, double3(0.2126, 0.7152, 0.0722)); }
+
+std::string const& nameOf(BakeScene const& bake, uint32_t chart) {
+    return bake.model.sources[bake.atlas.charts[chart].surface].name;
+}
+
+Json chartsToJson(BakeScene const& bake, std::vector<ChartSummary> const& charts) {
+    Json list = Json::array();
+    for (uint32_t i = 0; i < charts.size(); ++i) {
+        AtlasChart const& chart = bake.atlas.charts[i];
+        list.push_back({ { "node", nameOf(bake, i) },
+                         { "triangles", chart.chart.triangles.size() },
+                         { "place", { chart.place.x, chart.place.y, chart.size.x, chart.size.y } },
+                         { "texels", charts[i].texels },
+                         { "hidden", charts[i].hidden },
+                         { "samples", charts[i].samples },
+                         { "meanLux", charts[i].meanLux },
+                         { "relativeError", charts[i].relativeError } });
+    }
+    return list;
+}
+
+ChartSummary wholeOf(std::vector<ChartSummary> const& charts) {
+    ChartSummary whole;
+    double squares = 0, samples = 0, lux = 0;
+    for (ChartSummary const& chart : charts) {
+        whole.texels += chart.texels;
+        whole.hidden += chart.hidden;
+        samples += chart.samples * chart.texels;
+        lux += chart.meanLux * chart.texels;
+        const double error = chart.relativeError * chart.meanLux;
+        squares += error * error * chart.texels;
+    }
+    if (whole.texels == 0) return whole;
+    whole.meanLux = lux / whole.texels;
+    whole.samples = samples / whole.texels;
+    if (whole.meanLux > 0) whole.relativeError = std::sqrt(squares / whole.texels) / whole.meanLux;
+    return whole;
+}
+
+std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vector<ChartSummary> const& charts) {
+    const ChartSummary whole = wholeOf(charts);
+    std::string page = fmt::format("# Lightmap\n\n{} charts with {} texels in {} x {}, {:.4g} texels a metre; {:.0f} "
+                                   "samples a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of "
+                                   "surfaces and were filled from their neighbours.\n\n![lightmap](lightmap.png) "
+                                   "![standard error](error.png)\n\n",
+                                   charts.size(), whole.texels, image.side, image.side, bake.atlas.texelsPerMeter,
+                                   whole.samples, whole.meanLux, whole.relativeError * 100, whole.hidden);
+    page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
+            "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < charts.size(); ++i) order.push_back(i);
+    std::ranges::stable_sort(order,
+                             [&](uint32_t a, uint32_t b) { return charts[a].relativeError > charts[b].relativeError; });
+    order.resize(std::min(order.size(), kShownCharts));
+    for (const uint32_t i : order)
+        page += fmt::format("| {} | {} | {} | {:.0f} | {:.4g} | {:.2f} % |\n", nameOf(bake, i), charts[i].texels,
+                            charts[i].hidden, charts[i].samples, charts[i].meanLux, charts[i].relativeError * 100);
+    return page;
+}
+
+std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux) {
+    std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * 4, std::byte{ 0 });
+    for (size_t i = 0; i < bake.texels.size(); ++i) {
+        const double error = luminanceOfLight(lights[i].standardError) / std::max(meanLux, 1e-30);
+        const auto code = static_cast<std::byte>(std::lround(std::min(error * 10, 1.0) * 255));
+        const size_t at = (size_t(bake.texels[i].y) * bake.atlas.side + bake.texels[i].x) * 4;
+        pixels[at] = pixels[at + 1] = pixels[at + 2] = code;
+    }
+    for (size_t i = 3; i < pixels.size(); i += 4) pixels[i] = std::byte{ 255 };
+    return pixels;
+}
+
+} // namespace
+
+std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTexel> texels,
+                                    std::span<const TexelLight> lights) {
+    std::vector<ChartSummary> charts(atlas.charts.size());
+    for (size_t i = 0; i < texels.size(); ++i) {
+        ChartSummary& chart = charts[texels[i].chart];
+        const double error = luminanceOfLight(lights[i].standardError);
+        ++chart.texels;
+        chart.hidden += lights[i].backs > kMostBacks;
+        chart.meanLux += luminanceOfLight(lights[i].irradiance);
+        chart.relativeError += error * error;
+        chart.samples += lights[i].samples;
+    }
+    for (ChartSummary& chart : charts) {
+        if (chart.texels == 0) continue;
+        chart.meanLux /= chart.texels;
+        chart.samples /= chart.texels;
+        const double error = std::sqrt(chart.relativeError / chart.texels);
+        chart.relativeError = chart.meanLux > 0 ? error / chart.meanLux : 0;
+    }
+    return charts;
+}
+
+Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+                         LightmapImage const& image) {
+    const std::vector<ChartSummary> charts = summarize(bake.atlas, bake.texels, lights);
+    const ChartSummary whole = wholeOf(charts);
+    uint64_t rays = 0;
+    for (TexelLight const& light : lights) rays += light.rays;
+    const Json report{ { "model", options.model.filename().string() },
+                       { "side", image.side },
+                       { "texelsPerMeter", bake.atlas.texelsPerMeter },
+                       { "texCoord", bake.model.uvSet },
+                       { "intensityLux", image.intensity },
+                       { "directLight", options.light.directLight },
+                       { "texels", whole.texels },
+                       { "hidden", whole.hidden },
+                       { "filled", image.filled },
+                       { "samples", whole.samples },
+                       { "meanLux", whole.meanLux },
+                       { "relativeError", whole.relativeError },
+                       { "rays", rays },
+                       { "warnings", bake.warnings },
+                       { "charts", chartsToJson(bake, charts) } };
+    if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
+    const std::string page = pageOf(bake, image, charts);
+    if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
+    if (auto done = assets::writePng(options.out / "lightmap.png", image.side, image.side, previewOf(image)); !done)
+        return done;
+    return assets::writePng(options.out / "error.png", image.side, image.side,
+                            errorPicture(bake, lights, whole.meanLux));
+}
+
+} // namespace filament_core::bake

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Report: what a bake wrote, for people and for programs: report.json, report.md, lightmap.png and error.png.
+///   Out     the same bytes for the same bake.
+///   Fails   Unreadable with the path.
+#pragma once
+
+#include "tools/bake/BakeScene.h"
+#include "tools/bake/LightmapImage.h"
+
+namespace filament_core::bake {
+
+/// Of one chart.
+struct ChartSummary {
+    uint32_t texels = 0, hidden = 0; ///< hidden: they see backs of surfaces
+    double meanLux = 0;              ///< luminance
+    double relativeError = 0;        ///< root mean square of the texels' standard errors, over the mean
+    double samples = 0;              ///< a texel
+};
+std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTexel> texels,
+                                    std::span<const TexelLight> lights);
+
+Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
+                         LightmapImage const& image);
+
+} // namespace filament_core::bake

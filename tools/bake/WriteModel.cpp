@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+// writeBakedModel(): the JSON of the file with what changes, and one buffer.
+#include "filament_core/assets/gltf/GltfContainer.h"
+#include "filament_core/assets/gltf/GltfUri.h"
+#include "toolkit/json/JsonFile.h"
+#include "tools/bake/BakeModel.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <map>
+#include <set>
+
+namespace filament_core::bake {
+namespace {
+
+using assets::kNone;
+using tools::Json;
+
+constexpr int kFloat = 5126, kUint = 5125, kArrayBuffer = 34962, kElementBuffer = 34963;
+
+class Writer {
+public:
+    Writer(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light)
+            : mModel(model), mAtlas(atlas), mLight(light) {}
+
+    Result<std::vector<std::byte>> write() {
+        const Result<assets::GltfContainer> container = assets::openGltfContainer(mModel.file);
+        if (!container) return container.error();
+        const std::string_view text(reinterpret_cast<const char*>(container->json.data()), container->json.size());
+        Result<Json> json = tools::parseJson(text, "the model");
+        if (!json) return json.error();
+        mRoot = std::move(*json);
+        mContainer = *container;
+        if (Result<void> done = mergeBuffers(); !done) return done.error();
+        if (Result<void> done = embedFiles("images", mRoot["images"]); !done) return done.error();
+        if (mRoot.contains("extensions") && mRoot["extensions"].contains("EXT_lights_ies")) {
+            if (auto done = embedFiles("lights", mRoot["extensions"]["EXT_lights_ies"]["lights"]); !done)
+                return done.error();
+        }
+        const uint32_t texture = addTexture();
+        addMeshes();
+        addToMaterials(texture);
+        Json& used = mRoot["extensionsUsed"];
+        if (std::ranges::find(used, Json(kLightmapExtension)) == used.end()) used.push_back(kLightmapExtension);
+        for (const char* list : { "images", "materials", "samplers", "textures", "meshes" }) {
+            if (mRoot[list].empty()) mRoot.erase(list);
+        }
+        return bytes();
+    }
+
+private:
+    size_t append(std::span<const std::byte> bytes) {
+        mBinary.resize((mBinary.size() + 3) / 4 * 4);
+        const size_t at = mBinary.size();
+        mBinary.insert(mBinary.end(), bytes.begin(), bytes.end());
+        return at;
+    }
+
+    uint32_t addView(std::span<const std::byte> bytes, int target = 0) {
+        Json view{ { "buffer", 0 }, { "byteOffset", append(bytes) }, { "byteLength", bytes.size() } };
+        if (target != 0) view["target"] = target;
+        mRoot["bufferViews"].push_back(std::move(view));
+        return static_cast<uint32_t>(mRoot["bufferViews"].size() - 1);
+    }
+
+    /// All buffers that have data become one; fallbacks without data stay.
+    Result<void> mergeBuffers() {
+        std::vector<std::pair<uint32_t, size_t>> moved; // new buffer and offset, by old one
+        Json kept = Json::array({ Json::object() });
+        uint32_t index = 0;
+        for (Json& buffer : mRoot["buffers"]) {
+            const bool isBinary = index++ == 0 && mContainer.hasBinary && !buffer.contains("uri");
+            if (!isBinary && !buffer.contains("uri")) {
+                moved.emplace_back(static_cast<uint32_t>(kept.size()), 0);
+                kept.push_back(buffer);
+                continue;
+            }
+            std::vector<std::byte> read;
+            if (!isBinary) {
+                auto bytes = assets::readGltfUri(buffer["uri"].get<std::string>(), { mModel.folder });
+                if (!bytes) return bytes.error();
+                read = std::move(*bytes);
+            }
+            moved.emplace_back(0, append(isBinary ? mContainer.binary : std::span<const std::byte>(read)));
+        }
+        mRoot["buffers"] = std::move(kept);
+        for (Json& view : mRoot["bufferViews"]) {
+            move(view, moved);
+            if (!view.contains("extensions")) continue;
+            for (const char* name : { "EXT_meshopt_compression", "KHR_meshopt_compression" }) {
+                if (view["extensions"].contains(name)) move(view["extensions"][name], moved);
+            }
+        }
+        return {};
+    }
+
+    static void move(Json& view, std::vector<std::pair<uint32_t, size_t>> const& moved) {
+        const auto [buffer, offset] = moved.at(view["buffer"].get<size_t>());
+        view["buffer"] = buffer;
+        if (offset > 0) view["byteOffset"] = view.value("byteOffset", size_t(0)) + offset;
+    }
+
+    Result<void> embedFiles(const char* what, Json& list) {
+        for (Json& element : list) {
+            if (!element.contains("uri")) continue;
+            const auto uri = element["uri"].get<std::string>();
+            if (assets::isDataUri(uri)) continue;
+            const auto bytes = assets::readGltfUri(uri, { mModel.folder });
+            if (!bytes) return bytes.error();
+            element.erase("uri");
+            element["bufferView"] = addView(*bytes);
+            element["mimeType"] = what == std::string_view("lights") ? "application/x-ies-lm-63" : mimeOf(*bytes);
+        }
+        return {};
+    }
+
+    static const char* mimeOf(std::span<const std::byte> bytes) {
+        const auto begins = [&](std::string_view magic, size_t at) {
+            return bytes.size() >= at + magic.size() && std::memcmp(&bytes[at], magic.data(), magic.size()) == 0;
+        };
+        if (begins("\x89PNG", 0)) return "image/png";
+        if (begins("RIFF", 0)) return "image/webp";
+        if (begins("\xabKTX", 0)) return "image/ktx2";
+        if (begins("DDS ", 0)) return "image/vnd-ms.dds";
+        return begins("ftyp", 4) ? "image/avif" : "image/jpeg";
+    }
+
+    uint32_t addTexture() {
+        mRoot["images"].push_back(
+                { { "name", "lightmap" }, { "bufferView", addView(mLight.ktx2) }, { "mimeType", "image/ktx2" } });
+        mRoot["samplers"].push_back(
+                { { "magFilter", 9729 }, { "minFilter", 9729 }, { "wrapS", 33071 }, { "wrapT", 33071 } });
+        const Json source{ { "source", mRoot["images"].size() - 1 } };
+        mRoot["textures"].push_back(
+                { { "sampler", mRoot["samplers"].size() - 1 }, { "extensions", { { kLightmapExtension, source } } } });
+        return static_cast<uint32_t>(mRoot["textures"].size() - 1);
+    }
+
+    /// Values of the new vertices, `components` floats each.
+    template <class T>
+    uint32_t addAttribute(AtlasSurface const& surface, std::vector<T> const& values, bool hasBounds = false) {
+        std::vector<T> picked;
+        for (const uint32_t source : surface.sources) picked.push_back(values[source]);
+        return addValues(picked, hasBounds);
+    }
+
+    template <class T>
+    uint32_t addValues(std::vector<T> const& values, bool hasBounds = false) {
+        constexpr const char* kTypes[] = { "SCALAR", "VEC2", "VEC3", "VEC4" };
+        Json accessor{ { "bufferView", addView(std::as_bytes(std::span(values)), kArrayBuffer) },
+                       { "componentType", kFloat },
+                       { "count", values.size() },
+                       { "type", kTypes[T::length() - 1] } };
+        if (hasBounds) {
+            T low = values.front(), high = values.front();
+            for (T const& value : values) low = glm::min(low, value), high = glm::max(high, value);
+            for (int i = 0; i < T::length(); ++i) accessor["min"].push_back(low[i]), accessor["max"].push_back(high[i]);
+        }
+        mRoot["accessors"].push_back(std::move(accessor));
+        return static_cast<uint32_t>(mRoot["accessors"].size() - 1);
+    }
+
+    uint32_t addIndices(std::vector<uint32_t> const& indices) {
+        mRoot["accessors"].push_back({ { "bufferView", addView(std::as_bytes(std::span(indices)), kElementBuffer) },
+                                       { "componentType", kUint },
+                                       { "count", indices.size() },
+                                       { "type", "SCALAR" } });
+        return static_cast<uint32_t>(mRoot["accessors"].size() - 1);
+    }
+
+    void rewrite(BakeModel::Source const& source, Json& primitive) {
+        AtlasSurface const& surface = mAtlas.surfaces[source.surface];
+        assets::GltfGeometry const& geometry = source.geometry;
+        Json attributes{ { "POSITION", addAttribute(surface, geometry.positions, true) } };
+        if (!geometry.normals.empty()) attributes["NORMAL"] = addAttribute(surface, geometry.normals);
+        if (!geometry.tangents.empty()) attributes["TANGENT"] = addAttribute(surface, geometry.tangents);
+        if (!geometry.colors.empty()) attributes["COLOR_0"] = addAttribute(surface, geometry.colors);
+        for (size_t i = 0; i < source.uvSets.size(); ++i) {
+            const std::string name = fmt::format("TEXCOORD_{}", source.uvSets[i]);
+            if (geometry.uvs[i].empty() || source.uvSets[i] == kNone || attributes.contains(name)) continue;
+            attributes[name] = addAttribute(surface, geometry.uvs[i]);
+        }
+        attributes[fmt::format("TEXCOORD_{}", mModel.uvSet)] = addValues(surface.uvs);
+        primitive["attributes"] = std::move(attributes);
+        primitive["indices"] = addIndices(writtenIndices(source, surface));
+        if (primitive.contains("extensions")) {
+            primitive["extensions"].erase("KHR_draco_mesh_compression");
+            if (primitive["extensions"].empty()) primitive.erase("extensions");
+        }
+    }
+
+    /// In the winding of the file: surfaces of mirrored nodes were turned.
+    std::vector<uint32_t> writtenIndices(BakeModel::Source const& source, AtlasSurface const& surface) const {
+        std::vector<uint32_t> indices = surface.indices;
+        for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+            if (surface.sources[indices[i + 1]] != source.geometry.indices[i + 1])
+                std::swap(indices[i + 1], indices[i + 2]);
+        }
+        return indices;
+    }
+
+    void addMeshes() {
+        std::map<uint32_t, uint32_t> meshOfNode;
+        for (BakeModel::Source const& source : mModel.sources) {
+            auto [entry, isNew] = meshOfNode.try_emplace(source.node, 0);
+            if (isNew) {
+                Json mesh = mRoot["meshes"][source.mesh];
+                mRoot["meshes"].push_back(std::move(mesh));
+                entry->second = static_cast<uint32_t>(mRoot["meshes"].size() - 1);
+                mRoot["nodes"][source.node]["mesh"] = entry->second;
+            }
+            Json& primitive = mRoot["meshes"][entry->second]["primitives"][source.primitive];
+            rewrite(source, primitive);
+            mBaked.emplace(entry->second, source.primitive);
+        }
+    }
+
+    /// Materials of baked primitives, once more where others use them too.
+    void addToMaterials(uint32_t texture) {
+        std::map<uint32_t, uint32_t> lit; // by material of the file
+        const auto litOne = [&](uint32_t material) {
+            const auto [entry, isNew] = lit.try_emplace(material, 0);
+            if (!isNew) return entry->second;
+            Json copy = material == kNone ? Json::object() : mRoot["materials"][material];
+            copy["extensions"][kLightmapExtension] = { { "lightmapTexture",
+                                                         { { "index", texture }, { "texCoord", mModel.uvSet } } },
+                                                       { "intensity", mLight.intensity },
+                                                       { "directLight", mLight.hasDirectLight } };
+            mRoot["materials"].push_back(std::move(copy));
+            return entry->second = static_cast<uint32_t>(mRoot["materials"].size() - 1);
+        };
+        for (auto const& [mesh, index] : mBaked) {
+            Json& primitive = mRoot["meshes"][mesh]["primitives"][index];
+            primitive["material"] = litOne(primitive.value("material", kNone));
+            if (!primitive.contains("extensions") || !primitive["extensions"].contains("KHR_materials_variants"))
+                continue;
+            for (Json& mapping : primitive["extensions"]["KHR_materials_variants"]["mappings"])
+                mapping["material"] = litOne(mapping["material"].get<uint32_t>());
+        }
+    }
+
+    Result<std::vector<std::byte>> bytes() {
+        mBinary.resize((mBinary.size() + 3) / 4 * 4);
+        mRoot["buffers"][0] = { { "byteLength", mBinary.size() } };
+        std::string text = mRoot.dump();
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const size_t total = 12 + 8 + text.size() + 8 + mBinary.size();
+        if (total > 0xffffffffull) return fail(ErrorCode::OutOfMemory, "a .glb holds 4 GiB; split the model");
+        std::vector<std::byte> file;
+        const auto put = [&](uint32_t word) {
+            const auto bytes = std::as_bytes(std::span(&word, 1));
+            file.insert(file.end(), bytes.begin(), bytes.end());
+        };
+        put(0x46546C67), put(2), put(static_cast<uint32_t>(total));
+        put(static_cast<uint32_t>(text.size())), put(0x4E4F534A);
+        const auto chars = std::as_bytes(std::span(text));
+        file.insert(file.end(), chars.begin(), chars.end());
+        put(static_cast<uint32_t>(mBinary.size())), put(0x004E4942);
+        file.insert(file.end(), mBinary.begin(), mBinary.end());
+        return file;
+    }
+
+    BakeModel const& mModel;
+    Atlas const& mAtlas;
+    LightmapEntry const& mLight;
+    assets::GltfContainer mContainer;
+    Json mRoot;
+    std::vector<std::byte> mBinary;
+    std::set<std::pair<uint32_t, uint32_t>> mBaked; // mesh and primitive
+};
+
+} // namespace
+
+Result<std::vector<std::byte>> writeBakedModel(BakeModel const& model, Atlas const& atlas, LightmapEntry const& light) {
+    return Writer(model, atlas, light).write();
+}
+
+} // namespace filament_core::bake
