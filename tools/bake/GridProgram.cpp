@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/bake/GridProgram.h"
+
+#include "filament_core/assets/files/FileBytes.h"
+#include "toolkit/json/JsonFile.h"
+#include "toolkit/json/JsonReader.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace filament_core::bake {
+namespace {
+
+void readBox(tools::JsonReader& reader, IrradianceGridDesc& box) {
+    reader.read("at", box.centerWorld);
+    reader.read("halfExtent", box.halfExtentMeters);
+    double3 degrees(0.0);
+    reader.read("degrees", degrees);
+    double4x4 world(1.0); // as in scene files
+    world = glm::rotate(world, glm::radians(degrees.y), double3(0, 1, 0));
+    world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
+    world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
+    box.worldFromBox = float3x3(double3x3(world));
+    reader.read("blend", box.blendMeters, 0, 1e9);
+    reader.read("name", box.name);
+    const bool isName = !box.name.empty() && box.name.size() <= 64 && std::ranges::all_of(box.name, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    });
+    if (!isName) reader.complain("name", "expected 1 to 64 letters, digits, - and _: it names the file");
+}
+
+} // namespace
+
+Result<GridSettings> readGridSettings(std::filesystem::path const& file) {
+    const Result<tools::Json> json = tools::readJson(file);
+    if (!json) return json.error();
+    if (!json->is_object()) return fail(ErrorCode::InvalidArgument, "{}: expected an object", file.string());
+    GridSettings settings;
+    settings.box.name = "grid";
+    tools::JsonReader reader(*json, file.filename().string());
+    readBox(reader, settings.box);
+    reader.read("spacing", settings.spacingMeters, 1e-6, 1e6);
+    reader.read("maxProbes", settings.maxProbes, 1, IrradianceProbes::kMaxProbes);
+    reader.read("maxError", settings.maxError, 0, 1e6);
+    reader.read("heldOut", settings.heldOutPoints, 1, 65536);
+    reader.read("paths", settings.probes.rays, 1, 1u << 24);
+    reader.read("depthSize", settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize);
+    reader.read("maxBounces", settings.probes.maxBounces, 1, 4096);
+    reader.read("seed", settings.probes.seed, 0, ~0u);
+    reader.read("leakPoints", settings.leakPointsPerSide, 0, 16);
+    if (const Result<void> done = reader.finish(); !done) return done.error();
+    return settings;
+}
+
+Result<std::filesystem::path> runGrid(reference::TracedScene const& scene, std::filesystem::path const& file,
+                                      double exposure, std::filesystem::path const& folder, jobs::JobSystem& jobs) {
+    Result<GridSettings> settings = readGridSettings(file);
+    if (!settings) return settings.error();
+    settings->probes.exposure = exposure;
+    const Result<BakedGrid> baked = bakeIrradianceGrid(scene, *settings, jobs);
+    if (!baked) return baked.error();
+    const std::filesystem::path path = folder / (settings->box.name + ".grid");
+    if (Result<void> done = assets::replaceFile(path, writeIrradianceGrid(baked->grid)); !done) return done.error();
+    std::printf("%s: %s", path.c_str(), describe(*baked).c_str());
+    return path;
+}
+
+} // namespace filament_core::bake
