@@ -26,7 +26,7 @@ struct GltfImageJob {
     uint32_t colorTexture = kNone, dataTexture = kNone, normalTexture = kNone; ///< slots in ModelData::images
     uint32_t lightTexture = kNone;
     Image color, data, normals, light; ///< filled as requested
-    uint32_t maxSize = 0; ///< larger levels are left out, whatever the options allow; 0: none are
+    uint32_t maxSize = 0;              ///< larger levels are left out, whatever the options allow; 0: none are
 
     uint32_t useCount() const {
         return (colorTexture != kNone ? 1u : 0u) + (dataTexture != kNone ? 1u : 0u) +

@@ -30,7 +30,7 @@ double4x4 placedAt(double3 at, double3 scale) { return glm::scale(glm::translate
 struct OcclusionBufferTest : testing::Test {
     OcclusionBufferTest()
             : jobs({ .workers = 0 }),
-              clipFromWorld(Camera().clipFromView(double(kOcclusionSize.x) / kOcclusionSize.y)) {}
+              clipFromWorld(Camera().clipFromView(float(kOcclusionSize.x) / float(kOcclusionSize.y))) {}
 
     OcclusionBuffer draw(std::vector<std::pair<Occluder, double4x4>> const& objects,
                          DrawnFaces faces = DrawnFaces::Front) {

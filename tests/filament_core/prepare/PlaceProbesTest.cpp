@@ -178,7 +178,7 @@ TEST(PlaceProbes, TheNumberOfWorkersChangesNoBit) {
     for (uint32_t i = 0; i < 70; ++i) of.add(i + 1, { i % 10 - 5.0, i / 10 - 3.0, -12 }, 0.4f);
     of.lit.clear();
     for (int i = 0; i < 20'000; ++i)
-        of.lit.push_back({ float3(i % 140 * 0.1f - 7, i / 140 % 100 * 0.1f - 5, -12), float3(0.02f) });
+        of.lit.push_back({ float3(float2(i % 140, i / 140 % 100) * 0.1f - float2(7, 5), -12), float3(0.02f) });
     const ProbePacket one = of.place();
     jobs::JobSystem four{ { .workers = 4 } };
     ViewPacket packet;
