@@ -149,8 +149,7 @@ bool TextureStreamer::wait() {
     dropDead();
     if (!mHasNeeds) return false;
     choose();
-    evict();
-    request();
+    request(); // the next frame evicts: what it replaces ends with the frame after it
     for (const uint32_t at : mQueue) mStreams[at].load->wait();
     return !residency().isSettled;
 }

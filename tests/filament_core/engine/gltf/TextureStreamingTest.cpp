@@ -320,6 +320,31 @@ TEST(TextureStreaming, StaysInItsBudgetAndSaysWhatIsMissing) {
     test::expectNoErrors(*stage.engine);
 }
 
+TEST(TextureStreaming, MakesRoomWhenTheBudgetShrinks) {
+    for (const Backend backend : test::kBothApis) {
+        Stage stage(backend, 8), other(backend, 8);
+        for (Stage* const each : { &stage, &other }) {
+            each->showNoise();
+            setTextureStreaming(*each->engine, { .budgetMegabytes = 8 });
+        }
+        stage.lookFrom(0.3);
+        stage.settled();
+        EXPECT_GT(textureResidency(*stage.engine).residentBytes, 6u << 20) << "one whole texture and half of the other";
+        setTextureStreaming(*stage.engine, { .budgetMegabytes = 1 });
+        stage.settled();
+        EXPECT_LE(textureResidency(*stage.engine).residentBytes, 1u << 20);
+        setTextureStreaming(*stage.engine, { .budgetMegabytes = 8 });
+        stage.settled();
+        setTextureStreaming(*stage.engine, { .budgetMegabytes = 1 });
+        stage.lookFrom(60);
+        for (uint32_t i = 0; i < 10; ++i) stage.settled(); // a need is held for eight frames
+        EXPECT_LE(textureResidency(*stage.engine).residentBytes, 1u << 20);
+        other.lookFrom(60);
+        expectAlmostEqual(other.settled(), stage.draw());
+        test::expectNoErrors(*stage.engine);
+    }
+}
+
 TEST(TextureStreaming, EndsWithItsModelWhileTexturesAreOnTheirWay) {
     for (const Backend backend : test::kBothApis) {
         Stage stage(backend, 64);
