@@ -5,9 +5,12 @@
 //           its frames. Minima of many frames are what an undisturbed frame takes.
 //   Slope   of the logarithm of the time over that of the count, between the last two counts: 1 is linear. What frames
 //           of any size cost flattens the first ones.
+//   Textures  --textures draws on a device instead (TextureScene.h), whole and streamed within budgets. More
+//           than 200 are not loaded whole.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "base/Statistics.h"
 #include "bench/scale/ScaleScene.h"
+#include "bench/scale/TextureScene.h"
 #include "toolkit/program/CommandLine.h"
 
 #include <nlohmann/json.hpp>
@@ -28,6 +31,9 @@ struct Options {
     uint32_t most = 1'000'000;
     std::vector<std::string> only;
     std::string json;
+    std::vector<int> textures; ///< instead of all of this: counts of textures
+    std::vector<int> budgets{ 0, 256, 1024 };
+    bool gles = false;
 };
 
 /// One line of a figure: a kind of scene over its counts.
@@ -126,6 +132,13 @@ nlohmann::json reportOf(Series const& series, std::vector<Point> const& points) 
     return { { "name", series.name }, { "counted", series.counted }, { "points", rows } };
 }
 
+Result<void> write(nlohmann::json const& report, Options const& options) {
+    if (options.json.empty()) return {};
+    std::ofstream file(options.json);
+    file << report.dump(2) << '\n';
+    return file ? Result<void>{} : fail(ErrorCode::Unreadable, "cannot write '{}'", options.json);
+}
+
 Result<void> run(Options const& options) {
     nlohmann::json report{ { "kind", "scale" }, { "workers", options.workers }, { "series", nlohmann::json::array() } };
     std::printf(
@@ -137,10 +150,62 @@ Result<void> run(Options const& options) {
         if (!points) return points.error();
         report["series"].push_back(reportOf(series, *points));
     }
-    if (options.json.empty()) return {};
-    std::ofstream file(options.json);
-    file << report.dump(2) << '\n';
-    return file ? Result<void>{} : fail(ErrorCode::Unreadable, "cannot write '{}'", options.json);
+    return write(report, options);
+}
+
+nlohmann::json textureRow(int count, TextureFigures const& at) {
+    return { { "count", count },
+             { "minimumMs", *std::ranges::min_element(at.restMilliseconds) },
+             { "medianMs", median(at.restMilliseconds) },
+             { "movingMedianMs", median(at.movingMilliseconds) },
+             { "movingMaximumMs", *std::ranges::max_element(at.movingMilliseconds) },
+             { "movingErrorPixels", at.movingErrorPixels },
+             { "errorPixels", at.residency.largestErrorPixels },
+             { "loadSeconds", at.loadSeconds },
+             { "firstFrameSeconds", at.firstFrameSeconds },
+             { "settledSeconds", at.settledSeconds },
+             { "peakBytes", at.peakBytes },
+             { "movingPeakBytes", at.movingPeakBytes },
+             { "residentBytes", at.residency.residentBytes },
+             { "neededBytes", at.residency.neededBytes },
+             { "fileBytes", at.residency.fileBytes },
+             { "sceneBytes", at.restBytes },
+             { "frameBytes", 0 } };
+}
+
+/// Loading holds whole textures twice: 9 GB.
+constexpr int kMostWhole = 200;
+
+/// --textures: a line for each budget over counts of textures.
+Result<void> runTextures(Options const& options) {
+    nlohmann::json report{ { "kind", "scale" }, { "series", nlohmann::json::array() } };
+    // Drivers compile shaders at the first draw, and keep them.
+    const auto warm = measureTextures({ .textures = 2, .backend = options.gles ? Backend::Gles : Backend::Vulkan });
+    if (!warm) return warm.error();
+    std::printf("| budget MB | textures | load s | first frame s | settled s | peak MB | at rest MB | textures MB | "
+                "rest ms | moving ms | longest ms | moving MB | moving error px |\n"
+                "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (const int budget : options.budgets) {
+        nlohmann::json rows = nlohmann::json::array();
+        for (const int count : options.textures) {
+            if (budget == 0 && count > kMostWhole) continue;
+            const auto figures = measureTextures({ .textures = static_cast<uint32_t>(count),
+                                                   .budgetMegabytes = static_cast<uint32_t>(budget),
+                                                   .backend = options.gles ? Backend::Gles : Backend::Vulkan });
+            if (!figures) return figures.error();
+            rows.push_back(textureRow(count, *figures));
+            std::printf("| %d | %d | %.1f | %.1f | %.1f | %.0f | %.0f | %.0f | %.1f | %.1f | %.1f | %.0f | %.2f |\n",
+                        budget, count, figures->loadSeconds, figures->firstFrameSeconds, figures->settledSeconds,
+                        figures->peakBytes / 1e6, figures->restBytes / 1e6,
+                        static_cast<double>(figures->residency.residentBytes) / 1e6, median(figures->restMilliseconds),
+                        median(figures->movingMilliseconds), *std::ranges::max_element(figures->movingMilliseconds),
+                        figures->movingPeakBytes / 1e6, static_cast<double>(figures->movingErrorPixels));
+            std::fflush(stdout);
+        }
+        const std::string name = budget == 0 ? "whole textures" : fmt::format("budget of {} MB", budget);
+        report["series"].push_back({ { "name", name }, { "counted", "textures of 22 MB" }, { "points", rows } });
+    }
+    return write(report, options);
 }
 
 } // namespace
@@ -155,8 +220,12 @@ int main(int argc, char** argv) {
     app.option("--most", options.most, "leave larger counts out");
     app.option("--only", options.only, "these scenes, by their names in the table");
     app.option("--json", options.json, "also write the figures to this file");
+    app.option("--textures", options.textures,
+               "instead, on a device: so many textures of 2048 x 2048 texels, a line each");
+    app.option("--budgets", options.budgets, "of --textures: megabytes on the device; 0: whole textures");
+    app.flag("--gles", options.gles, "of --textures: OpenGL ES instead of Vulkan");
     if (const std::optional<int> status = app.exitStatus(argc, argv)) return *status;
-    const Result<void> done = bench::run(options);
+    const Result<void> done = options.textures.empty() ? bench::run(options) : bench::runTextures(options);
     if (!done) std::fprintf(stderr, "scale_bench: error: %s\n", done.error().message.c_str());
     return done ? 0 : 1;
 }

@@ -56,6 +56,7 @@ def draw(path, title):
             axes.set_xscale("log")
             axes.set_yscale("log")
             axes.grid(which="major")
+            axes.tick_params(axis="x", which="minor", labelsize=5.5)  # labels of less than a decade
         times.set_title(counted)
         times.legend(fontsize=6.5)
         sizes.set_xlabel(counted)
