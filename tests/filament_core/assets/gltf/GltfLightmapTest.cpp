@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string errorOf(TestFile const& file) {
+std::string refusalOfLightmap(TestFile const& file) {
     const auto model = file.load();
     return model ? std::string() : model.error().message;
 }
@@ -66,8 +66,9 @@ TEST(GltfLightmap, HasTheDefaultsOfItsDescription) {
 }
 
 TEST(GltfLightmap, MissingTexturesAreNamed) {
-    EXPECT_THAT(errorOf(litTriangle({ { "lightmapTexture", { { "index", 7 } } } })), HasSubstr("lightmapTexture"));
-    EXPECT_THAT(errorOf(litTriangle({ { "lightmapTexture", { { "index", 0 } } } }, Json::object())),
+    EXPECT_THAT(refusalOfLightmap(litTriangle({ { "lightmapTexture", { { "index", 7 } } } })),
+                HasSubstr("lightmapTexture"));
+    EXPECT_THAT(refusalOfLightmap(litTriangle({ { "lightmapTexture", { { "index", 0 } } } }, Json::object())),
                 HasSubstr("textures[0]"));
 }
 
