@@ -13,9 +13,11 @@ using scene::sampleGrid;
 using scene::spacingOf;
 
 /// Points on a wall that is a face of the box are beside it by their rounding.
-constexpr float kLeastBlendMeters = 1e-3f;
+constexpr float kLeastGridBlendMeters = 1e-3f;
 /// A point with less of its probes does not count: what is left of them is a tail of the visibility of all.
 constexpr float kLeastWeight = 0.02f;
+/// What is darker than this share of the mean counts as if it were as bright: see importanceOf().
+constexpr float kDarkShare = 0.02f;
 /// How strongly gradients that no point determines go to 0.
 constexpr double kRidge = 1e-9;
 
@@ -25,7 +27,7 @@ float luminance(float3 color) { return glm::dot(color, float3(0.2126f, 0.7152f, 
 float shareOf(GridRecord const& grid, float3 local) {
     const float3 outside = glm::abs(local) - grid.halfExtent;
     const float farthest = std::max({ outside.x, outside.y, outside.z });
-    return std::clamp(1 - farthest / std::max(grid.blendMeters, kLeastBlendMeters), 0.0f, 1.0f);
+    return std::clamp(1 - farthest / std::max(grid.blendMeters, kLeastGridBlendMeters), 0.0f, 1.0f);
 }
 
 struct PointLight {
@@ -48,19 +50,22 @@ public:
         mNormal = {};
         mRight = {};
         mConstant = {};
-        mSum = 0;
+        mSum = mWeights = mMean = 0;
+        visit(seesThroughWalls, [&](float3, PointLight const& point) {
+            mWeights += static_cast<double>(point.weight);
+            mMean += static_cast<double>(point.weight * luminance(point.light[0]));
+        });
         visit(seesThroughWalls, [&](float3 u, PointLight const& point) { add(u, point); });
         if (mSum <= 0) return false;
         solve(field);
-        double squares = 0, mean = 0;
+        double squares = 0;
         visit(seesThroughWalls, [&](float3 u, PointLight const& point) {
             float3 fitted = field.middle[0];
             for (size_t axis = 0; axis < 3; ++axis) fitted += field.change[0][axis] * u[static_cast<int>(axis)];
             const double lacks = luminance(fitted - point.light[0]);
             squares += static_cast<double>(point.weight) * lacks * lacks;
-            mean += static_cast<double>(point.weight) * static_cast<double>(luminance(point.light[0]));
         });
-        field.error = mean > 0 ? static_cast<float>(std::sqrt(squares / mSum) / (mean / mSum)) : 0.0f;
+        field.error = mMean > 0 ? static_cast<float>(std::sqrt(squares / mWeights) / (mMean / mWeights)) : 0.0f;
         return true;
     }
 
@@ -99,9 +104,16 @@ private:
         return point;
     }
 
+    /// Errors count in shares of the light of their point: light of a wall's bright side is seen on its dark side.
+    double importanceOf(PointLight const& point) const {
+        const double mean = mMean / mWeights, dark = kDarkShare * mean;
+        const double light = mean > 0 ? std::max(static_cast<double>(luminance(point.light[0])), dark) / mean : 1;
+        return static_cast<double>(point.weight) / (light * light);
+    }
+
     void add(float3 u, PointLight const& point) {
         const Row basis{ 1, u.x, u.y, u.z };
-        const auto weight = static_cast<double>(point.weight);
+        const double weight = importanceOf(point);
         for (size_t i = 0; i < 4; ++i) {
             for (size_t j = 0; j < 4; ++j) mNormal[i][j] += weight * basis[i] * basis[j];
             for (size_t k = 0; k < 4; ++k) mRight[i][k] += weight * basis[i] * double3(point.light[k]);
@@ -140,14 +152,15 @@ private:
     std::array<Row, 4> mNormal{};
     std::array<std::array<double3, 4>, 4> mRight{}; // by basis function, then coefficient
     std::array<double3, 5> mConstant{};
-    double mSum = 0;
+    double mSum = 0;                // of importances
+    double mWeights = 0, mMean = 0; // of weights, and of their products with luminances
 };
 
 } // namespace
 
 bool reaches(GridRecord const& grid, FieldBox const& box) {
     const float3 local = float3(box.centerWorld - grid.centerWorld) * grid.worldFromBox;
-    const float reach = std::max(grid.blendMeters, kLeastBlendMeters);
+    const float reach = std::max(grid.blendMeters, kLeastGridBlendMeters);
     for (int axis = 0; axis < 3; ++axis) {
         const float half = glm::dot(glm::abs(grid.worldFromBox[axis]), box.halfExtent);
         if (!(std::abs(local[axis]) < grid.halfExtent[axis] + reach + half)) return false;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// fitField: the diffuse light over the box of a renderable, a field that changes linearly along the axes of the box.
 ///   In      irradiance grids, the smallest first; what lights where none does; a box in the world.
-///   Method  least squares over a lattice of 2 to 8 points along each side, its corners included. Points count by how
-///           much of their cell's probes see them; points that none sees, behind a wall or in one, do not count.
+///   Method  least squares over a lattice of 2 to 8 points along each side, its corners included; errors count in
+///           shares of the light of each point. Points count by how many of their cell's probes see them; points that
+///           none sees, behind a wall or in one, do not count.
 ///   Bits    a function of its arguments: whether it was fitted in this frame or an earlier one changes none.
 ///   Thread  pure functions.   Memory: none.   Fails: never.   Cost: 2 us (8 points) to 200 us (512 points).
 #pragma once

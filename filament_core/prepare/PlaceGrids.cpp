@@ -46,7 +46,7 @@ IrradianceSh environmentOf(scene::SceneData const& scene, shader::FrameUniforms 
     return rotateIrradianceSh(light, float3x3(frame.worldFromEnvironment));
 }
 
-FieldBox boxOf(scene::Renderables const& renderables, uint32_t renderable) {
+FieldBox fieldBoxOf(scene::Renderables const& renderables, uint32_t renderable) {
     return { renderables.bounds.centerAt(renderable), renderables.bounds.halfExtentAt(renderable) };
 }
 
@@ -90,7 +90,7 @@ private:
     }
     bool isReached(DrawCall const& draw) const {
         for (uint32_t nth = 0; nth < draw.instanceCount; ++nth) {
-            const FieldBox box = boxOf(mScene.renderables, renderableOf(draw, nth));
+            const FieldBox box = fieldBoxOf(mScene.renderables, renderableOf(draw, nth));
             for (GridRecord const* grid : mGrids)
                 if (reaches(*grid, box)) return true;
         }
@@ -171,7 +171,7 @@ void placeFields(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& sc
     jobs::parallelFor<"irradiance fields">(jobs, renderables.size(), kFieldsOfJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t at = renderables[i];
-            const FieldBox box = boxOf(scene.renderables, at);
+            const FieldBox box = fieldBoxOf(scene.renderables, at);
             FieldCache::Entry local;
             FieldCache::Entry& entry = cache ? (*cache)[at] : local;
             fitted[i] = entry.isKnown && entry.box == box ? 0 : 1;

@@ -110,6 +110,7 @@ GridSample sampleGrid(GridRecord const& grid, float3 local, bool seesThroughWall
         cell[static_cast<size_t>(axis)] = cellPlace(local[axis], grid.halfExtent[axis], count[axis]);
     const float bias = biasOf(grid);
     GridSample sample;
+    float outside = 0; // of geometry
     for (uint32_t corner = 0; corner < 8; ++corner) {
         float weight = 1;
         uint3 at(0);
@@ -122,12 +123,14 @@ GridSample sampleGrid(GridRecord const& grid, float3 local, bool seesThroughWall
         if (weight <= 0) continue;
         const size_t probe = (size_t{ at.z } * count.y + at.y) * count.x + at.x;
         if (probes.probes[probe].isInside) continue;
+        outside += weight;
         if (!seesThroughWalls) weight *= visibilityOf(probes, probe, local - placeOf(grid, at), bias);
         sample.weight += weight;
         for (size_t i = 0; i < sample.light.size(); ++i) sample.light[i] += grid.irradianceSh[probe][i] * weight;
     }
     if (sample.weight <= 1e-6f) return {};
     for (float3& coefficient : sample.light) coefficient /= sample.weight;
+    sample.weight /= outside;
     return sample;
 }
 

@@ -16,7 +16,7 @@ using IrradianceSh = std::array<float3, 9>; ///< irradiance / pi, as IrradianceP
 
 struct GridSample {
     IrradianceSh light{}; ///< the mean over the probes that see the point
-    float weight = 0;     ///< their share of the interpolation, [0, 1]; 0: no probe sees it, and there is no light
+    float weight = 0; ///< their share among those outside of geometry, [0, 1]; 0: none sees it, and there is no light
 };
 
 /// `seesThroughWalls`: every probe that is not inside of geometry counts.

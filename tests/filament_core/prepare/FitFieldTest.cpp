@@ -116,6 +116,24 @@ TEST(FitField, ABoxThatAllProbesAreHiddenFromHasTheirLightAllTheSame) {
     EXPECT_NEAR(fieldOf(grid, { double3(0), float3(0.5f) }, ambientOf(float3(100))).middle[0].x, 100, 1e-3f);
 }
 
+TEST(FitField, AWallHasTheLightOfBothItsSides) {
+    IrradianceGridDesc grid = gridOf(float3(2), { 4, 3, 3 }, [](float3 p) {
+        IrradianceSh light = ambientOf(float3(p.x < 0 ? 1 : 100));
+        light[8] = float3(p.x < 0 ? 0 : 20); // x^2 - y^2, of the bright side alone
+        return light;
+    });
+    auto probes = std::make_shared<IrradianceProbes>(*grid.probes);
+    probes->depthSize = 8;
+    for (size_t i = 0; i < probes->probes.size(); ++i) { // they see 0.6 m, up to the wall, in all directions
+        for (int texel = 0; texel < 64; ++texel) probes->depths.emplace_back(0.6f, 0.36f);
+    }
+    grid.probes = probes;
+    const LightField field = fieldOf(grid, { double3(0), { 0.07f, 0.02f, 0.02f } });
+    EXPECT_NEAR(field.middle[0].x - field.change[0][0].x, 1, 0.1f);
+    EXPECT_NEAR(field.middle[0].x + field.change[0][0].x, 100, 2);
+    EXPECT_LT(field.constant[4].x, 0.2f); // the dark side would be lit by it
+}
+
 // ------------------------------------------------------------------------------------------------ in a view
 
 struct GridsInView : testing::Test, BoxScene {
