@@ -10,7 +10,8 @@
 vec4 gltfBakedLight() {
     highp vec2 uv = mapUv(materialConstants_lightUv, materialConstants_lightTransform, materialParams.lightUvMatrix);
     highp vec4 texel = texture(materialParams_lightMap, uv);
-    return vec4(texel.rgb * (materialParams.lightIntensity * getExposure()), texel.a);
+    // Never negative, so that compilers see that the environment's diffuse light is not needed.
+    return vec4(texel.rgb * (materialParams.lightIntensity * getExposure()), max(texel.a, 0.0));
 }
 
 // width: of the normal.
