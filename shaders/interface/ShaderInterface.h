@@ -166,8 +166,8 @@ struct IrradianceField {
     ObjectData object;
     float4 center;      ///< xyz: of the box, relative to the camera; w: unused
     float4 inverseHalf; ///< xyz: 1 / half its sides, 1 / metres; w: unused
-    /// Of the first four coefficients of irradiance / pi, as FrameUniforms::irradianceSh, red, green and blue each: xyz:
-    /// change with u; w: in the middle. Before FrameUniforms::ambient.x.
+    /// Of the first four coefficients of irradiance / pi, as FrameUniforms::irradianceSh, red, green and blue each:
+    /// xyz: change with u; w: in the middle. Before FrameUniforms::ambient.x.
     std::array<float4, 12> linear;
     std::array<float4, 5> constant; ///< rgb: the other five; w: unused
     std::array<float4, 9> unused;   ///< so that each begins where a uniform offset may
