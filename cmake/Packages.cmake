@@ -60,7 +60,7 @@ filament_package(tools filament-core-tools graphics SHLIBDEPS RECOMMENDS "${driv
     SUMMARY "Physically based renderer for Vulkan and OpenGL ES - programs"
     TEXT "${about}
 .
-Compiles materials (matc, matinfo), bakes environments (cmgen), draws models
+Compiles materials (matc, matinfo), bakes environments (cmgen) and light (filament-bake), draws models
 (filament-render), shows them in a window (filament-view), draws saved frames
 again (filament-replay), traces the true picture of models
 (filament-reference), and compares pictures (imgdiff).")

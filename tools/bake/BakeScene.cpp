@@ -61,7 +61,23 @@ uint64_t hashOf(Options const& options, BakeScene const& bake, reference::Refere
     return hash;
 }
 
+/// Each once.
+void addWarnings(std::vector<std::string>& warnings, std::vector<std::string> const& lines) {
+    for (std::string const& line : lines) {
+        if (std::ranges::find(warnings, line) == warnings.end()) warnings.push_back(line);
+    }
+}
+
 } // namespace
+
+Result<reference::TracedScenePtr> traceScene(Options const& options, jobs::JobSystem& jobs,
+                                             std::vector<std::string>& warnings) {
+    const Result<reference::ReferenceScene> scene = loadScene(options, jobs, warnings);
+    if (!scene) return scene.error();
+    Result<reference::TracedScenePtr> traced = reference::prepare(*scene, jobs);
+    if (traced) addWarnings(warnings, reference::warnings(**traced));
+    return traced;
+}
 
 Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs) {
     BakeScene bake;
@@ -78,13 +94,8 @@ Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs) {
     Result<reference::TracedScenePtr> traced = reference::prepare(*scene, jobs);
     if (!traced) return traced.error();
     bake.scene = std::move(*traced);
-    const auto warn = [&bake](std::vector<std::string> const& lines) {
-        for (std::string const& line : lines) {
-            if (std::ranges::find(bake.warnings, line) == bake.warnings.end()) bake.warnings.push_back(line);
-        }
-    };
-    warn(bake.model.warnings);
-    warn(reference::warnings(*bake.scene));
+    addWarnings(bake.warnings, bake.model.warnings);
+    addWarnings(bake.warnings, reference::warnings(*bake.scene));
     return bake;
 }
 

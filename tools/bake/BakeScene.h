@@ -20,4 +20,8 @@ struct BakeScene {
 
 Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs);
 
+/// The scene alone, for probes. Adds to `warnings`.
+Result<reference::TracedScenePtr> traceScene(Options const& options, jobs::JobSystem& jobs,
+                                             std::vector<std::string>& warnings);
+
 } // namespace filament_core::bake

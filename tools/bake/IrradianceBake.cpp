@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/bake/IrradianceBake.h"
 
+#include "base/math/IrradianceSh.h"
 #include "filament_core/scene/SampleGrid.h"
 #include "tools/reference/SampleStream.h"
 
@@ -172,7 +173,7 @@ private:
         for (HeldOut const& point : mHeldOut) {
             if (point.traced.isInside) continue;
             const std::array<float3, 9> light =
-                    scene::rotateIrradiance(point.traced.irradianceSh,
+                    rotateIrradianceSh(point.traced.irradianceSh,
                                             grid.worldFromBox); // the grid's is in the world
             const scene::GridSample sample = scene::sampleGrid(grid, point.local);
             ++report.heldOutPoints;

@@ -35,6 +35,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
             "on or off: light straight from lamps and the sun counts, too; the engine must then not draw them (off)");
     app.option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
     app.option("--seed", words.seed, "seed of the noise (1)");
+    app.option("--grid", options.grid, "a JSON file: bake the irradiance grid that it describes instead of a lightmap")
+            .typeName("FILE");
     app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
     app.option("--merge", words.merge, "do not trace: write the lightmap of parts").typeName("FILE...");
     app.option("--out", options.out, "folder for what is written (out)");
@@ -106,6 +108,8 @@ Result<void> convertLight(Words const& words, Options& options) {
 
 Result<void> convertRun(Words const& words, Options& options) {
     options.merge.assign(words.merge.begin(), words.merge.end());
+    if (!options.grid.empty() && (!words.shard.empty() || !options.merge.empty()))
+        return fail(ErrorCode::InvalidArgument, "--grid bakes in one run; leave out --shard and --merge");
     if (!words.shard.empty()) {
         if (!options.merge.empty())
             return fail(ErrorCode::InvalidArgument, "--merge traces nothing; give --shard without it");

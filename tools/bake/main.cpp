@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// filament-bake MODEL [options]: what a path tracer finds in a scene that does not move, as textures for the engine.
+// filament-bake MODEL [options]: what a path tracer finds in a scene that does not move, as textures for the engine, or
+// as irradiance grids.
 // Exit status 0: baked and written. 130: stopped by Ctrl-C; the same command continues.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/Ktx2Encoder.h"
 #include "toolkit/program/Program.h"
 #include "tools/bake/BakeScene.h"
+#include "tools/bake/GridProgram.h"
 #include "tools/bake/Journal.h"
 #include "tools/bake/Report.h"
 #include "tools/reference/TracedScene.h"
@@ -61,12 +63,24 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     return 0;
 }
 
+int writeGrid(Options const& options, jobs::JobSystem& jobs) {
+    std::vector<std::string> warnings;
+    const Result<reference::TracedScenePtr> scene = traceScene(options, jobs, warnings);
+    if (!scene) return failed(scene.error());
+    for (std::string const& warning : warnings) tools::printWarning(warning);
+    tools::showProgress("baking probes until held-out points agree");
+    const auto written =
+            runGrid(**scene, options.grid, double(options.light.exposure.factor()), options.out, jobs);
+    return written ? 0 : failed(written.error());
+}
+
 int run(Options const& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error)
         return failed(fail(ErrorCode::Unreadable, "{}: {}; give another --out", options.out.string(), error.message()));
     jobs::JobSystem jobs({ .workers = options.workers });
+    if (!options.grid.empty()) return writeGrid(options, jobs);
     tools::showProgress("cutting surfaces into charts");
     const Result<BakeScene> bake = prepareBake(options, jobs);
     tools::clearProgress();

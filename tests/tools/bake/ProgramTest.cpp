@@ -6,6 +6,8 @@
 #include "tests/scenes/CornellBox.h"
 #include "toolkit/paths/Paths.h"
 
+#include <filament_core/IrradianceGrid.h>
+
 #include <gmock/gmock.h>
 
 #include <array>
@@ -121,6 +123,32 @@ TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
     const Outcome large = run("cornell.glb --density 1e5 --max-size 256");
     EXPECT_EQ(large.status, 1);
     EXPECT_THAT(large.text, HasSubstr("try --density"));
+}
+
+TEST_F(BakeProgram, WritesAnIrradianceGridOfTheSameBytesForAnyNumberOfThreads) {
+    std::ofstream(mFolder / "grid.json") << R"({"name": "box", "at": [0, 1, 0], "halfExtent": [0.9, 0.9, 0.9],
+        "spacing": 1, "maxProbes": 30, "paths": 64, "depthSize": 8, "heldOut": 8, "leakPoints": 2})";
+    for (const char* threads : { "1", "3" }) {
+        const Outcome outcome = run(fmt::format("cornell.glb --grid grid.json --threads {0} --out grid{0}", threads));
+        ASSERT_EQ(outcome.status, 0) << outcome.text;
+        EXPECT_THAT(outcome.text, HasSubstr("held-out points"));
+    }
+    EXPECT_EQ(read("grid1/box.grid"), read("grid3/box.grid"));
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(mFolder / "grid1/box.grid");
+    ASSERT_TRUE(bytes);
+    const Result<IrradianceGridDesc> grid = readIrradianceGrid(*bytes);
+    ASSERT_TRUE(grid) << grid.error().message;
+    EXPECT_GE(grid->probes->probes.size(), 8u);
+    EXPECT_FALSE(std::filesystem::exists(mFolder / "grid1/baked.glb"));
+}
+
+TEST_F(BakeProgram, SaysWhatIsWrongWithAGrid) {
+    std::ofstream(mFolder / "grid.json") << R"({"name": "a/b", "spacing": 0})";
+    const Outcome invalid = run("cornell.glb --grid grid.json");
+    EXPECT_EQ(invalid.status, 1);
+    EXPECT_THAT(invalid.text, HasSubstr("grid.json"));
+    EXPECT_THAT(run("cornell.glb --grid none.json").text, HasSubstr("none.json"));
+    EXPECT_THAT(run("cornell.glb --grid grid.json --shard 1/2").text, HasSubstr("leave out --shard"));
 }
 
 } // namespace
