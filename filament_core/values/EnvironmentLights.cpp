@@ -49,6 +49,8 @@ SunLight sunLightOf(ExtractedLight const& light, EnvironmentSettings const& sett
              .illuminance = Lux{ static_cast<float>(std::clamp(lux, 0.0, kMostLux)) },
              .color = float3(color),
              .angularRadiusDegrees = light.angularRadiusDegrees,
+             .showsDisc = light.showsDisc,
+             .haloSize = light.showsDisc ? 1.0f : SunLight{}.haloSize,
              .lightChannels = kEveryChannel };
 }
 

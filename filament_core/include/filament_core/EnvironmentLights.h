@@ -35,6 +35,7 @@ struct ExtractedLight {
     float3 illuminance{ 0 };              ///< R, G, B of a surface that faces it, in the units of radiance, >= 0
     float angularRadiusDegrees = 0.2665f; ///< of the disc with the same spread of light, [0.2665, 20]
     float share = 0;                      ///< of the luminous illuminance of a surface that faces it, [0, 1]
+    bool showsDisc = false;               ///< the background has none: the sun of loadSky()
 };
 
 /// Why there are lights or none.
@@ -64,7 +65,7 @@ struct EnvironmentLights {
 };
 
 /// The light in a scene: turned and scaled by the settings of the environment. It shines on every channel, and shows no
-/// disc, because the background still has the sun of the photograph.
+/// disc, because the background still has the sun of the photograph; that of loadSky() shows it, without a halo.
 SunLight sunLightOf(ExtractedLight const& light, EnvironmentSettings const& settings);
 
 /// A line for each light: direction in degrees, lux, radius, share; or a line that says why there is none. Empty with

@@ -47,6 +47,8 @@
 #include <filament_core/ResolutionController.h>
 #include <filament_core/Result.h>
 #include <filament_core/Scene.h>
+#include <filament_core/Sky.h>
+#include <filament_core/SkyDesc.h>
 #include <filament_core/Splats.h>
 #include <filament_core/Stencil.h>
 #include <filament_core/TextureStreaming.h>
