@@ -4,7 +4,8 @@
 ///   Model        objects to build, "showcase", "asset:PATH", or a path relative to the scene file.
 ///   Environment  "sky" (analytic, without its sun), "sunny" (with it), "white" (radiance 1 everywhere), "studio"
 ///                (dim, with four lamps of up to 300 times its radiance), "showcase", or a path as above. None: the
-///                image-based light that the model's file names, if it does.
+///                image-based light that the model's file names, if it does. "sky": an object with "sun", "turbidity",
+///                "groundAlbedo", "altitudeMeters", "disc" and "height" of SkyDesc, in place of "file".
 ///   Memory       built files are written once into the folder `work`; several processes may do so at once.
 ///   Thread       any.
 ///   Fails        errors of the builders and the file system. For a missing asset see missingFile().

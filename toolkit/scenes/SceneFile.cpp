@@ -6,6 +6,7 @@
 #include "toolkit/scenes/SceneLights.h"
 
 #include <filament_core/Look.h>
+#include <filament_core/Sky.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
@@ -58,8 +59,23 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     reader.read("moves", spec.copyMoves.emplace_back(0.0));
 }
 
+void readSky(JsonReader& reader, SceneSpec& spec) {
+    SkyDesc& sky = spec.sky.emplace();
+    spec.environmentSettings.illuminance = kSkySettings.illuminance;
+    double3 sun(sky.directionToSun), albedo(sky.groundAlbedo);
+    reader.read("sun", sun);
+    sky.directionToSun = float3(sun);
+    reader.read("turbidity", sky.turbidity, 1, 10);
+    reader.read("groundAlbedo", albedo);
+    sky.groundAlbedo = float3(albedo);
+    reader.read("altitudeMeters", sky.altitudeMeters, 0, 50'000);
+    reader.read("disc", sky.showsDisc);
+    reader.read("height", sky.height, 16, 2048);
+}
+
 void readEnvironment(JsonReader& reader, SceneSpec& spec) {
     reader.read("file", spec.environment);
+    reader.object("sky", [&](JsonReader& r) { readSky(r, spec); });
     reader.read("lux", spec.environmentSettings.illuminance.value, 0, kBright);
     double degrees = 0;
     reader.read("degrees", degrees, -360, 360);

@@ -18,6 +18,7 @@
 #include <filament_core/Gltf.h>
 #include <filament_core/Light.h>
 #include <filament_core/Scene.h>
+#include <filament_core/SkyDesc.h>
 #include <filament_core/View.h>
 
 #include <filesystem>
@@ -53,6 +54,7 @@ struct SceneSpec {
     std::shared_ptr<const Json> modelObject; ///< instead of a path: objects to build, or a material
     std::filesystem::path folder;            ///< folder of the scene file: paths are relative to it
     std::string environment;                 ///< "sky", "asset:...", a path; empty: that of the model, if it has one
+    std::optional<SkyDesc> sky{};            ///< in place of a file
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     std::vector<ProbeSpec> probes;

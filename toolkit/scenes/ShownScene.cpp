@@ -2,6 +2,7 @@
 #include "toolkit/scenes/ShownScene.h"
 
 #include <filament_core/Options.h>
+#include <filament_core/Sky.h>
 
 #include <fmt/format.h>
 
@@ -73,6 +74,12 @@ Result<void> SceneLoader::loadModel(ShownScene& shown, SceneSpec const& spec, Gl
 }
 
 Result<void> SceneLoader::loadSky(ShownScene& shown, SceneSpec const& spec, EnvironmentLoadOptions const& options) {
+    if (spec.sky) {
+        Result<Environment> computed = filament_core::loadSky(mEngine, *spec.sky, options);
+        if (!computed) return computed.error();
+        shown.environment = std::make_shared<Environment>(std::move(*computed));
+        return {};
+    }
     const Result<std::filesystem::path> path = environmentFile(spec, mFolders);
     if (!path) return path.error();
     if (path->empty()) return {};
