@@ -50,7 +50,7 @@ scene::SplatData const& splatsOf(ModelData const& model) {
     return *model.meshes[0].primitives[0].splats;
 }
 
-std::string errorOf(TestFile const& file) {
+std::string splatsErrorOf(TestFile const& file) {
     const Result<ModelData> model = file.load();
     return model ? "loaded" : model.error().message;
 }
@@ -148,7 +148,7 @@ TEST(GltfSplats, WhatIsRequiredIsAnErrorWithItsPlace) {
     const auto with = [](auto&& change) {
         TestFile file = twoSplats();
         change(file);
-        return errorOf(file);
+        return splatsErrorOf(file);
     };
     const auto without = [&](const char* attribute) {
         return with([&](TestFile& file) { file.primitive()["attributes"].erase(attribute); });
