@@ -172,9 +172,8 @@ private:
         double differences = 0, values = 0, noise = 0;
         for (HeldOut const& point : mHeldOut) {
             if (point.traced.isInside) continue;
-            const std::array<float3, 9> light =
-                    rotateIrradianceSh(point.traced.irradianceSh,
-                                            grid.worldFromBox); // the grid's is in the world
+            const std::array<float3, 9> light = rotateIrradianceSh(point.traced.irradianceSh,
+                                                                   grid.worldFromBox); // the grid's is in the world
             const scene::GridSample sample = scene::sampleGrid(grid, point.local);
             ++report.heldOutPoints;
             const auto compare = [&](float3 traced, float3 given) {

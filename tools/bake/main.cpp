@@ -69,8 +69,7 @@ int writeGrid(Options const& options, jobs::JobSystem& jobs) {
     if (!scene) return failed(scene.error());
     for (std::string const& warning : warnings) tools::printWarning(warning);
     tools::showProgress("baking probes until held-out points agree");
-    const auto written =
-            runGrid(**scene, options.grid, double(options.light.exposure.factor()), options.out, jobs);
+    const auto written = runGrid(**scene, options.grid, double(options.light.exposure.factor()), options.out, jobs);
     return written ? 0 : failed(written.error());
 }
 
