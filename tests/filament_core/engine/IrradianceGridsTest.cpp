@@ -117,7 +117,7 @@ TEST(IrradianceGrids, OutOfViewTheyChangeNothing) {
             for (EffectDecision const& one : renderer.decisions()) {
                 if (one.name != "irradiance grids") continue;
                 EXPECT_EQ(one.state, EffectDecision::State::NotNeeded);
-                EXPECT_EQ(one.reason, "none of 1 reaches into the view");
+                EXPECT_EQ(one.reason, "none of 1 reaches a lit surface in view");
             }
         });
     };

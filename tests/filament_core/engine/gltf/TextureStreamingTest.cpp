@@ -57,8 +57,8 @@ std::vector<std::byte> const& modelOfNoise() {
 }
 
 /// An engine that shows one model.
-struct Stage {
-    explicit Stage(Backend backend, uint32_t budget, int workers = 1)
+struct StreamingStage {
+    explicit StreamingStage(Backend backend, uint32_t budget, int workers = 1)
             : engine(test::makeEngine(backend, workers)), scene(*engine), renderer(*engine) {
         view.size = { 192, 128 };
         view.camera.exposure = { .aperture = 1, .shutterSeconds = 1, .iso = 100 };
@@ -126,7 +126,7 @@ void expectAlmostEqual(Image const& whole, Image const& streamed) {
 
 TEST(TextureStreaming, SettlesOnTheImageOfWholeTextures) {
     for (const Backend backend : test::kBothApis) {
-        Stage whole(backend, 0), streamed(backend, 64);
+        StreamingStage whole(backend, 0), streamed(backend, 64);
         whole.showNoise();
         streamed.showNoise();
         for (const double meters : { 20.0, 6.0, 3.0, 1.2, 9.0 }) {
@@ -142,8 +142,8 @@ TEST(TextureStreaming, SettlesOnTheImageOfWholeTextures) {
 
 TEST(TextureStreaming, HasAllBitsOfWholeTexturesWhereNoLevelsAreMixed) {
     for (const Backend backend : test::kBothApis) {
-        Stage whole(backend, 0), streamed(backend, 64);
-        for (Stage* const stage : { &whole, &streamed }) {
+        StreamingStage whole(backend, 0), streamed(backend, 64);
+        for (StreamingStage* const stage : { &whole, &streamed }) {
             stage->view.quality.textureFilter = TextureFilter::Bilinear;
             stage->showNoise();
         }
@@ -166,7 +166,7 @@ TEST(TextureStreaming, SettlesOnTheImagesOfModels) {
         }
         std::array<std::vector<Image>, 2> images;
         for (size_t api = 0; api < 2; ++api) {
-            Stage whole(test::kBothApis[api], 0), streamed(test::kBothApis[api], 512);
+            StreamingStage whole(test::kBothApis[api], 0), streamed(test::kBothApis[api], 512);
             whole.show(loadGltf(*whole.engine, models / file, whole.options));
             streamed.show(loadGltf(*streamed.engine, models / file, streamed.options));
             if (!whole.model || !streamed.model) continue;
@@ -195,8 +195,8 @@ TEST(TextureStreaming, SettlesOnTheImagesOfModels) {
 TEST(TextureStreaming, HasAllBitsOfWholeTexturesWhereTheLargestLevelsAreThere) {
     const std::filesystem::path file = tools::assetDir() / "models/SheenChair/SheenChair.gltf";
     if (tools::assetDir().empty() || !std::filesystem::exists(file)) GTEST_SKIP() << "needs FILAMENT_ASSET_DIR";
-    Stage whole(Backend::Vulkan, 0), streamed(Backend::Vulkan, 512);
-    for (Stage* const stage : { &whole, &streamed }) {
+    StreamingStage whole(Backend::Vulkan, 0), streamed(Backend::Vulkan, 512);
+    for (StreamingStage* const stage : { &whole, &streamed }) {
         stage->options.normalMapRoughness = true; // levels that are derived from the largest one
         stage->show(loadGltf(*stage->engine, file, stage->options));
         ASSERT_TRUE(stage->model);
@@ -225,8 +225,8 @@ TEST(TextureStreaming, CutsOutShadowsAsWholeTexturesDo) {
     const std::vector<std::byte> ground =
             test::quadFile({}, MaterialData{ .name = "ground" }, { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
     for (const Backend backend : test::kBothApis) {
-        Stage whole(backend, 0), streamed(backend, 64);
-        for (Stage* const stage : { &whole, &streamed }) {
+        StreamingStage whole(backend, 0), streamed(backend, 64);
+        for (StreamingStage* const stage : { &whole, &streamed }) {
             stage->show(loadGltf(*stage->engine, GltfMemory{ .file = file, .name = "mask" }, stage->options));
             Result<Model> behind = loadGltf(*stage->engine, GltfMemory{ .file = ground, .name = "ground" });
             ASSERT_TRUE(behind);
@@ -270,7 +270,7 @@ TEST(TextureStreaming, SurvivesTheLossOfItsDevice) {
 }
 
 TEST(TextureStreaming, HasOnTheDeviceWhatAViewNeeds) {
-    Stage stage(Backend::Vulkan, 64);
+    StreamingStage stage(Backend::Vulkan, 64);
     stage.showNoise();
     stage.lookFrom(60);
     stage.settled();
@@ -287,7 +287,7 @@ TEST(TextureStreaming, HasOnTheDeviceWhatAViewNeeds) {
 
 TEST(TextureStreaming, DrawsTheSameBitsOnBothApisInEachFrame) {
     const auto frames = [](Backend backend, int workers) {
-        Stage stage(backend, 8, workers);
+        StreamingStage stage(backend, 8, workers);
         stage.showNoise();
         setTextureStreaming(*stage.engine, { .budgetMegabytes = 8, .uploadMegabytes = 1 });
         std::vector<std::vector<std::byte>> all;
@@ -306,7 +306,7 @@ TEST(TextureStreaming, DrawsTheSameBitsOnBothApisInEachFrame) {
 }
 
 TEST(TextureStreaming, StaysInItsBudgetAndSaysWhatIsMissing) {
-    Stage stage(Backend::Vulkan, 3);
+    StreamingStage stage(Backend::Vulkan, 3);
     stage.showNoise();
     setTextureStreaming(*stage.engine, { .budgetMegabytes = 3 });
     stage.lookFrom(0.3);
@@ -322,8 +322,8 @@ TEST(TextureStreaming, StaysInItsBudgetAndSaysWhatIsMissing) {
 
 TEST(TextureStreaming, MakesRoomWhenTheBudgetShrinks) {
     for (const Backend backend : test::kBothApis) {
-        Stage stage(backend, 8), other(backend, 8);
-        for (Stage* const each : { &stage, &other }) {
+        StreamingStage stage(backend, 8), other(backend, 8);
+        for (StreamingStage* const each : { &stage, &other }) {
             each->showNoise();
             setTextureStreaming(*each->engine, { .budgetMegabytes = 8 });
         }
@@ -347,7 +347,7 @@ TEST(TextureStreaming, MakesRoomWhenTheBudgetShrinks) {
 
 TEST(TextureStreaming, EndsWithItsModelWhileTexturesAreOnTheirWay) {
     for (const Backend backend : test::kBothApis) {
-        Stage stage(backend, 64);
+        StreamingStage stage(backend, 64);
         for (int i = 0; i < 3; ++i) {
             stage.showNoise();
             stage.lookFrom(0.3);
@@ -365,7 +365,7 @@ TEST(TextureStreaming, EndsWithItsModelWhileTexturesAreOnTheirWay) {
 }
 
 TEST(TextureStreaming, FollowsCopiesWithMaterialsOfTheirOwn) {
-    Stage stage(Backend::Vulkan, 64);
+    StreamingStage stage(Backend::Vulkan, 64);
     stage.showNoise();
     Result<ModelCopy> copy = ModelCopy::of(stage.scene, stage.root);
     ASSERT_TRUE(copy);
@@ -385,7 +385,7 @@ TEST(TextureStreaming, LeavesOddSizesAndNearestFiltersWhole) {
     material.emissive.sampler.mipFilter = MipFilter::None;
     const std::vector<std::byte> file = test::quadFile({ noise(1, 255), noise(2, 256), noise(3, 256) }, material,
                                                        { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
-    Stage stage(Backend::Vulkan, 64);
+    StreamingStage stage(Backend::Vulkan, 64);
     stage.show(loadGltf(*stage.engine, GltfMemory{ .file = file, .name = "whole" }, stage.options));
     stage.lookFrom(2);
     stage.draw();
