@@ -44,21 +44,29 @@ class SkyGroundEdit final : public FrameEdit {
 };
 
 /// The box of a view's smallest reflection probe, and where its cube was captured.
-class ProbeShiftEdit final : public FrameEdit {
-    static bool isProbes(Bytes const& bytes) {
-        if (bytes.empty() || bytes.size() % sizeof(shader::ReflectionProbe) != 0) return false;
-        shader::ReflectionProbe first;
-        std::memcpy(&first, bytes.data(), sizeof(first));
-        return std::ranges::all_of(first.axes, [](float4 const& axis) {
+class ProbeShiftEdit final : public PassBlocksEdit {
+    static bool isProbe(shader::ReflectionProbe const& probe) {
+        return std::ranges::all_of(probe.axes, [](float4 const& axis) {
             return std::abs(glm::dot(float3(axis), float3(axis)) - 1) < 1e-3f && axis.w > 0;
         });
     }
+    static bool isUnused(shader::ReflectionProbe const& probe) {
+        return std::ranges::all_of(probe.axes, [](float4 const& axis) { return axis == float4(0, 0, 0, -1); });
+    }
+    static bool isProbes(Bytes const& bytes, size_t at) {
+        shader::ProbeUniforms uniforms;
+        std::memcpy(&uniforms, bytes.data() + at, sizeof(uniforms));
+        return isProbe(uniforms.probes.front()) && std::ranges::all_of(uniforms.probes, [](auto const& probe) {
+                   return isProbe(probe) || isUnused(probe);
+               });
+    }
 
-    void changeFroxels(CmdUpdateBuffer& command) override {
-        Bytes& bytes = copy(command.bytes);
-        if (!isProbes(bytes)) return;
-        const size_t at = offsetof(shader::ReflectionProbe, center);
-        writeFloat(bytes, at, readFloat(bytes, at) + 0.02f);
+    void editBlocks(Bytes& bytes) override {
+        for (size_t at = 0; at + sizeof(shader::ProbeUniforms) <= bytes.size(); at += sizeof(float4)) {
+            if (!isProbes(bytes, at)) continue;
+            const size_t x = at + offsetof(shader::ReflectionProbe, center);
+            writeFloat(bytes, x, readFloat(bytes, x) + 0.02f);
+        }
     }
 };
 
