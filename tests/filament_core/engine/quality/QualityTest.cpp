@@ -324,13 +324,13 @@ std::vector<Image> renderEveryValue(Backend backend) {
 
 /// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp,
 /// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen,
-/// ambient-occlusion, contact-shadows, refraction, transparency and reflections have images for them.
+/// ambient-occlusion, contact-shadows, refraction, transparency, reflections and reflection-probes have images for them.
 bool isOfTheView(std::string_view name) {
     if (name.starts_with("refraction") || name.starts_with("transparency") || name == "depthPrepass" ||
         name == "antiAliasing" || name == "msaaResolve" || name == "mipBias")
         return true;
-    return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
-           name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
+    return name == "textureFilter" || name == "reflectionProbes" || name == "depthRange" || name == "cameraRelative" ||
+           name == "toneMapping" || name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
            name == "coloredShadows" || name.starts_with("shadow");
 }
 
