@@ -29,6 +29,7 @@ struct Device {
 };
 
 int report(Error const& error);
+std::vector<std::byte> readFile(std::filesystem::path const& path);
 void showLoadingScreen();
 void select(Node node, double3 const& positionWorld);
 
