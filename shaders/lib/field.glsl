@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields of light over the box of an object (irradiance grids): values that change linearly along the axes of the box.
+// Fields of light over the box of an object (irradiance grids): values that change linearly along the axes of the
+// box. fp32 only, because positions reach kilometres.
 
 // Where in the box a point is; points outside count as on its faces. fromCenter: metres; inverseHalf: 1 / half the sides in
 // metres, > 0. Returns [-1, 1] each.
