@@ -324,7 +324,8 @@ std::vector<Image> renderEveryValue(Backend backend) {
 
 /// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp,
 /// AntiAliasingTest.cpp, ResolutionTest.cpp and the conformance scenes quality, shadows, area-lights, materials-sheen,
-/// ambient-occlusion, contact-shadows, refraction, transparency, reflections and reflection-probes have images for them.
+/// ambient-occlusion, contact-shadows, refraction, transparency, reflections and reflection-probes have images for
+/// them.
 bool isOfTheView(std::string_view name) {
     if (name.starts_with("refraction") || name.starts_with("transparency") || name == "depthPrepass" ||
         name == "antiAliasing" || name == "msaaResolve" || name == "mipBias")
