@@ -11,6 +11,7 @@
 #include "tools/bake/Report.h"
 #include "tools/reference/TracedScene.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace filament_core::bake {
@@ -58,6 +59,9 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     if (auto done = assets::replaceFile(path, *file); !done) return failed(done.error());
     if (auto done = writeReport(options, bake, lights, image); !done) return failed(done.error());
     for (std::string const& warning : bake.warnings) tools::printWarning(warning);
+    const bool isDark =
+            std::ranges::all_of(lights, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
+    if (isDark) tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
     std::printf("%s: %zu texels of %zu charts in %u x %u\n", path.c_str(), bake.texels.size(), bake.atlas.charts.size(),
                 image.side, image.side);
     return 0;

@@ -142,6 +142,15 @@ TEST_F(BakeProgram, WritesAnIrradianceGridOfTheSameBytesForAnyNumberOfThreads) {
     EXPECT_FALSE(std::filesystem::exists(mFolder / "grid1/baked.glb"));
 }
 
+TEST_F(BakeProgram, WarnsOfASceneWithoutLight) {
+    const auto bytes = assets::writeGlb(tests::cornellBox(0));
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    ASSERT_TRUE(assets::replaceFile(mFolder / "dark.glb", *bytes));
+    const Outcome outcome = run("dark.glb --density 4 --samples 32 --environment none --out dark");
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("no light reaches a surface"));
+}
+
 TEST_F(BakeProgram, SaysWhatIsWrongWithAGrid) {
     std::ofstream(mFolder / "grid.json") << R"({"name": "a/b", "spacing": 0})";
     const Outcome invalid = run("cornell.glb --grid grid.json");
