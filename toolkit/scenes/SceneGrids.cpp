@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "toolkit/scenes/SceneGrids.h"
 
-#include <glm/ext/matrix_transform.hpp>
-
-#include <algorithm>
+#include "toolkit/scenes/BoxFields.h"
 
 namespace filament_core::tools {
 namespace {
@@ -54,22 +52,10 @@ void readProbes(JsonReader& reader, IrradianceGridDesc& grid) {
 
 void readGrid(JsonReader& reader, GridSpec& grid) {
     IrradianceGridDesc& desc = grid.grid;
-    reader.read("at", desc.centerWorld);
-    reader.read("halfExtent", desc.halfExtentMeters);
-    double3 degrees(0.0);
-    reader.read("degrees", degrees);
-    double4x4 world(1.0); // as copies of the model turn
-    world = glm::rotate(world, glm::radians(degrees.y), double3(0, 1, 0));
-    world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
-    world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
-    desc.worldFromBox = float3x3(double3x3(world));
-    reader.read("blend", desc.blendMeters, 0, 1e9);
+    readBox(reader, desc);
     reader.read("intensity", desc.intensity, 0, 1e9);
     reader.read("name", desc.name);
     reader.read("file", grid.file);
-    const float3 half = desc.halfExtentMeters;
-    if (!(half.x > 0 && half.y > 0 && half.z > 0) || std::max({ half.x, half.y, half.z }) > 1e9f)
-        reader.complain("halfExtent", "expected three numbers of (0, 1e9]");
     if (grid.file.empty()) readProbes(reader, desc);
 }
 

@@ -4,8 +4,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "toolkit/json/JsonFile.h"
 #include "toolkit/json/JsonReader.h"
+#include "toolkit/scenes/BoxFields.h"
 
-#include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -14,17 +14,8 @@
 namespace filament_core::bake {
 namespace {
 
-void readBox(tools::JsonReader& reader, IrradianceGridDesc& box) {
-    reader.read("at", box.centerWorld);
-    reader.read("halfExtent", box.halfExtentMeters);
-    double3 degrees(0.0);
-    reader.read("degrees", degrees);
-    double4x4 world(1.0); // as in scene files
-    world = glm::rotate(world, glm::radians(degrees.y), double3(0, 1, 0));
-    world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
-    world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
-    box.worldFromBox = float3x3(double3x3(world));
-    reader.read("blend", box.blendMeters, 0, 1e9);
+void readNamedBox(tools::JsonReader& reader, IrradianceGridDesc& box) {
+    tools::readBox(reader, box);
     reader.read("name", box.name);
     const bool isName = !box.name.empty() && box.name.size() <= 64 && std::ranges::all_of(box.name, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -41,7 +32,7 @@ Result<GridSettings> readGridSettings(std::filesystem::path const& file) {
     GridSettings settings;
     settings.box.name = "grid";
     tools::JsonReader reader(*json, file.filename().string());
-    readBox(reader, settings.box);
+    readNamedBox(reader, settings.box);
     reader.read("spacing", settings.spacingMeters, 1e-6, 1e6);
     reader.read("maxProbes", settings.maxProbes, 1, IrradianceProbes::kMaxProbes);
     reader.read("maxError", settings.maxError, 0, 1e6);
