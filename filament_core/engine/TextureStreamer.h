@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// TextureStreamer: which mip levels of the textures of models are on the device (<filament_core/TextureStreaming.h>).
 ///   In      models that were loaded for it, and after each frame which levels its views needed.
-///   Out     between frames: textures with other levels in place of those that material instances bind.
+///   Out     between frames, textures with the chosen mip levels replace the old ones in the bindings of material
+///           instances.
 ///   Choice  each texture begins with its coarsest levels. The one with the largest error in pixels gets the next finer
 ///           level, as long as the budget has room and a view needs it; of equal ones the first. What is left of the
 ///           budget keeps finer levels of what was in view most recently. A view needs what it needed in one of the

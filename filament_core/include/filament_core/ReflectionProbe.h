@@ -4,8 +4,8 @@
 ///   Parallax  a mirrored ray is followed to the walls of the box, and the cube is looked up there.
 ///   Blending  a box gives the light of what is in it and on its faces, and less and less up to blendMeters outside.
 ///             The smallest box comes first, others give what it leaves, and the environment what all of them leave.
-///   Limits    a view uses up to Quality::reflectionProbes probes, the nearest of those that reach something lit. All
-///             of their cubes have the size, the levels, the format and the mapping of the environment's or, without
+///   Limits    a view uses up to Quality::reflectionProbes probes: of those whose boxes overlap lit surfaces in the
+///             frustum, the nearest to the camera. All of their cubes have the size, the levels, the format and the mapping of the environment's or, without
 ///             an environment, of the smallest probe's. Formats are RGBA16F and RGBM. Renderer::explain() says which
 ///             probes a view leaves out, and why. The device needs arrays of cubes: without them the environment
 ///             lights all surfaces.

@@ -40,7 +40,7 @@ struct TextureResidency {
     uint32_t textures = 0;        ///< that are streamed
     uint32_t loading = 0;         ///< of them, how many are being decoded or wait for their frame
     uint64_t residentBytes = 0;   ///< of their levels on the device
-    uint64_t neededBytes = 0;     ///< of those that the last frames need
+    uint64_t neededBytes = 0;     ///< of the mip levels that recent frames sample
     uint64_t wholeBytes = 0;      ///< of all levels
     uint64_t fileBytes = 0;       ///< of their files, in memory
     float largestErrorPixels = 0; ///< a texel of the finest level that is there covers as many pixels; 1 and less: none
