@@ -5,10 +5,10 @@
 ///   Blending  a box gives the light of what is in it and on its faces, and less and less up to blendMeters outside.
 ///             The smallest box comes first, others give what it leaves, and the environment what all of them leave.
 ///   Limits    a view uses up to Quality::reflectionProbes probes: of those whose boxes overlap lit surfaces in the
-///             frustum, the nearest to the camera. All of their cubes have the size, the levels, the format and the mapping of the environment's or, without
-///             an environment, of the smallest probe's. Formats are RGBA16F and RGBM. Renderer::explain() says which
-///             probes a view leaves out, and why. The device needs arrays of cubes: without them the environment
-///             lights all surfaces.
+///             frustum, the nearest to the camera. All of their cubes have the size, the levels, the format and the
+///             mapping of the environment's or, without an environment, of the smallest probe's. Formats are RGBA16F
+///             and RGBM. Renderer::explain() says which probes a view leaves out, and why. The device needs arrays of
+///             cubes: without them the environment lights all surfaces.
 ///   Affects   specular light of all lit materials, clear coats and sheens and refraction included, and diffuse light.
 ///             Diffuse light of probes is that of spherical harmonics, whatever Quality::diffuseIrradiance is. Fog and
 ///             background are those of the environment.
