@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance grids of a scene.
+#include "filament_core/engine/LightBox.h"
 #include "filament_core/engine/SceneImpl.h"
 
 #include <cmath>
@@ -9,20 +10,9 @@ namespace {
 
 using engine::PublicCall;
 
-constexpr float kLargestGridMeters = 1e9f; // sides and their products stay far from infinity
 constexpr float kBrightestGrid = 1e12f;
 
-bool isLength(float value, float least) { return value >= least && value <= kLargestGridMeters; }
-
 bool isBright(float value) { return std::abs(value) <= kBrightestGrid; }
-
-bool isOrthonormal(float3x3 const& axes) {
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j <= i; ++j)
-            if (!(std::abs(glm::dot(axes[i], axes[j]) - (i == j ? 1.0f : 0.0f)) < 1e-3f)) return false;
-    }
-    return true;
-}
 
 void checkProbes(IrradianceProbes const& probes) {
     using P = IrradianceProbes;
@@ -44,19 +34,8 @@ void checkProbes(IrradianceProbes const& probes) {
 }
 
 void checkGrid(IrradianceGridDesc const& desc) {
-    const double3 center = desc.centerWorld;
-    const float3 half = desc.halfExtentMeters;
     FILAMENT_ASSERT(desc.probes, "an irradiance grid has probes");
-    FILAMENT_ASSERT(std::isfinite(center.x) && std::isfinite(center.y) && std::isfinite(center.z),
-                    "the center of an irradiance grid is finite");
-    FILAMENT_ASSERT(half.x > 0 && half.y > 0 && half.z > 0 && isLength(half.x, 0) && isLength(half.y, 0) &&
-                            isLength(half.z, 0),
-                    "halfExtentMeters of an irradiance grid is > 0 and at most 1e9");
-    FILAMENT_ASSERT(isOrthonormal(desc.worldFromBox),
-                    "worldFromBox of an irradiance grid holds three unit vectors at right angles");
-    FILAMENT_ASSERT(isLength(desc.blendMeters, 0), "blendMeters of an irradiance grid is >= 0 and at most 1e9");
-    FILAMENT_ASSERT(desc.intensity >= 0 && desc.intensity <= 1e9f,
-                    "the intensity of an irradiance grid is >= 0 and at most 1e9");
+    engine::checkLightBox(desc);
     checkProbes(*desc.probes);
 }
 

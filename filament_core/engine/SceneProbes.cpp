@@ -1,47 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflection probes of a scene.
+#include "filament_core/engine/LightBox.h"
 #include "filament_core/engine/SceneImpl.h"
-
-#include <cmath>
 
 namespace filament_core {
 namespace {
 
 using engine::PublicCall;
 
-constexpr float kLargestProbeMeters = 1e9f; // sides and their products stay far from infinity
-
-bool isUpTo(float3 v, float most) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(v[axis]) <= most)) return false;
-    return true;
-}
-
-bool isRotation(float3x3 const& axes) {
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j <= i; ++j)
-            if (!(std::abs(glm::dot(axes[i], axes[j]) - (i == j ? 1.0f : 0.0f)) < 1e-3f)) return false;
-    }
-    return true;
-}
-
 void checkProbe(ReflectionProbeDesc const& desc) {
-    const double3 center = desc.centerWorld;
-    const float3 half = desc.halfExtentMeters;
     FILAMENT_ASSERT(desc.light, "a reflection probe has a light");
-    FILAMENT_ASSERT(std::isfinite(center.x) && std::isfinite(center.y) && std::isfinite(center.z),
-                    "the center of a reflection probe is finite");
-    FILAMENT_ASSERT(half.x > 0 && half.y > 0 && half.z > 0 && isUpTo(half, kLargestProbeMeters),
-                    "halfExtentMeters of a reflection probe is > 0 and at most 1e9");
-    FILAMENT_ASSERT(isRotation(desc.worldFromBox),
-                    "worldFromBox of a reflection probe holds three unit vectors at right angles");
-    FILAMENT_ASSERT(desc.blendMeters >= 0 && desc.blendMeters <= kLargestProbeMeters,
-                    "blendMeters of a reflection probe is >= 0 and at most 1e9");
-    FILAMENT_ASSERT(desc.intensity >= 0 && desc.intensity <= 1e9f,
-                    "the intensity of a reflection probe is >= 0 and at most 1e9");
-    const float3 capture = glm::abs(desc.captureInBoxMeters);
-    FILAMENT_ASSERT(capture.x < half.x && capture.y < half.y && capture.z < half.z,
-                    "a reflection probe is captured inside of its box");
+    engine::checkLightBox(desc);
+    const float3 inside = desc.halfExtentMeters - glm::abs(desc.captureInBoxMeters);
+    FILAMENT_ASSERT(inside.x > 0 && inside.y > 0 && inside.z > 0, "a reflection probe is captured inside of its box");
 }
 
 scene::ProbeRecord recordOf(Scene::Impl const& scene, ReflectionProbeDesc const& desc) {
