@@ -377,6 +377,7 @@ std::vector<Pair> effectPairs() {
     probes("reflection probe around everything", { 1.5f });
     probes("reflection probe in a part", { 0.1f });
     probes("two reflection probes in parts", { 0.1f, 0.15f });
+    probes("four reflection probes in parts", { 0.09f, 0.11f, 0.13f, 0.15f });
     probes("eight reflection probes in parts", { 0.08f, 0.09f, 0.1f, 0.11f, 0.12f, 0.13f, 0.14f, 0.15f });
     addGridPairs(all, kHelmet);
     addFogPairs(all, kHelmet);

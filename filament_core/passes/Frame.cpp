@@ -32,9 +32,19 @@ using framegraph::FrameGraph;
 
 uint8_t probeTermsOf(prepare::FramePacket const& packet) {
     if (!packet.demand.needs(prepare::Effect::ReflectionProbes)) return 0;
-    const uint32_t used = packet.probes.used;
-    const uint32_t probes = used == 1 ? shader::kOneProbe : used == 2 ? shader::kTwoProbes : shader::kAllProbes;
-    return static_cast<uint8_t>(probes | (packet.probes.addsEnvironment ? shader::kProbesAndEnvironment : 0));
+    const bool isAlone = !packet.probes.addsEnvironment;
+    switch (packet.probes.used) {
+    case 1:
+        return isAlone ? shader::kOneProbeAlone : shader::kOneProbe;
+    case 2:
+        return isAlone ? shader::kTwoProbesAlone : shader::kTwoProbes;
+    case 3:
+        return shader::kThreeProbes;
+    case 4:
+        return shader::kFourProbes;
+    default:
+        return shader::kAllProbes;
+    }
 }
 
 ShadedLights lightsOf(prepare::FramePacket const& packet) {

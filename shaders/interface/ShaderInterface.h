@@ -312,13 +312,17 @@ enum FogTerms : uint8_t {
     kFogCells = 32,          ///< light of lamps and of the shadowed sun is in FogCells
 };
 
-/// What shaders compute of reflection probes; a set. Programs look at a number of probes that is known when they are
-/// compiled, because drivers read uniforms fast where their place is a constant.
+/// What shaders compute of reflection probes: how many they look at, and whether the environment lights what no probe
+/// does. Numbers are known when programs are compiled, because drivers read uniforms fast where their place is constant.
 enum ProbeTerms : uint8_t {
-    kProbesAndEnvironment = 1, ///< the environment lights what no probe does
+    kNoProbe = 0,
+    kOneProbeAlone = 1,
     kOneProbe = 2,
+    kTwoProbesAlone = 3,
     kTwoProbes = 4,
-    kAllProbes = 6, ///< kMaxProbesOfView
+    kThreeProbes = 5,
+    kFourProbes = 6,
+    kAllProbes = 7, ///< kMaxProbesOfView
 };
 
 /// What materials that blend in any order write (shaders/material/surface/transparency.glsl).

@@ -21,15 +21,19 @@ highp vec3 environmentFromWorld(highp vec3 direction) {
 // calls stay calls (shaders/compiler/KeepCalls.h). Loops have a constant number of turns: drivers unroll them, and know
 // the places of uniforms.
 
-const int kProbesAndEnvironment = 1;
-const int kAllProbes = 6;
+// Values of quality_reflectionProbes (ProbeTerms).
+const int kTwoProbes = 4;
+const int kFourProbes = 6;
 
 int probeCount() {
-    return quality_reflectionProbes >= kAllProbes ? kMaxProbesOfView : quality_reflectionProbes >> 1;
+    return quality_reflectionProbes <= kTwoProbes ? (quality_reflectionProbes + 1) >> 1
+         : quality_reflectionProbes <= kFourProbes ? quality_reflectionProbes - 2
+         : kMaxProbesOfView;
 }
 
+// One or two probes may be all that lights a view: their odd values.
 bool addsEnvironment() {
-    return quality_reflectionProbes == 0 || (quality_reflectionProbes & kProbesAndEnvironment) != 0;
+    return quality_reflectionProbes >= kTwoProbes || (quality_reflectionProbes & 1) == 0;
 }
 
 // Light of the probes around the surface and of the environment, which gives what they leave: the mean over a lobe at

@@ -51,7 +51,7 @@ TEST(ShadingKey, EveryStorageOfAnEnvironmentIsAKeyOfItsOwn) {
 }
 
 TEST(ShadingKey, ProbesSelectAProgramOfLitMaterialsAlone) {
-    const ShadingKey key = shadingKey({}, {}, { .probeTerms = shader::kAllProbes | shader::kProbesAndEnvironment });
+    const ShadingKey key = shadingKey({}, {}, { .probeTerms = shader::kAllProbes });
     EXPECT_EQ(bitsOf(key, shader::kQualityReflectionProbes), 7u);
     EXPECT_EQ(ofUnlit(key), 0);
     EXPECT_EQ(depthOfViewKey(key), 0);
