@@ -95,9 +95,11 @@ private:
     bool mHasLights = false;
 };
 
-/// Edits the blocks of PassUniforms and of the materials of full-screen passes.
-class PassBlocksEdit : public PayloadEdit {
+/// Edits what is written to the buffers of one debug name.
+class NamedBufferEdit : public PayloadEdit {
 public:
+    explicit NamedBufferEdit(std::string_view name) : mName(name) {}
+
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
         replay(commands, *this);
@@ -105,18 +107,29 @@ public:
     template <class C>
     void execute(C const&) {}
     void execute(CmdCreateBuffer const& command) {
-        if (command.desc.debugName == "pass blocks") mBlocks.insert(command.handle);
+        if (command.desc.debugName == mName) mBuffers.insert(command.handle);
     }
 
     using PayloadEdit::edit;
     void edit(CmdUpdateBuffer& command) final {
-        if (mBlocks.contains(command.buffer)) editBlocks(copy(command.bytes));
+        if (mBuffers.contains(command.buffer)) editBuffer(command);
     }
 
 private:
-    virtual void editBlocks(Bytes& bytes) = 0;
+    virtual void editBuffer(CmdUpdateBuffer& command) = 0;
 
-    std::set<BufferHandle> mBlocks;
+    std::string_view mName;
+    std::set<BufferHandle> mBuffers;
+};
+
+/// Edits the blocks of PassUniforms and of the materials of full-screen passes.
+class PassBlocksEdit : public NamedBufferEdit {
+public:
+    PassBlocksEdit() : NamedBufferEdit("pass blocks") {}
+
+private:
+    void editBuffer(CmdUpdateBuffer& command) final { editBlocks(copy(command.bytes)); }
+    virtual void editBlocks(Bytes& bytes) = 0;
 };
 
 /// Samples a pixel of the PassUniforms that begin here with the size of a target and its reciprocal; 0: none do.

@@ -71,21 +71,13 @@ class ProbeShiftEdit final : public PassBlocksEdit {
 };
 
 /// The irradiance fields of objects: as if all grids were a quarter of each object's box further along x.
-class FieldShiftEdit final : public PayloadEdit {
+class FieldShiftEdit final : public NamedBufferEdit {
 public:
-    void inspect(CommandView commands) override {
-        PayloadEdit::inspect(commands);
-        replay(commands, *this);
-    }
-    template <class C>
-    void execute(C const&) {}
-    void execute(CmdCreateBuffer const& command) {
-        if (command.desc.debugName == "objects") mObjects.insert(command.handle);
-    }
+    FieldShiftEdit() : NamedBufferEdit("objects") {}
 
-    using PayloadEdit::edit;
-    void edit(CmdUpdateBuffer& command) override {
-        if (!mObjects.contains(command.buffer) || !isOfFields(command.bytes)) return;
+private:
+    void editBuffer(CmdUpdateBuffer& command) override {
+        if (!isOfFields(command.bytes)) return;
         Bytes& bytes = copy(command.bytes);
         for (size_t at = 0; at < bytes.size(); at += sizeof(shader::IrradianceField)) {
             const size_t x = at + offsetof(shader::IrradianceField, center);
@@ -94,7 +86,6 @@ public:
         }
     }
 
-private:
     /// Records of objects leave nothing 0 for so long.
     static bool isOfFields(std::span<const std::byte> bytes) {
         constexpr size_t kUnused = offsetof(shader::IrradianceField, unused);
@@ -102,8 +93,6 @@ private:
         return std::ranges::all_of(bytes.subspan(kUnused, sizeof(shader::IrradianceField) - kUnused),
                                    [](std::byte byte) { return byte == std::byte{ 0 }; });
     }
-
-    std::set<BufferHandle> mObjects;
 };
 
 /// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.

@@ -12,32 +12,19 @@ using prepare::SplatVertex;
 using Corners = std::array<SplatVertex, 4>; // of a splat
 
 /// Changes the quads of the splats of a frame.
-class SplatEdit : public PayloadEdit {
+class SplatEdit : public NamedBufferEdit {
 public:
-    void inspect(CommandView commands) override {
-        PayloadEdit::inspect(commands);
-        replay(commands, *this);
-    }
-    template <class C>
-    void execute(C const&) {}
-    void execute(CmdCreateBuffer const& command) {
-        if (command.desc.debugName == "splats") mQuads.insert(command.handle);
-    }
+    SplatEdit() : NamedBufferEdit("splats") {}
 
-    using PayloadEdit::edit;
-    void edit(CmdUpdateBuffer& command) final {
-        if (!mQuads.contains(command.buffer)) return;
+private:
+    void editBuffer(CmdUpdateBuffer& command) final {
         Bytes& bytes = copy(command.bytes);
         std::vector<Corners> splats(bytes.size() / sizeof(Corners));
         std::memcpy(splats.data(), bytes.data(), splats.size() * sizeof(Corners));
         change(splats);
         std::memcpy(bytes.data(), splats.data(), splats.size() * sizeof(Corners));
     }
-
-private:
     virtual void change(std::vector<Corners>& splats) const = 0;
-
-    std::set<BufferHandle> mQuads;
 };
 
 class SplatOrderEdit final : public SplatEdit {
