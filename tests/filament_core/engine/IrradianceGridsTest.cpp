@@ -36,17 +36,18 @@ Renderable addTile(MaterialStage& stage, MaterialInstance instance, double3 at) 
     return stage.scene.add(tile);
 }
 
-constexpr uint32_t kSide = 33;
+constexpr uint32_t kImageSide = 33;
 
 /// The column of a place at z = 0, seen by the stage's camera from 4 m.
 uint32_t columnOf(float x) {
-    return static_cast<uint32_t>((x / (4 * std::tan(glm::radians(22.5f))) * 0.5f + 0.5f) * static_cast<float>(kSide));
+    return static_cast<uint32_t>((x / (4 * std::tan(glm::radians(22.5f))) * 0.5f + 0.5f) *
+                                 static_cast<float>(kImageSide));
 }
 
 template <class Build>
 Image inGrid(double3 origin, Build&& build) {
     return onBothApis([&](MaterialStage& stage) {
-        stage.view.size = uint2(kSide);
+        stage.view.size = uint2(kImageSide);
         stage.view.camera = Camera::lookAt(origin + double3(0, 0, 4), origin, { .verticalFovDegrees = 45 });
         build(stage);
     });
@@ -59,7 +60,7 @@ TEST(IrradianceGrids, SurfacesHaveTheLightOfTheirPlaceInASceneWithoutAnEnvironme
         stage.scene.add(rightwards(stage));
     });
     for (const float x : { -1.2f, -1.0f, -0.8f, 0.0f, 0.2f, 1.1f })
-        EXPECT_NEAR(halfPixel(image, columnOf(x), kSide / 2).x, 1 + x / 2, 0.04f) << x;
+        EXPECT_NEAR(halfPixel(image, columnOf(x), kImageSide / 2).x, 1 + x / 2, 0.04f) << x;
 }
 
 TEST(IrradianceGrids, ItIsTheSameFarFromTheOrigin) {
@@ -68,8 +69,8 @@ TEST(IrradianceGrids, ItIsTheSameFarFromTheOrigin) {
         addTile(stage, stage.material(whiteLambert(), kNoLights), far);
         stage.scene.add(rightwards(stage, far));
     });
-    EXPECT_NEAR(halfPixel(image, columnOf(0.2f), kSide / 2).x, 1.1f, 0.04f);
-    EXPECT_NEAR(halfPixel(image, columnOf(-0.2f), kSide / 2).x, 0.9f, 0.04f);
+    EXPECT_NEAR(halfPixel(image, columnOf(0.2f), kImageSide / 2).x, 1.1f, 0.04f);
+    EXPECT_NEAR(halfPixel(image, columnOf(-0.2f), kImageSide / 2).x, 0.9f, 0.04f);
 }
 
 TEST(IrradianceGrids, TheyReplaceTheDiffuseLightOfTheEnvironmentAlone) {

@@ -25,7 +25,7 @@ constexpr int kSettled = 12;                   // frames until edges are smooth
 /// A white ball, 48 pixels wide on black, whose coarser level is smaller.
 class Ball {
 public:
-    explicit Ball(Backend backend, unsigned workers = 1)
+    explicit Ball(Backend backend, int workers = 1)
             : engine(std::move(*Engine::create({ .backend = backend, .workers = workers, .validation = true }))),
               scene(engine), renderer(engine) {
         Mesh mesh = *makeIcoSphere({ .radius = kLarge, .subdivisions = 3 });

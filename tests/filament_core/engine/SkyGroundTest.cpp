@@ -51,7 +51,7 @@ Image skyFrom(double3 eye, EnvironmentSettings settings, double3 at = double3(0,
 double3 viewThrough(uint32_t x, uint32_t y) { return double3(directionThrough(x, y, kSide)); }
 
 TEST(SkyGround, ACameraSeesWhatThePanoramasCameraSawThere) {
-    constexpr double kHeight = 1.6, kRadius = 20;
+    constexpr float kHeight = 1.6f, kRadius = 20;
     const EnvironmentSettings settings{ .groundHeightMeters = kHeight,
                                         .groundLevelMeters = -0.5f,
                                         .groundRadiusMeters = kRadius };

@@ -4,6 +4,7 @@
 #include "tests/filament_core/assets/image/DdsWriter.h"
 #include "tests/filament_core/engine/gltf/QuadFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
+#include "toolkit/showcase/SceneBuilder.h"
 
 #include <filament_core/Gltf.h>
 
@@ -31,20 +32,11 @@ assets::GlbImage blocksOf(uint32_t seed) {
     return { "blocks", file.file() };
 }
 
-assets::TextureRef repeatedMap(uint32_t image) {
-    return { .image = image,
-             .sampler = { .magFilter = Filter::Linear,
-                          .minFilter = Filter::Linear,
-                          .mipFilter = MipFilter::Linear,
-                          .wrapU = WrapMode::Repeat,
-                          .wrapV = WrapMode::Repeat } };
-}
-
 std::vector<std::byte> quadOfBlocks() {
     MaterialData material{ .name = "blocks" };
-    material.baseColor = repeatedMap(0);
-    material.metallicRoughness = repeatedMap(1);
-    material.normal = repeatedMap(2);
+    material.baseColor = showcase::textured(0);
+    material.metallicRoughness = showcase::textured(1);
+    material.normal = showcase::textured(2);
     return test::quadFile({ blocksOf(1), blocksOf(2), blocksOf(3) }, material,
                           { { 0, 0 }, { 0, 3 }, { 5, 4 }, { 4, 0 } });
 }

@@ -5,6 +5,7 @@
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/engine/gltf/QuadFile.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
+#include "toolkit/showcase/SceneBuilder.h"
 
 #include <filament_core/Gltf.h>
 
@@ -46,20 +47,11 @@ float widthOfStripes() {
     return static_cast<float>(std::to_integer<int>(assets::withNormalVariance(std::move(image)).data.back())) / 255;
 }
 
-assets::TextureRef mapOf(Map map) {
-    return { .image = map,
-             .sampler = { .magFilter = Filter::Linear,
-                          .minFilter = Filter::Linear,
-                          .mipFilter = MipFilter::Linear,
-                          .wrapU = WrapMode::Repeat,
-                          .wrapV = WrapMode::Repeat } };
-}
-
 MaterialData striped(Map normals = kStripes) {
     MaterialData material{ .name = "stripes" };
     material.metallicFactor = 1;
     material.roughnessFactor = 0.3f;
-    material.normal = mapOf(normals);
+    material.normal = showcase::textured(normals);
     return material;
 }
 
@@ -125,11 +117,11 @@ TEST(NormalMapRoughness, AddsToARoughnessMapThatIsReadOtherwise) {
     MaterialData mapped = striped(), rougher = striped(kEven);
     mapped.roughnessFactor = 0.4f;
     mapped.normalScale = rougher.normalScale = 0.5f; // so that no factor exceeds 1
-    mapped.metallicRoughness = mapOf(kHalf);
+    mapped.metallicRoughness = showcase::textured(kHalf);
     mapped.metallicRoughness.sampler.minFilter = mapped.metallicRoughness.sampler.magFilter = Filter::Nearest;
     mapped.metallicRoughness.hasTransform = true;
     mapped.metallicRoughness.uvTransform = float3x3(0.3f, 0, 0, 0, 0.2f, 0, 0.1f, 0, 1);
-    rougher.metallicRoughness = mapOf(kHalf);
+    rougher.metallicRoughness = showcase::textured(kHalf);
     rougher.roughnessFactor = widened(0.4f * 128 / 255, 0.5f) * 255 / 128;
     expectLike(mapped, rougher);
 }

@@ -3,6 +3,7 @@
 #include "backend/layers/Faulty.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/gltf/QuadFile.h"
+#include "toolkit/showcase/SceneBuilder.h"
 
 #include <filament_core/TextureStreaming.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 using assets::MaterialData;
 
-constexpr uint32_t kTexels = 1024;
+constexpr uint32_t kTexelsOfSide = 1024;
 constexpr uint64_t kWholeBytes = 5592404; ///< 4 * (1024^2 + 512^2 + ... + 1)
 constexpr uint64_t kCoarseBytes = 21844;  ///< 4 * (64^2 + 32^2 + ... + 1)
 
@@ -35,22 +36,13 @@ assets::GlbImage noise(uint32_t seed, uint32_t size) {
     return std::move(*image);
 }
 
-assets::TextureRef repeated(uint32_t image) {
-    return { .image = image,
-             .sampler = { .magFilter = Filter::Linear,
-                          .minFilter = Filter::Linear,
-                          .mipFilter = MipFilter::Linear,
-                          .wrapU = WrapMode::Repeat,
-                          .wrapV = WrapMode::Repeat } };
-}
-
 /// A quad of 2 m that shows two textures once.
 std::vector<std::byte> const& modelOfNoise() {
     static const std::vector<std::byte> file = [] {
         MaterialData material{ .name = "noise" };
-        material.baseColor = repeated(0);
-        material.metallicRoughness = repeated(1);
-        return test::quadFile({ noise(1, kTexels), noise(2, kTexels) }, material,
+        material.baseColor = showcase::textured(0);
+        material.metallicRoughness = showcase::textured(1);
+        return test::quadFile({ noise(1, kTexelsOfSide), noise(2, kTexelsOfSide) }, material,
                               { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
     }();
     return file;
@@ -218,7 +210,7 @@ TEST(TextureStreaming, CutsOutShadowsAsWholeTexturesDo) {
     Result<assets::GlbImage> mask = assets::glbImageFromPixels("mask", 512, 512, texels);
     ASSERT_TRUE(mask);
     MaterialData material{ .name = "mask" };
-    material.baseColor = repeated(0);
+    material.baseColor = showcase::textured(0);
     material.alphaMode = assets::AlphaMode::Mask;
     const std::vector<std::byte> file =
             test::quadFile({ std::move(*mask) }, material, { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
@@ -378,10 +370,10 @@ TEST(TextureStreaming, FollowsCopiesWithMaterialsOfTheirOwn) {
 
 TEST(TextureStreaming, LeavesOddSizesAndNearestFiltersWhole) {
     MaterialData material{ .name = "whole" };
-    material.baseColor = repeated(0);
-    material.metallicRoughness = repeated(1);
+    material.baseColor = showcase::textured(0);
+    material.metallicRoughness = showcase::textured(1);
     material.metallicRoughness.sampler.magFilter = Filter::Nearest;
-    material.emissive = repeated(2);
+    material.emissive = showcase::textured(2);
     material.emissive.sampler.mipFilter = MipFilter::None;
     const std::vector<std::byte> file = test::quadFile({ noise(1, 255), noise(2, 256), noise(3, 256) }, material,
                                                        { { 0, 0 }, { 0, 1 }, { 1, 1 }, { 1, 0 } });
