@@ -313,7 +313,8 @@ enum FogTerms : uint8_t {
 };
 
 /// What shaders compute of reflection probes: how many they look at, and whether the environment lights what no probe
-/// does. Numbers are known when programs are compiled, because drivers read uniforms fast where their place is constant.
+/// does. The number is known when programs are compiled, because drivers read uniforms fast where their place is a
+/// constant.
 enum ProbeTerms : uint8_t {
     kNoProbe = 0,
     kOneProbeAlone = 1,
