@@ -72,6 +72,7 @@ TOOLKIT = {
     "toolkit/paths": [],
     "toolkit/packages": [],
     "toolkit/showcase": [],
+    "toolkit/interiors": ["toolkit/showcase"],
     "toolkit/machine": [],
     "toolkit/json": [],
     "toolkit/pictures": [],

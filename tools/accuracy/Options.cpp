@@ -13,7 +13,7 @@ struct Words {
     std::string effects = tools::sourceDir() / "tools/accuracy/effects.json";
     std::string scenes = tools::sourceDir() / "tools/accuracy/scenes";
     std::string assets = tools::assetDir();
-    std::string out = "accuracy", page, pictures, frame, size, rounds, plots, shard;
+    std::string out = "accuracy", page, pictures, frame, size, rounds, plots, shard, rooms;
     std::vector<std::string> backends, include, compare, merge;
     bool quick = false;
 };
@@ -25,6 +25,9 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
             .anyWords()
             .typeName("[NAME...]");
     app.option("--effect", options.effect, "only these rows").typeName("NAME...");
+    app.option("--rooms", words.rooms,
+               "instead: write the generated rooms, a Cornell box and a gallery, as models with a sky")
+            .typeName("DIR");
     app.flag("--list", options.list, "print the rows and their values");
     app.option("--effects", words.effects, "the table of effects").typeName("FILE");
     app.option("--scenes", words.scenes, "folder of scene files").typeName("DIR");
@@ -110,6 +113,7 @@ Result<void> convert(Words const& words, Options& options) {
     }
     if (!words.frame.empty()) measure.frame = words.frame;
     options.effects = words.effects, options.scenes = words.scenes;
+    options.rooms = words.rooms;
     options.out = words.out, options.page = words.page, measure.pictures = words.pictures;
     options.include.assign(words.include.begin(), words.include.end());
     measure.folders = { options.out / "work", words.assets };

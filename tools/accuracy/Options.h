@@ -20,6 +20,7 @@ struct Options {
     std::optional<tools::Shard> shard;          ///< --shard: only these rows; writes results.json and no page
     std::vector<std::filesystem::path> merge;   ///< shards; empty: measure
     bool list = false, plots = true;
+    std::filesystem::path rooms; ///< --rooms: write the generated rooms into this folder, and measure nothing
     std::optional<ComparisonOptions> comparison; ///< --compare: this instead of the effects
     MeasureOptions measure{};
 };

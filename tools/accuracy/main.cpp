@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-accuracy [options]: error and cost of every named choice, as JSON, CSV, plots and one page.
 // Exit status 0: measured and written.
+#include "toolkit/interiors/Interiors.h"
 #include "toolkit/machine/Machine.h"
 #include "toolkit/program/Console.h"
 #include "toolkit/program/Program.h"
@@ -98,7 +99,17 @@ int measureAndReport(Options const& options, std::vector<Effect> const& effects)
     return 0;
 }
 
+int writeRooms(std::filesystem::path const& folder) {
+    for (interiors::Interior const& room : { interiors::cornellBox(), interiors::gallery() }) {
+        const Result<interiors::InteriorFiles> files = interiors::writeInterior(room, folder);
+        if (!files) return failed(files.error());
+        std::printf("%s\n%s\n", files->model.c_str(), files->sky.c_str());
+    }
+    return 0;
+}
+
 int run(Options const& options) {
+    if (!options.rooms.empty()) return writeRooms(options.rooms);
     if (options.comparison) return compare(options);
     if (!options.merge.empty()) return merge(options);
     const Result<std::vector<Effect>> effects = readEffects(options.effects);

@@ -3,7 +3,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
-#include "tests/scenes/CornellBox.h"
+#include "toolkit/interiors/Interiors.h"
 #include "toolkit/paths/Paths.h"
 
 #include <filament_core/IrradianceGrid.h>
@@ -26,7 +26,7 @@ class BakeProgram : public ::testing::Test {
 protected:
     void SetUp() override {
         std::filesystem::create_directories(mFolder);
-        const auto bytes = assets::writeGlb(tests::cornellBox());
+        const auto bytes = assets::writeGlb(interiors::cornellBox().model);
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(assets::replaceFile(mFolder / "cornell.glb", *bytes));
     }
@@ -143,7 +143,7 @@ TEST_F(BakeProgram, WritesAnIrradianceGridOfTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(BakeProgram, WarnsOfASceneWithoutLight) {
-    const auto bytes = assets::writeGlb(tests::cornellBox(0));
+    const auto bytes = assets::writeGlb(interiors::cornellBox(0).model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     ASSERT_TRUE(assets::replaceFile(mFolder / "dark.glb", *bytes));
     const Outcome outcome = run("dark.glb --density 4 --samples 32 --environment none --out dark");

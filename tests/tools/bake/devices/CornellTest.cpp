@@ -5,7 +5,7 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageWriter.h"
-#include "tests/scenes/CornellBox.h"
+#include "toolkit/interiors/Interiors.h"
 #include "toolkit/paths/Paths.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class CornellTest : public ::testing::Test {
 protected:
     void SetUp() override {
         std::filesystem::create_directories(mFolder);
-        const auto bytes = assets::writeGlb(tests::cornellBox(0));
+        const auto bytes = assets::writeGlb(interiors::cornellBox(0).model);
         ASSERT_TRUE(bytes) << bytes.error().message;
         ASSERT_TRUE(assets::replaceFile(mFolder / "box.glb", *bytes));
         assets::HdrImage sky{ .width = 64, .height = 32 };
