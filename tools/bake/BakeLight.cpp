@@ -13,8 +13,6 @@ namespace {
 constexpr uint32_t kMostPerPass = 64; // samples; more would leave few passes to judge the error by
 constexpr size_t kBatch = 2048;       // texels between two reports
 
-double luminanceOf(double3 color) { return glm::dot(color, double3(0.2126, 0.7152, 0.0722)); }
-
 reference::ReferenceSettings tracerSettings(LightSettings const& settings) {
     return { .maxBounces = settings.maxBounces, .seed = settings.seed };
 }

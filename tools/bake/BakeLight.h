@@ -21,6 +21,8 @@ namespace filament_core::bake {
 
 inline constexpr uint32_t kLeastPasses = 32; ///< before an error is believed
 
+inline double luminanceOf(double3 color) { return glm::dot(color, double3(0.2126, 0.7152, 0.0722)); }
+
 struct LightSettings {
     uint32_t samplesPerTexel = 1024; ///< [32, 2^20], rounded up to whole passes; with `relativeError` the most
     /// > 0: a texel is done when the standard error of its luminance is below this part of it.

@@ -53,7 +53,7 @@ uint64_t hashOf(Options const& options, BakeScene const& bake, reference::Refere
     for (const double value :
          { double(bake.atlas.side), bake.atlas.texelsPerMeter, double(light.samplesPerTexel), light.relativeError,
            double(light.directLight), double(light.maxBounces), double(light.seed), double(light.exposure.factor()),
-           double(options.iblIntensity.value), options.rotationDegrees })
+           double(options.iblIntensity.value), options.rotationDegrees, double(options.heldOutPoints) })
         addNumber(value);
     if (!options.sun) return hash;
     addNumber(double(options.sun->illuminance.value));
@@ -88,6 +88,7 @@ Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs) {
     if (!atlas) return atlas.error();
     bake.atlas = std::move(*atlas);
     bake.texels = findTexels(bake.atlas);
+    bake.heldOut = heldOutPoints(bake.model.surfaces, bake.atlas, options.heldOutPoints, options.light.seed);
     const Result<reference::ReferenceScene> scene = loadScene(options, jobs, bake.warnings);
     if (!scene) return scene.error();
     bake.hash = hashOf(options, bake, *scene);

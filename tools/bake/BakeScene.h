@@ -5,6 +5,7 @@
 #pragma once
 
 #include "tools/bake/BakeModel.h"
+#include "tools/bake/HeldOut.h"
 #include "tools/bake/Options.h"
 
 namespace filament_core::bake {
@@ -13,9 +14,13 @@ struct BakeScene {
     BakeModel model;
     Atlas atlas;
     std::vector<AtlasTexel> texels;
+    std::vector<HeldOutPoint> heldOut;
     reference::TracedScenePtr scene;
-    uint64_t hash = 0; ///< of all that the texels depend on
+    uint64_t hash = 0; ///< of all that their light depends on
     std::vector<std::string> warnings;
+
+    /// What is traced: texels, then held-out points.
+    size_t traced() const { return texels.size() + heldOut.size(); }
 };
 
 Result<BakeScene> prepareBake(Options const& options, jobs::JobSystem& jobs);

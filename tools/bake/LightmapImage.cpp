@@ -103,6 +103,22 @@ assets::Image halvesOf(LightmapImage const& image) {
     return halves;
 }
 
+double4 lookUp(assets::Image const& halves, double2 place) {
+    const auto texel = [&](double2 at) {
+        const auto last = double2(halves.width, halves.height) - 1.0;
+        const auto clamped = uint2(glm::clamp(at, double2(0.0), last));
+        uint16_t codes[4];
+        std::memcpy(codes, &halves.data[(size_t(clamped.y) * halves.width + clamped.x) * 8], sizeof(codes));
+        double4 value;
+        for (int c = 0; c < 4; ++c) value[c] = double(floatFromHalf(codes[c]));
+        return value;
+    };
+    const double2 corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
+    const double4 low = glm::mix(texel(corner), texel(corner + double2(1, 0)), share.x);
+    const double4 high = glm::mix(texel(corner + double2(0, 1)), texel(corner + 1.0), share.x);
+    return glm::mix(low, high, share.y);
+}
+
 std::vector<std::byte> previewOf(LightmapImage const& image) {
     double sum = 0;
     uint64_t count = 0;

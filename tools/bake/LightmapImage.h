@@ -28,6 +28,8 @@ LightmapImage makeImage(Atlas const& atlas, std::span<const AtlasTexel> texels, 
 
 /// As RGBA16F.
 assets::Image halvesOf(LightmapImage const& image);
+/// What bilinear filtering finds at a place of it, in texels; over the intensity.
+double4 lookUp(assets::Image const& halves, double2 place);
 /// RGBA8 sRGB, brightest at 1: for reports.
 std::vector<std::byte> previewOf(LightmapImage const& image);
 

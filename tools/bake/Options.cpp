@@ -12,7 +12,7 @@ using tools::wholeNumber;
 
 struct Words {
     std::string iblIntensity = "30000", rotation = "0", density = "16", maxSize = "4096", samples = "1024", error,
-                maxBounces = "64", seed = "1", direct, shard, threads;
+                maxBounces = "64", seed = "1", heldOut = "256", direct, shard, threads;
     std::vector<std::string> sun, exposure, merge;
 };
 
@@ -35,6 +35,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
             "on or off: light straight from lamps and the sun counts, too; the engine must then not draw them (off)");
     app.option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
     app.option("--seed", words.seed, "seed of the noise (1)");
+    app.option("--held-out", words.heldOut,
+               "points between the texels that are traced to judge the lightmap; fewer than 59 bound nothing (256)");
     app.option("--grid", options.grid, "a JSON file: bake the irradiance grid that it describes instead of a lightmap")
             .typeName("FILE");
     app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
@@ -98,6 +100,7 @@ Result<void> convertLight(Words const& words, Options& options) {
         return done;
     if (auto done = whole("--max-bounces", words.maxBounces, 1, 4096, options.light.maxBounces); !done) return done;
     if (auto done = whole("--seed", words.seed, 0, ~0u, options.light.seed); !done) return done;
+    if (auto done = whole("--held-out", words.heldOut, 0, 65536, options.heldOutPoints); !done) return done;
     if (!words.error.empty()) {
         if (auto done = number("--error", words.error, 1e-6, 1, "a number from 1e-6 to 1", options.light.relativeError);
             !done)

@@ -24,6 +24,7 @@ struct Options {
     std::optional<SunLight> sun;
     AtlasOptions atlas{};
     LightSettings light{ .exposure = { .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 } };
+    uint32_t heldOutPoints = 256;             ///< of surfaces, between texels, that judge the lightmap
     std::filesystem::path grid;               ///< of an irradiance grid (GridProgram.h); empty: bake a lightmap
     std::optional<tools::Shard> shard;        ///< bake this part alone, into a journal
     std::vector<std::filesystem::path> merge; ///< journals of parts; empty: bake

@@ -17,8 +17,6 @@ using tools::Json;
 
 constexpr size_t kShownCharts = 20; // of the page: those with the largest errors
 
-double luminanceOfLight(double3 color) { return glm::dot(color, double3(0.2126, 0.7152, 0.0722)); }
-
 std::string const& nameOf(BakeScene const& bake, uint32_t chart) {
     return bake.model.sources[bake.atlas.charts[chart].surface].name;
 }
@@ -46,18 +44,44 @@ ChartSummary wholeOf(std::vector<ChartSummary> const& charts) {
         whole.texels += chart.texels;
         whole.hidden += chart.hidden;
         samples += chart.samples * chart.texels;
-        lux += chart.meanLux * chart.texels;
-        const double error = chart.relativeError * chart.meanLux;
-        squares += error * error * chart.texels;
+        lux += chart.meanLux * chart.seen();
+        squares += chart.errorLux() * chart.errorLux() * chart.seen();
     }
-    if (whole.texels == 0) return whole;
-    whole.meanLux = lux / whole.texels;
-    whole.samples = samples / whole.texels;
-    if (whole.meanLux > 0) whole.relativeError = std::sqrt(squares / whole.texels) / whole.meanLux;
+    if (whole.texels > 0) whole.samples = samples / whole.texels;
+    if (whole.seen() == 0) return whole;
+    whole.meanLux = lux / whole.seen();
+    if (whole.meanLux > 0) whole.relativeError = std::sqrt(squares / whole.seen()) / whole.meanLux;
     return whole;
 }
 
-std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vector<ChartSummary> const& charts) {
+Json heldOutToJson(HeldOutReport const& heldOut) {
+    return { { "points", heldOut.points },
+             { "hidden", heldOut.hidden },
+             { "dark", heldOut.dark },
+             { "share", kBoundShare },
+             { "confidence", kBoundConfidence },
+             { "interpolationLux", heldOut.interpolationLux ? Json(*heldOut.interpolationLux) : Json() },
+             { "rmsLux", heldOut.rmsLux },
+             { "worstLux", heldOut.worstLux },
+             { "worstPlace", { heldOut.worstPlace.x, heldOut.worstPlace.y } } };
+}
+
+std::string sentenceOf(HeldOutReport const& heldOut) {
+    const std::string bound =
+            heldOut.interpolationLux
+                    ? fmt::format(
+                              "At {:.0f} % of the lit surface (with a confidence of {:.0f} %) what the engine looks up "
+                              "is no further off than two standard errors of the chart and {:.4g} lux.",
+                              kBoundShare * 100, kBoundConfidence * 100, *heldOut.interpolationLux)
+                    : std::string("They are too few to bound the error between texels.");
+    return fmt::format("{} points of lit surfaces were traced for comparison alone. {} The root mean square of their "
+                       "errors is {:.4g} lux, the largest {:.4g} lux at texel {:.1f}, {:.1f}.\n\n",
+                       heldOut.points, bound, heldOut.rmsLux, heldOut.worstLux, heldOut.worstPlace.x,
+                       heldOut.worstPlace.y);
+}
+
+std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vector<ChartSummary> const& charts,
+                   HeldOutReport const& heldOut) {
     const ChartSummary whole = wholeOf(charts);
     std::string page = fmt::format("# Lightmap\n\n{} charts with {} texels in {} x {}, {:.4g} texels a metre; {:.0f} "
                                    "samples a texel, mean {:.4g} lux, standard error {:.2f} %. {} texels see backs of "
@@ -65,6 +89,7 @@ std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vecto
                                    "![standard error](error.png)\n\n",
                                    charts.size(), whole.texels, image.side, image.side, bake.atlas.texelsPerMeter,
                                    whole.samples, whole.meanLux, whole.relativeError * 100, whole.hidden);
+    page += sentenceOf(heldOut);
     page += "The second picture shows the standard error; white is a tenth of the mean.\n\n"
             "| node | texels | hidden | samples | lux | error |\n|---|---:|---:|---:|---:|---:|\n";
     std::vector<uint32_t> order;
@@ -81,7 +106,7 @@ std::string pageOf(BakeScene const& bake, LightmapImage const& image, std::vecto
 std::vector<std::byte> errorPicture(BakeScene const& bake, std::span<const TexelLight> lights, double meanLux) {
     std::vector<std::byte> pixels(size_t(bake.atlas.side) * bake.atlas.side * 4, std::byte{ 0 });
     for (size_t i = 0; i < bake.texels.size(); ++i) {
-        const double error = luminanceOfLight(lights[i].standardError) / std::max(meanLux, 1e-30);
+        const double error = luminanceOf(lights[i].standardError) / std::max(meanLux, 1e-30);
         const auto code = static_cast<std::byte>(std::lround(std::min(error * 10, 1.0) * 255));
         const size_t at = (size_t(bake.texels[i].y) * bake.atlas.side + bake.texels[i].x) * 4;
         pixels[at] = pixels[at + 1] = pixels[at + 2] = code;
@@ -97,18 +122,22 @@ std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTex
     std::vector<ChartSummary> charts(atlas.charts.size());
     for (size_t i = 0; i < texels.size(); ++i) {
         ChartSummary& chart = charts[texels[i].chart];
-        const double error = luminanceOfLight(lights[i].standardError);
         ++chart.texels;
-        chart.hidden += lights[i].backs > kMostBacks;
-        chart.meanLux += luminanceOfLight(lights[i].irradiance);
-        chart.relativeError += error * error;
         chart.samples += lights[i].samples;
+        if (lights[i].backs > kMostBacks) {
+            ++chart.hidden;
+            continue;
+        }
+        const double error = luminanceOf(lights[i].standardError);
+        chart.meanLux += luminanceOf(lights[i].irradiance);
+        chart.relativeError += error * error;
     }
     for (ChartSummary& chart : charts) {
         if (chart.texels == 0) continue;
-        chart.meanLux /= chart.texels;
         chart.samples /= chart.texels;
-        const double error = std::sqrt(chart.relativeError / chart.texels);
+        if (chart.seen() == 0) continue;
+        chart.meanLux /= chart.seen();
+        const double error = std::sqrt(chart.relativeError / chart.seen());
         chart.relativeError = chart.meanLux > 0 ? error / chart.meanLux : 0;
     }
     return charts;
@@ -118,6 +147,10 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
                          LightmapImage const& image) {
     const std::vector<ChartSummary> charts = summarize(bake.atlas, bake.texels, lights);
     const ChartSummary whole = wholeOf(charts);
+    std::vector<double> errors;
+    for (ChartSummary const& chart : charts) errors.push_back(chart.errorLux());
+    const HeldOutReport heldOut =
+            compareHeldOut(bake.heldOut, lights.subspan(bake.texels.size()), halvesOf(image), image.intensity, errors);
     uint64_t rays = 0;
     for (TexelLight const& light : lights) rays += light.rays;
     const Json report{ { "model", options.model.filename().string() },
@@ -132,11 +165,12 @@ Result<void> writeReport(Options const& options, BakeScene const& bake, std::spa
                        { "samples", whole.samples },
                        { "meanLux", whole.meanLux },
                        { "relativeError", whole.relativeError },
+                       { "heldOut", heldOutToJson(heldOut) },
                        { "rays", rays },
                        { "warnings", bake.warnings },
                        { "charts", chartsToJson(bake, charts) } };
     if (auto done = tools::writeJson(options.out / "report.json", report); !done) return done;
-    const std::string page = pageOf(bake, image, charts);
+    const std::string page = pageOf(bake, image, charts, heldOut);
     if (auto done = assets::replaceFile(options.out / "report.md", std::as_bytes(std::span(page))); !done) return done;
     if (auto done = assets::writePng(options.out / "lightmap.png", image.side, image.side, previewOf(image)); !done)
         return done;

@@ -11,14 +11,19 @@ namespace filament_core::bake {
 
 /// Of one chart.
 struct ChartSummary {
-    uint32_t texels = 0, hidden = 0; ///< hidden: they see backs of surfaces
-    double meanLux = 0;              ///< luminance
-    double relativeError = 0;        ///< root mean square of the texels' standard errors, over the mean
-    double samples = 0;              ///< a texel
+    uint32_t texels = 0;
+    uint32_t hidden = 0;      ///< of them, that see backs of surfaces: the light of the others alone counts
+    double meanLux = 0;       ///< luminance
+    double relativeError = 0; ///< root mean square of the texels' standard errors, over the mean
+    double samples = 0;       ///< a texel
+
+    uint32_t seen() const { return texels - hidden; }
+    double errorLux() const { return relativeError * meanLux; }
 };
 std::vector<ChartSummary> summarize(Atlas const& atlas, std::span<const AtlasTexel> texels,
                                     std::span<const TexelLight> lights);
 
+/// `lights`: of the texels, then of the held-out points.
 Result<void> writeReport(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights,
                          LightmapImage const& image);
 

@@ -41,13 +41,6 @@ Nearest nearestIn(std::array<double2, 3> const& corners, double2 p) {
     return nearest;
 }
 
-/// Weights of at least kInset each.
-void inset(double& u, double& v) {
-    std::array weights{ std::max(1 - u - v, kInset), std::max(u, kInset), std::max(v, kInset) };
-    const double sum = weights[0] + weights[1] + weights[2];
-    u = weights[1] / sum, v = weights[2] / sum;
-}
-
 struct Entry {
     uint32_t triangle = 0;
     Nearest nearest{};
@@ -77,11 +70,11 @@ void addChart(Atlas const& atlas, uint32_t index, std::vector<AtlasTexel>& texel
     }
     for (uint32_t y = 0; y < chart.size.y; ++y) {
         for (uint32_t x = 0; x < chart.size.x; ++x) {
-            Entry entry = entries[size_t(y) * chart.size.x + x];
+            Entry const& entry = entries[size_t(y) * chart.size.x + x];
             if (entry.nearest.distance > kReach) continue;
-            inset(entry.nearest.u, entry.nearest.v);
             texels.push_back({ chart.place.x + x, chart.place.y + y, index, entry.triangle, entry.nearest.u,
                                entry.nearest.v, entry.nearest.distance });
+            keepInside(texels.back());
         }
     }
 }
@@ -94,6 +87,13 @@ std::vector<AtlasTexel> findTexels(Atlas const& atlas) {
     std::ranges::sort(texels,
                       [](AtlasTexel const& a, AtlasTexel const& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     return texels;
+}
+
+void keepInside(AtlasTexel& texel) {
+    const std::array weights{ std::max(1 - texel.u - texel.v, kInset), std::max(texel.u, kInset),
+                              std::max(texel.v, kInset) };
+    const double sum = weights[0] + weights[1] + weights[2];
+    texel.u = weights[1] / sum, texel.v = weights[2] / sum;
 }
 
 SurfacePoint pointOf(BakeSurface const& surface, AtlasTexel const& texel) {

@@ -24,6 +24,9 @@ struct AtlasTexel {
 
 std::vector<AtlasTexel> findTexels(Atlas const& atlas);
 
+/// Moves the point from edges of its triangle, by kInset.
+void keepInside(AtlasTexel& texel);
+
 /// A point of a surface in the world.
 struct SurfacePoint {
     double3 position{ 0.0 };

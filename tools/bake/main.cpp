@@ -23,11 +23,18 @@ constexpr const char* kJournalName = "bake.part";
 
 std::string progressLine(uint64_t done, uint64_t total, uint64_t before, double seconds) {
     const double left = done > before ? seconds * double(total - done) / double(done - before) : 0;
-    return fmt::format("{:3.0f} %  {}/{} texels  {:.0f} s left", 100.0 * double(done) / double(total), done, total,
+    return fmt::format("{:3.0f} %  {}/{} points  {:.0f} s left", 100.0 * double(done) / double(total), done, total,
                        left);
 }
 
-/// Bakes a range of the texels into its journal. Empty: interrupted.
+/// Of those that are traced, from `first` to `last`, which are all beyond the texels.
+std::vector<AtlasTexel> heldOutTexels(BakeScene const& bake, size_t first, size_t last) {
+    std::vector<AtlasTexel> points;
+    for (size_t i = first; i < last; ++i) points.push_back(bake.heldOut[i - bake.texels.size()].texel);
+    return points;
+}
+
+/// Bakes a range of the texels and held-out points into its journal. Empty: interrupted.
 Result<std::optional<Journal>> bakeRange(Options const& options, BakeScene const& bake, TexelRange range,
                                          jobs::JobSystem& jobs) {
     Result<Journal> journal = Journal::open(options.out / kJournalName, { bake.hash, range });
@@ -35,15 +42,21 @@ Result<std::optional<Journal>> bakeRange(Options const& options, BakeScene const
     const uint64_t before = journal->lights().size();
     const auto begin = std::chrono::steady_clock::now();
     Result<void> written;
-    const auto texels = std::span(bake.texels).subspan(range.first + before, range.count - before);
-    bakeTexels(*bake.scene, bake.model.surfaces, bake.atlas, texels, options.light, jobs,
-               [&](size_t, std::span<const TexelLight> lights) {
-                   written = journal->append(lights);
-                   const double seconds =
-                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-                   tools::showProgress(progressLine(journal->lights().size(), range.count, before, seconds));
-                   return written.ok() && !tools::isInterrupted();
-               });
+    const auto finished = [&](size_t, std::span<const TexelLight> lights) {
+        written = journal->append(lights);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        tools::showProgress(progressLine(journal->lights().size(), range.count, before, seconds));
+        return written.ok() && !tools::isInterrupted();
+    };
+    const size_t first = range.first + before, last = range.first + range.count, texels = bake.texels.size();
+    if (first < texels)
+        bakeTexels(*bake.scene, bake.model.surfaces, bake.atlas,
+                   std::span(bake.texels).subspan(first, std::min(last, texels) - first), options.light, jobs,
+                   finished);
+    const size_t from = range.first + journal->lights().size();
+    if (written && !tools::isInterrupted() && from < last)
+        bakeTexels(*bake.scene, bake.model.surfaces, bake.atlas, heldOutTexels(bake, from, last),
+                   heldOutSettings(options.light), jobs, finished);
     tools::clearProgress();
     if (!written) return written.error();
     if (!journal->isComplete()) return std::optional<Journal>{};
@@ -51,7 +64,8 @@ Result<std::optional<Journal>> bakeRange(Options const& options, BakeScene const
 }
 
 int writeLightmap(Options const& options, BakeScene const& bake, std::span<const TexelLight> lights) {
-    const LightmapImage image = makeImage(bake.atlas, bake.texels, lights);
+    const auto texels = lights.first(bake.texels.size());
+    const LightmapImage image = makeImage(bake.atlas, bake.texels, texels);
     const LightmapEntry entry{ assets::encodeKtx2(halvesOf(image)), image.intensity, options.light.directLight };
     const Result<std::vector<std::byte>> file = writeBakedModel(bake.model, bake.atlas, entry);
     if (!file) return failed(file.error());
@@ -60,7 +74,7 @@ int writeLightmap(Options const& options, BakeScene const& bake, std::span<const
     if (auto done = writeReport(options, bake, lights, image); !done) return failed(done.error());
     for (std::string const& warning : bake.warnings) tools::printWarning(warning);
     const bool isDark =
-            std::ranges::all_of(lights, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
+            std::ranges::all_of(texels, [](TexelLight const& texel) { return texel.irradiance == double3(0); });
     if (isDark) tools::printWarning("no light reaches a surface; give --environment or --sun, or a model with lights");
     std::printf("%s: %zu texels of %zu charts in %u x %u\n", path.c_str(), bake.texels.size(), bake.atlas.charts.size(),
                 image.side, image.side);
@@ -89,12 +103,12 @@ int run(Options const& options) {
     tools::clearProgress();
     if (!bake) return failed(bake.error());
     if (!options.merge.empty()) {
-        const Result<std::vector<TexelLight>> lights = mergeJournals(options.merge, bake->hash, bake->texels.size());
+        const Result<std::vector<TexelLight>> lights = mergeJournals(options.merge, bake->hash, bake->traced());
         return lights ? writeLightmap(options, *bake, *lights) : failed(lights.error());
     }
     const tools::StopOnInterrupt scope;
     const tools::Shard shard = options.shard.value_or(tools::Shard{});
-    const TexelRange range = rangeOfPart(bake->texels.size(), shard.index, shard.count);
+    const TexelRange range = rangeOfPart(bake->traced(), shard.index, shard.count);
     const Result<std::optional<Journal>> journal = bakeRange(options, *bake, range, jobs);
     if (!journal) return failed(journal.error());
     const std::filesystem::path part = options.out / kJournalName;
@@ -103,8 +117,8 @@ int run(Options const& options) {
         return tools::kInterruptedStatus;
     }
     if (options.shard) {
-        std::printf("%s: texels %llu to %llu of %zu\n", part.c_str(), static_cast<unsigned long long>(range.first),
-                    static_cast<unsigned long long>(range.first + range.count), bake->texels.size());
+        std::printf("%s: points %llu to %llu of %zu\n", part.c_str(), static_cast<unsigned long long>(range.first),
+                    static_cast<unsigned long long>(range.first + range.count), bake->traced());
         return 0;
     }
     const int status = writeLightmap(options, *bake, (*journal)->lights());

@@ -1,58 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-bake from outside, and the file that it writes as the loader reads it.
-#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
-#include "filament_core/assets/gltf/GltfWriter.h"
+#include "tests/tools/bake/BakeRun.h"
 #include "toolkit/interiors/Interiors.h"
-#include "toolkit/paths/Paths.h"
 
 #include <filament_core/IrradianceGrid.h>
 
 #include <gmock/gmock.h>
-
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace filament_core::bake {
 namespace {
 
 using ::testing::HasSubstr;
 
-class BakeProgram : public ::testing::Test {
+class BakeProgram : public test::BakeRun {
 protected:
     void SetUp() override {
-        std::filesystem::create_directories(mFolder);
-        const auto bytes = assets::writeGlb(interiors::cornellBox().model);
-        ASSERT_TRUE(bytes) << bytes.error().message;
-        ASSERT_TRUE(assets::replaceFile(mFolder / "cornell.glb", *bytes));
+        BakeRun::SetUp();
+        write("cornell.glb", interiors::cornellBox().model);
     }
-    void TearDown() override { std::filesystem::remove_all(mFolder); }
-
-    struct Outcome {
-        int status = -1;
-        std::string text;
-    };
-    Outcome run(std::string const& arguments) const {
-        const std::string command = "cd '" + mFolder.string() + "' && '" +
-                                    (tools::buildDir() / "bin/filament-bake").string() + "' " + arguments + " 2>&1";
-        std::FILE* const pipe = ::popen(command.c_str(), "r");
-        Outcome outcome;
-        std::array<char, 512> buffer{};
-        while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.text += buffer.data();
-        outcome.status = WEXITSTATUS(::pclose(pipe));
-        return outcome;
-    }
-    std::string read(std::filesystem::path const& name) const {
-        std::ifstream file(mFolder / name, std::ios::binary);
-        return { std::istreambuf_iterator<char>(file), {} };
-    }
-
-    std::filesystem::path mFolder =
-            std::filesystem::temp_directory_path() / ("filament-bake-" + std::to_string(::getpid()));
 };
 
 constexpr const char* kQuick = "cornell.glb --density 6 --samples 32 ";
@@ -104,11 +70,11 @@ TEST_F(BakeProgram, PartsOnAnyThreadsMergeToTheBytesOfOneRun) {
 TEST_F(BakeProgram, ContinuesAfterCtrlC) {
     const std::string slow = "cornell.glb --density 14 --samples 32 --threads 1 ";
     ASSERT_EQ(run(slow + "--out whole").status, 0);
-    const std::string program = (tools::buildDir() / "bin/filament-bake").string();
     // as soon as the first block of texels is in the journal
-    const Outcome stopped = run("--help > /dev/null; '" + program + "' " + slow +
-                                "--out stopped & p=$!; until [ $(stat -c %s stopped/bake.part 2> /dev/null || echo 0) "
-                                "-gt 100 ]; do sleep 0.02; done; kill -INT $p; wait $p; echo status $?");
+    const Outcome stopped =
+            shell("'" + program() + "' " + slow +
+                  "--out stopped & p=$!; until [ $(stat -c %s stopped/bake.part 2> /dev/null || echo 0) "
+                  "-gt 100 ]; do sleep 0.02; done; kill -INT $p; wait $p; echo status $?");
     EXPECT_TRUE(std::filesystem::exists(mFolder / "stopped")) << stopped.text;
     const Outcome rest = run(slow + "--out stopped");
     ASSERT_EQ(rest.status, 0) << rest.text;
@@ -146,6 +112,7 @@ TEST_F(BakeProgram, WarnsOfASceneWithoutLight) {
     const auto bytes = assets::writeGlb(interiors::cornellBox(0).model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     ASSERT_TRUE(assets::replaceFile(mFolder / "dark.glb", *bytes));
+    write("dark.glb", interiors::cornellBox(0).model);
     const Outcome outcome = run("dark.glb --density 4 --samples 32 --environment none --out dark");
     EXPECT_EQ(outcome.status, 0) << outcome.text;
     EXPECT_THAT(outcome.text, HasSubstr("no light reaches a surface"));
