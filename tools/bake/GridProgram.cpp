@@ -23,6 +23,42 @@ void readNamedBox(tools::JsonReader& reader, IrradianceGridDesc& box) {
     if (!isName) reader.complain("name", "expected 1 to 64 letters, digits, - and _: it names the file");
 }
 
+tools::Json listOf(float3 v) { return { v.x, v.y, v.z }; }
+
+tools::Json reportOf(BakedGrid const& baked) {
+    GridReport const& report = baked.report;
+    GridJudgement const& judgement = report.judgement;
+    const uint3 count = baked.grid.probes->count;
+    float largest = 0;
+    for (Leak const& leak : report.leaks.found) largest = std::max(largest, leak.share);
+    return {
+        { "name", baked.grid.name },
+        { "probes", { count.x, count.y, count.z } },
+        { "inside", report.inside },
+        { "mean", report.mean },
+        { "standardError", report.standardError },
+        { "refinement",
+          { { "grids", report.rounds },
+            { "isWithinBound", report.isWithinBound },
+            { "points", report.heldOutPoints },
+            { "error", report.heldOutError },
+            { "noise", report.heldOutNoise } } },
+        { "judged",
+          { { "points", judgement.points },
+            { "inside", judgement.inside },
+            { "dark", judgement.dark },
+            { "share", kBoundShare },
+            { "confidence", kBoundConfidence },
+            { "interpolation", judgement.interpolation ? tools::Json(*judgement.interpolation) : tools::Json() },
+            { "rms", judgement.rms },
+            { "worst", judgement.worst },
+            { "worstPlace", listOf(judgement.worstPlace) } } },
+        { "leaks",
+          { { "points", report.leaks.points }, { "found", report.leaks.found.size() }, { "largestShare", largest } } },
+        { "rays", report.rays }
+    };
+}
+
 } // namespace
 
 Result<GridSettings> readGridSettings(std::filesystem::path const& file) {
@@ -37,6 +73,7 @@ Result<GridSettings> readGridSettings(std::filesystem::path const& file) {
     reader.read("maxProbes", settings.maxProbes, 1, IrradianceProbes::kMaxProbes);
     reader.read("maxError", settings.maxError, 0, 1e6);
     reader.read("heldOut", settings.heldOutPoints, 1, 65536);
+    reader.read("judged", settings.judgedPoints, 0, 65536);
     reader.read("paths", settings.probes.rays, 1, 1u << 24);
     reader.read("depthSize", settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize);
     reader.read("maxBounces", settings.probes.maxBounces, 1, 4096);
@@ -55,6 +92,8 @@ Result<std::filesystem::path> runGrid(reference::TracedScene const& scene, std::
     if (!baked) return baked.error();
     const std::filesystem::path path = folder / (settings->box.name + ".grid");
     if (Result<void> done = assets::replaceFile(path, writeIrradianceGrid(baked->grid)); !done) return done.error();
+    if (auto done = tools::writeJson(folder / (settings->box.name + "-report.json"), reportOf(*baked)); !done)
+        return done.error();
     std::printf("%s: %s", path.c_str(), describe(*baked).c_str());
     return path;
 }

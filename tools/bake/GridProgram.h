@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GridProgram: filament-bake --grid: an irradiance grid as a JSON file describes it.
 ///   Fields  "at", "halfExtent" and "degrees" of the box in metres; "blend"; "name", which names the file, too;
-///           "spacing" of the first grid in metres; "maxProbes", "maxError", "heldOut", "paths", "depthSize",
+///           "spacing" of the first grid in metres; "maxProbes", "maxError", "heldOut", "judged", "paths", "depthSize",
 ///           "maxBounces", "seed", "leakPoints" (GridSettings).
-///   Out     NAME.grid, and its report in lines on standard output.
+///   Out     NAME.grid, NAME-report.json, and the report in lines on standard output.
 ///   Thread  any; works on the job system.   Fails: as JsonReader and bakeIrradianceGrid(); errors of the file system.
 #pragma once
 

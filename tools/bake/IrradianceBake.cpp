@@ -14,6 +14,7 @@ namespace {
 using reference::TracedScene;
 
 constexpr uint64_t kHeldOutStream = uint64_t{ 1 } << 40; // beyond the numbers of probes
+constexpr uint64_t kJudgeStream = uint64_t{ 1 } << 41;
 
 double luminanceOf(float3 color) { return double{ glm::dot(color, float3(0.2126f, 0.7152f, 0.0722f)) }; }
 
@@ -30,6 +31,7 @@ std::optional<Error> faultOfSettings(GridSettings const& settings) {
     if (!isIn(settings.maxProbes, 1, IrradianceProbes::kMaxProbes)) return invalid("maxProbes is not in [1, 2^20]");
     if (!isIn(settings.maxError, 0, 1e6)) return invalid("maxError is not in [0, 1e6]");
     if (!isIn(settings.heldOutPoints, 1, 65536)) return invalid("heldOutPoints is not in [1, 65536]");
+    if (!isIn(settings.judgedPoints, 0, 65536)) return invalid("judgedPoints is not in [0, 65536]");
     if (!isIn(settings.probes.rays, 1, 1u << 24)) return invalid("the paths of a probe are not in [1, 2^24]");
     if (!isIn(settings.probes.depthSize, 0, IrradianceProbes::kMaxDepthSize)) return invalid("depthSize is above 32");
     if (!isIn(settings.probes.depthRays, 1, 65536)) return invalid("depthRays is not in [1, 65536]");
@@ -70,13 +72,25 @@ struct HeldOut {
     IrradianceProbe traced{};
 };
 
+/// The luminance of irradiance / pi of surfaces that face along the six directions of the axes.
+std::array<double, 6> facingAxes(scene::IrradianceSh const& light) {
+    std::array<double, 6> values{};
+    for (size_t i = 0; i < 2; ++i) {
+        const float side = i == 0 ? -1.0f : 1.0f;
+        values[i] = luminanceOf(light[0] + side * light[3] + light[8] - light[6]);
+        values[2 + i] = luminanceOf(light[0] + side * light[1] - light[8] - light[6]);
+        values[4 + i] = luminanceOf(light[0] + side * light[2] + 2.0f * light[6]);
+    }
+    return values;
+}
+
 class GridBaker {
 public:
     GridBaker(TracedScene const& scene, GridSettings const& settings, jobs::JobSystem& jobs)
             : mScene(scene), mSettings(settings), mJobs(jobs) {}
 
     BakedGrid run() {
-        traceHeldOut();
+        mHeldOut = traceHeldOut(mSettings.heldOutPoints, kHeldOutStream);
         uint3 count = firstCount(mSettings);
         BakedGrid baked = bake(count);
         uint32_t rounds = 1;
@@ -87,6 +101,7 @@ public:
             ++rounds;
         }
         baked.report.rounds = rounds;
+        judgeLast(baked, traceHeldOut(mSettings.judgedPoints, kJudgeStream));
         baked.report.rays = mRays;
         if (mSettings.leakPointsPerSide > 0)
             baked.report.leaks = findLeaks(scene::gridRecord(baked.grid), mSettings.leakPointsPerSide,
@@ -99,24 +114,25 @@ private:
         return mSettings.box.centerWorld + double3(mSettings.box.worldFromBox * local);
     }
 
-    void traceHeldOut() {
-        mHeldOut.resize(mSettings.heldOutPoints);
+    std::vector<HeldOut> traceHeldOut(uint32_t count, uint64_t stream) {
+        std::vector<HeldOut> points(count);
         ProbeSettings settings = mSettings.probes;
         settings.depthSize = 0;
-        std::vector<uint64_t> rays(mHeldOut.size());
-        jobs::parallelFor<"held-out points">(mJobs, mHeldOut.size(), 1, [&](size_t begin, size_t end) {
+        std::vector<uint64_t> rays(points.size());
+        jobs::parallelFor<"held-out points">(mJobs, points.size(), 1, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) {
-                const reference::SampleStream numbers(reference::hashOf(settings.seed, kHeldOutStream),
+                const reference::SampleStream numbers(reference::hashOf(settings.seed, stream),
                                                       static_cast<uint32_t>(i));
                 const double3 u(numbers.pair(0), numbers.pair(1).x);
-                mHeldOut[i].local = float3(2.0 * u - 1.0) * mSettings.box.halfExtentMeters;
-                TracedProbe traced = traceProbe(mScene, inWorld(mHeldOut[i].local), kHeldOutStream + 1 + i,
+                points[i].local = float3(2.0 * u - 1.0) * mSettings.box.halfExtentMeters;
+                TracedProbe traced = traceProbe(mScene, inWorld(points[i].local), stream + 1 + i,
                                                 mSettings.box.worldFromBox, settings);
-                mHeldOut[i].traced = traced.probe;
+                points[i].traced = traced.probe;
                 rays[i] = traced.rays;
             }
         });
-        for (const uint64_t count : rays) mRays += count;
+        for (const uint64_t each : rays) mRays += each;
+        return points;
     }
 
     BakedGrid bake(uint3 count) {
@@ -162,6 +178,7 @@ private:
         }
         const double lit = std::max<double>(1, static_cast<double>(baked.grid.probes->probes.size()) - report.inside);
         const double noise = squares / lit;
+        report.mean = mean / lit;
         report.standardError = mean > 0 ? std::sqrt(noise) / (mean / lit) : 0;
         compareHeldOut(scene::gridRecord(baked.grid), noise, report);
         report.isWithinBound = report.heldOutPoints > 0 && report.heldOutError <= double{ mSettings.maxError };
@@ -172,28 +189,53 @@ private:
         double differences = 0, values = 0, noise = 0;
         for (HeldOut const& point : mHeldOut) {
             if (point.traced.isInside) continue;
-            const std::array<float3, 9> light = rotateIrradianceSh(point.traced.irradianceSh,
-                                                                   grid.worldFromBox); // the grid's is in the world
-            const scene::GridSample sample = scene::sampleGrid(grid, point.local);
             ++report.heldOutPoints;
-            const auto compare = [&](float3 traced, float3 given) {
-                const double difference = luminanceOf(given - traced), value = luminanceOf(traced);
-                differences += difference * difference;
-                values += value * value;
-            };
-            for (const float side : { -1.0f, 1.0f }) {
-                compare(light[0] + side * light[3] + light[8] - light[6],
-                        sample.light[0] + side * sample.light[3] + sample.light[8] - sample.light[6]);
-                compare(light[0] + side * light[1] - light[8] - light[6],
-                        sample.light[0] + side * sample.light[1] - sample.light[8] - sample.light[6]);
-                compare(light[0] + side * light[2] + 2.0f * light[6],
-                        sample.light[0] + side * sample.light[2] + 2.0f * sample.light[6]);
+            const auto [traced, given] = lightsAt(grid, point);
+            for (size_t i = 0; i < traced.size(); ++i) {
+                differences += (given[i] - traced[i]) * (given[i] - traced[i]);
+                values += traced[i] * traced[i];
             }
             noise += 6 * (double{ point.traced.standardError } * double{ point.traced.standardError } + noiseOfProbes);
         }
         if (values <= 0) return;
         report.heldOutError = std::sqrt(std::max(0.0, differences - noise) / values);
         report.heldOutNoise = std::sqrt(noise / values);
+    }
+
+    struct Lights {
+        std::array<double, 6> traced{}, given{};
+    };
+    static Lights lightsAt(scene::GridRecord const& grid, HeldOut const& point) {
+        // the grid's light is along the axes of the world
+        return { facingAxes(rotateIrradianceSh(point.traced.irradianceSh, grid.worldFromBox)),
+                 facingAxes(scene::sampleGrid(grid, point.local).light) };
+    }
+
+    static void judgeLast(BakedGrid& baked, std::vector<HeldOut> const& points) {
+        const scene::GridRecord grid = scene::gridRecord(baked.grid);
+        const double noise = 2 * baked.report.standardError * baked.report.mean;
+        GridJudgement& judgement = baked.report.judgement;
+        std::vector<double> beyond;
+        double squares = 0;
+        for (HeldOut const& point : points) {
+            if (point.traced.isInside) {
+                ++judgement.inside;
+                continue;
+            }
+            const auto [traced, given] = lightsAt(grid, point);
+            if (traced == Lights{}.traced && given == Lights{}.given) {
+                ++judgement.dark;
+                continue;
+            }
+            double error = 0;
+            for (size_t i = 0; i < traced.size(); ++i) error = std::max(error, std::abs(given[i] - traced[i]));
+            beyond.push_back(std::max(0.0, error - noise));
+            squares += error * error;
+            if (error > judgement.worst) judgement.worst = error, judgement.worstPlace = point.local;
+        }
+        judgement.points = static_cast<uint32_t>(beyond.size());
+        if (judgement.points > 0) judgement.rms = std::sqrt(squares / judgement.points);
+        judgement.interpolation = toleranceBound(std::move(beyond));
     }
 
     TracedScene const& mScene;
@@ -215,12 +257,21 @@ std::string describe(BakedGrid const& baked) {
     const uint3 count = baked.grid.probes->count;
     float worst = 0;
     for (Leak const& leak : report.leaks.found) worst = std::max(worst, leak.share);
-    return fmt::format("{} x {} x {} probes, {} of them inside of geometry; standard error {:.2f} %\n"
+    GridJudgement const& judgement = report.judgement;
+    const std::string bound =
+            judgement.interpolation
+                    ? fmt::format("at {:.0f} % of the lit places no further off than two standard errors and {:.3g} "
+                                  "candela / m2, judged by {} others\n",
+                                  kBoundShare * 100, *judgement.interpolation, judgement.points)
+                    : std::string();
+    return fmt::format("{} x {} x {} probes, {} of them inside of geometry; standard error {:.2f} % of {:.4g} candela "
+                       "/ m2\n"
                        "{:.1f} % off at {} held-out points (noise {:.1f} %) after {} grids: {}\n"
+                       "{}"
                        "{} leaks through walls at {} points; the largest is {:.0f} % of a point's light\n",
-                       count.x, count.y, count.z, report.inside, 100 * report.standardError, 100 * report.heldOutError,
-                       report.heldOutPoints, 100 * report.heldOutNoise, report.rounds,
-                       report.isWithinBound ? "within the bound" : "the budget of probes is spent",
+                       count.x, count.y, count.z, report.inside, 100 * report.standardError, report.mean,
+                       100 * report.heldOutError, report.heldOutPoints, 100 * report.heldOutNoise, report.rounds,
+                       report.isWithinBound ? "within the bound" : "the budget of probes is spent", bound,
                        report.leaks.found.size(), report.leaks.points, 100 * worst);
 }
 

@@ -2,12 +2,15 @@
 // The errors that reports state, beside light that is traced with many more paths at random places: at 95 % of them the
 // difference is within what the report says of it.
 #include "tools/bake/HeldOut.h"
+#include "base/math/IrradianceSh.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/scene/SampleGrid.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "tests/tools/bake/BakeRun.h"
 #include "tests/tools/bake/GridRooms.h"
 #include "toolkit/interiors/Interiors.h"
 #include "toolkit/json/JsonFile.h"
+#include "tools/bake/IrradianceProbes.h"
 #include "tools/reference/SampleStream.h"
 
 #include <nlohmann/json.hpp>
@@ -220,6 +223,89 @@ TEST_F(HeldOut, LightmapsOfRoomsAreToo) {
     for (const uint32_t seed : { 1u, 2u }) {
         Holds holds;
         bake(litRoom(seed), 3, 64, holds);
+        EXPECT_GE(holds.within, 0.95) << "room " << seed;
+    }
+}
+
+/// Luminance of irradiance / pi in the six directions of the axes, from the definition of the coefficients.
+std::array<double, 6> sixLights(scene::IrradianceSh const& sh) {
+    std::array<double, 6> values{};
+    for (size_t i = 0; i < 6; ++i) {
+        double3 n(0.0);
+        n[static_cast<int>(i / 2)] = i % 2 == 0 ? -1 : 1;
+        const std::array<double, 9> basis{
+            1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.z * n.x, n.x * n.x - n.y * n.y
+        };
+        for (size_t k = 0; k < 9; ++k) values[i] += luminanceOf(basis[k] * double3(sh[k]));
+    }
+    return values;
+}
+
+class HeldOutGrid : public HeldOut {
+protected:
+    /// As bake(), at random places in the air.
+    void bakeGrid(assets::GlbScene const& scene, double3 at, float3 half, float spacing, uint32_t paths, Holds& holds) {
+        write("scene.glb", scene);
+        std::ofstream(mFolder / "grid.json")
+                << fmt::format(R"({{"name": "air", "at": [{}, {}, {}], "halfExtent": [{}, {}, {}], "spacing": {},
+                    "maxProbes": 300, "paths": {}, "leakPoints": 0}})",
+                               at.x, at.y, at.z, half.x, half.y, half.z, spacing, paths);
+        const Outcome outcome = run("scene.glb --grid grid.json --out baked");
+        ASSERT_EQ(outcome.status, 0) << outcome.text;
+        const Result<tools::Json> report = tools::readJson(mFolder / "baked/air-report.json");
+        ASSERT_TRUE(report) << report.error().message;
+        const Result<std::vector<std::byte>> bytes = assets::readFileBytes(mFolder / "baked/air.grid");
+        ASSERT_TRUE(bytes);
+        const scene::GridRecord grid = scene::gridRecord(*readIrradianceGrid(*bytes));
+        std::minstd_rand numbers(23);
+        std::uniform_real_distribution<float> side(-1, 1);
+        std::vector<float3> places;
+        for (size_t i = 0; i < kPlaces; ++i) {
+            const float x = side(numbers), y = side(numbers), z = side(numbers);
+            places.push_back(half * float3(x, y, z));
+        }
+        const reference::TracedScenePtr traced = this->traced("scene.glb");
+        const Exposure exposure{ .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 };
+        const ProbeSettings settings{
+            .rays = kTimesPaths * paths, .depthSize = 0, .exposure = double(exposure.factor()), .seed = 4711
+        };
+        std::vector<IrradianceProbe> truths(kPlaces);
+        jobs::parallelFor<"truth">(jobs, kPlaces, 1, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i)
+                truths[i] = traceProbe(*traced, at + double3(places[i]), i, float3x3(1.0f), settings).probe;
+        });
+        const double noise = 2 * (*report)["standardError"].get<double>() * (*report)["mean"].get<double>();
+        const double bound = (*report)["judged"]["interpolation"].get<double>();
+        double seen = 0, sum = 0;
+        for (size_t i = 0; i < kPlaces; ++i) {
+            if (truths[i].isInside) continue;
+            const std::array<double, 6> given = sixLights(scene::sampleGrid(grid, places[i]).light),
+                                        expected = sixLights(truths[i].irradianceSh);
+            double error = 0;
+            for (size_t k = 0; k < 6; ++k) error = std::max(error, std::abs(given[k] - expected[k]));
+            if (error == 0) continue; // dark
+            ++seen, sum += luminanceOf(double3(truths[i].irradianceSh[0]));
+            holds.within += error <= noise + bound;
+            holds.withinNoise += error <= noise;
+        }
+        ASSERT_GT(seen, 0.3 * kPlaces);
+        RecordProperty("within", std::to_string(holds.within / seen));
+        holds = { holds.within / seen, holds.withinNoise / seen, bound * seen / sum };
+    }
+};
+
+TEST_F(HeldOutGrid, OfACornellBoxIsWithinItsReportAt95Percent) {
+    Holds holds;
+    bakeGrid(tests::cornellBox(), { 0, 1, 0 }, float3(0.95f), 0.5f, 256, holds);
+    EXPECT_GE(holds.within, 0.95);
+    EXPECT_LT(holds.withinNoise, 0.95) << "the bound says nothing";
+    EXPECT_LT(holds.bound, 3);
+}
+
+TEST_F(HeldOutGrid, OfRoomsIsToo) {
+    for (const uint32_t seed : { 2u, 3u }) {
+        Holds holds;
+        bakeGrid(litRoom(seed), double3(0.0), test::makeRoom(seed).half, 0.7f, 64, holds);
         EXPECT_GE(holds.within, 0.95) << "room " << seed;
     }
 }

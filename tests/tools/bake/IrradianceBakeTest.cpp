@@ -43,6 +43,7 @@ GridSettings cheap(float3 half, float spacing) {
     settings.spacingMeters = spacing;
     settings.probes.rays = 256;
     settings.heldOutPoints = 16;
+    settings.judgedPoints = 0;
     settings.maxProbes = 64;
     return settings;
 }
