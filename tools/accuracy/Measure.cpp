@@ -42,8 +42,9 @@ public:
 
 private:
     Result<void> openStudios() {
+        const auto bakes = std::make_shared<Bakes>(std::min(256u, 8 * mOptions.mostTraced));
         for (const Backend backend : mOptions.backends) {
-            Result<std::unique_ptr<Studio>> studio = Studio::open(backend, mOptions.folders);
+            Result<std::unique_ptr<Studio>> studio = Studio::open(backend, mOptions.folders, bakes);
             if (!studio) return studio.error();
             DeviceDescription const& device = (*studio)->device();
             mResults.drivers[toString(backend)] = fmt::format("{}, {}", device.device, device.driver);

@@ -54,10 +54,33 @@ bool setExact(Settings& settings, std::string const& value) {
     return true;
 }
 
+/// 0 for "off". Finer ones bake for hours.
+std::optional<double> bakeNumber(std::string const& value, double least, double most) {
+    if (value == "off") return 0;
+    const std::optional<double> number = tools::finiteNumber(value);
+    return number && *number >= least && *number <= most ? number : std::nullopt;
+}
+
+constexpr std::string_view kGridMeters[] = { "off", "1", "0.5" };
+bool setGrid(Settings& settings, std::string const& value) {
+    const std::optional<double> meters = bakeNumber(value, 0.05, 100);
+    if (meters) settings.bake.gridMeters = *meters;
+    return meters.has_value();
+}
+
+constexpr std::string_view kLightmapTexels[] = { "off", "4", "8", "16" };
+bool setLightmap(Settings& settings, std::string const& value) {
+    const std::optional<double> texels = bakeNumber(value, 0.1, 64);
+    if (texels) settings.bake.texelsPerMeter = *texels;
+    return texels.has_value();
+}
+
 constexpr std::array kChoices{
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
     Choice{ "budget", kBudgets, setBudget, "how many times the default's time, above 0" },
     Choice{ "exact", kSwitch, setExact, "off or on" },
+    Choice{ "bake.grid", kGridMeters, setGrid, "off or metres between probes, 0.05 to 100" },
+    Choice{ "bake.lightmap", kLightmapTexels, setLightmap, "off or texels a metre, 0.1 to 64" },
 };
 
 Choice const* findChoice(std::string_view name) {

@@ -65,11 +65,13 @@ struct Studio::Equipment {
     SceneLoader loader;
 };
 
-Studio::Studio(Backend backend, tools::SceneFolders const& folders) : mBackend(backend), mFolders(folders) {}
+Studio::Studio(Backend backend, tools::SceneFolders const& folders, std::shared_ptr<Bakes> bakes)
+        : mBackend(backend), mFolders(folders), mBakes(bakes ? std::move(bakes) : std::make_shared<Bakes>()) {}
 Studio::~Studio() = default;
 
-Result<std::unique_ptr<Studio>> Studio::open(Backend backend, tools::SceneFolders const& folders) {
-    std::unique_ptr<Studio> studio(new Studio(backend, folders));
+Result<std::unique_ptr<Studio>> Studio::open(Backend backend, tools::SceneFolders const& folders,
+                                             std::shared_ptr<Bakes> bakes) {
+    std::unique_ptr<Studio> studio(new Studio(backend, folders, std::move(bakes)));
     const Result<Equipment*> first = studio->equipment({});
     if (!first) return first.error();
     studio->mDevice = (*first)->engine.device();
@@ -89,7 +91,10 @@ Result<Studio::Equipment*> Studio::equipment(Settings const& settings) {
     return known.get();
 }
 
-Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const& settings, uint2 size, bool linear) {
+Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& named, Settings const& settings, uint2 size, bool linear) {
+    const Result<SceneSpec const*> baked = mBakes->bake(named, settings.bake, mFolders);
+    if (!baked) return baked.error();
+    SceneSpec const& spec = **baked;
     const Result<Equipment*> used = equipment(settings);
     if (!used) return used.error();
     Engine& engine = (*used)->engine;

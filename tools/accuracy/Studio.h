@@ -11,6 +11,7 @@
 
 #include "toolkit/pictures/Picture.h"
 #include "toolkit/scenes/ShownScene.h"
+#include "tools/accuracy/Bakes.h"
 #include "tools/accuracy/Settings.h"
 
 #include <filament_core/Renderer.h>
@@ -53,12 +54,15 @@ private:
 
 class Studio {
 public:
-    static Result<std::unique_ptr<Studio>> open(Backend backend, tools::SceneFolders const& folders);
+    /// `bakes`: shared with other studios; null: its own.
+    static Result<std::unique_ptr<Studio>> open(Backend backend, tools::SceneFolders const& folders,
+                                                std::shared_ptr<Bakes> bakes = {});
     ~Studio();
 
     DeviceDescription const& device() const { return mDevice; }
     /// `linear`: scene-linear half floats, without the tone mapper.
-    Result<std::unique_ptr<Take>> take(tools::SceneSpec const& spec, Settings const& settings, uint2 size, bool linear);
+    Result<std::unique_ptr<Take>> take(tools::SceneSpec const& named, Settings const& settings, uint2 size,
+                                       bool linear);
     /// Milliseconds for loading one file again, with an empty cache.
     Result<double> timeEnvironment(tools::SceneSpec const& spec, Settings const& settings);
     Result<double> timeModel(tools::SceneSpec const& spec, Settings const& settings);
@@ -67,11 +71,12 @@ public:
 
 private:
     struct Equipment; // one engine, and the files loaded for it
-    Studio(Backend backend, tools::SceneFolders const& folders);
+    Studio(Backend backend, tools::SceneFolders const& folders, std::shared_ptr<Bakes> bakes);
     Result<Equipment*> equipment(Settings const& settings);
 
     const Backend mBackend;
     const tools::SceneFolders mFolders;
+    const std::shared_ptr<Bakes> mBakes;
     DeviceDescription mDevice;
     std::map<std::string, std::unique_ptr<Equipment>> mEquipment; // by Settings::engineKey
 };

@@ -99,8 +99,8 @@ TEST(EffectTable, ARowOfSixLinesIsEnough) {
 
 TEST(EffectSettings, EveryValueWorthMeasuringIsAccepted) {
     for (const char* choice : { "samples", "toneMapper", "preset", "environment.samples", "environment.faceSize",
-                                "environment.format", "environment.roughnessMapping", "model.positions",
-                                "model.tangents", "budget", "exact", "dither", "shBands" }) {
+                                "environment.format", "environment.roughnessMapping", "model.positions", "bake.grid",
+                                "bake.lightmap", "model.tangents", "budget", "exact", "dither", "shBands" }) {
         const std::vector<std::string> values = valuesOf(choice);
         EXPECT_GE(values.size(), 2u) << choice;
         for (std::string const& value : values) {
