@@ -16,6 +16,7 @@
 #include <filament_core/ModelCopy.h>
 #include <filament_core/Primitives.h>
 #include <filament_core/Scene.h>
+#include <filament_core/Sky.h>
 #include <filament_core/TextureStreaming.h>
 
 #include <algorithm>
@@ -128,6 +129,7 @@ private:
     Result<void> loadMaterial(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadModel(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadSky(BackendRun& run, std::filesystem::path const& path);
+    Result<void> computeSky(BackendRun& run, EnvironmentSettings const& settings);
     Result<void> loadDirt();
     Result<void> addGround(double level);
 
@@ -135,6 +137,7 @@ private:
     std::optional<Model> mModel;
     std::vector<Node> mCopies; ///< of it
     std::optional<Environment> mEnvironment;
+    std::optional<Fog> mSkyFog;
     Owned<Material> mCatcher;
     Owned<MaterialInstance> mShadows;
     Owned<VertexBuffer> mGroundVertices;
@@ -205,6 +208,20 @@ Result<void> Stage::addGround(double level) {
     return {};
 }
 
+/// Its fog takes the place of the view's.
+Result<void> Stage::computeSky(BackendRun& run, EnvironmentSettings const& settings) {
+    Result<Environment> sky = filament_core::loadSky(mEngine, *mOptions.sky, mOptions.environmentOptions);
+    if (!sky) return fail(sky.error().code, "--sky: {}", sky.error().message);
+    mEnvironment.emplace(std::move(*sky));
+    run.lights = mEnvironment->lights();
+    mScene.setEnvironment(*mEnvironment, settings);
+    if (!mOptions.skyFog) return {};
+    Result<Fog> fog = skyFog(mEngine, *mOptions.sky);
+    if (!fog) return fail(fog.error().code, "--sky-fog: {}", fog.error().message);
+    mSkyFog = std::move(*fog);
+    return {};
+}
+
 Result<void> Stage::loadSky(BackendRun& run, std::filesystem::path const& path) {
     const double level = mScene.bounds().min.y;
     const EnvironmentSettings settings{ .illuminance = mOptions.iblIntensity,
@@ -214,6 +231,7 @@ Result<void> Stage::loadSky(BackendRun& run, std::filesystem::path const& path) 
     if (settings.groundHeightMeters > 0) {
         if (const Result<void> added = addGround(level); !added) return added;
     }
+    if (mOptions.sky) return computeSky(run, settings);
     Environment const* own = mModel ? mModel->environment() : nullptr;
     run.usesModelEnvironment = own && mOptions.environment.empty();
     if (run.usesModelEnvironment) {
@@ -249,6 +267,7 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                                                       .name = "pixels" }));
     mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
     mView = viewOf(mOptions);
+    if (mSkyFog) mView.effects.fog = *mSkyFog;
     for (const Node copy : mCopies) ModelCopy::of(mScene, copy)->chooseLevels(mView);
     return loadDirt();
 }

@@ -4,6 +4,10 @@
 #include "jobsystem/Topology.h"
 #include "toolkit/program/CommandLine.h"
 
+#include <filament_core/Sky.h>
+#include <glm/geometric.hpp>
+
+#include <array>
 #include <cmath>
 
 namespace filament_core::tools {
@@ -15,8 +19,8 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation,
-                saveLook, saveFrame;
-    std::vector<std::string> values;
+                saveLook, saveFrame, skyAltitude;
+    std::vector<std::string> values, sky;
 };
 
 Result<void> convertChoices(Words const& words, Options& options) {
@@ -101,6 +105,39 @@ Result<void> convertValues(Words const& words, Options& options) {
     return {};
 }
 
+Result<void> convertAltitude(Words const& words, Options& options) {
+    if (words.skyAltitude.empty()) return {};
+    const auto altitude = finiteNumber(words.skyAltitude);
+    if (!options.sky || !altitude || *altitude < 0 || *altitude > 50'000)
+        return invalidOption("--sky-altitude", words.skyAltitude, "metres from 0 to 50000, with --sky");
+    options.sky->altitudeMeters = static_cast<float>(*altitude);
+    return {};
+}
+
+/// A sky takes the place of every other environment.
+Result<void> convertSky(Words const& words, Options& options) {
+    if (!words.sky.empty()) {
+        std::array<double, 4> sky{};
+        const auto isSky = [](std::array<double, 4> const& v) {
+            const double size = glm::length(double3(v[1], v[2], v[3]));
+            return v[0] >= 1 && v[0] <= 10 && size >= 1e-6 && size <= 1e6;
+        };
+        if (auto done =
+                    convertNumbers("--sky", words.sky,
+                                   "a turbidity from 1 to 10 and a direction to the sun that is not zero", sky, isSky);
+            !done)
+            return done;
+        if (!options.environment.empty() && options.environment != "none")
+            return invalidOption("--sky", words.sky.front(), "either a sky or an --environment");
+        options.environment = "none";
+        options.iblIntensity = kSkySettings.illuminance;
+        options.sky = SkyDesc{ .directionToSun = float3(double3(sky[1], sky[2], sky[3])),
+                               .turbidity = static_cast<float>(sky[0]) };
+    }
+    if (options.skyFog && !options.sky) return invalidOption("--sky-fog", "on", "a --sky, whose air it is");
+    return convertAltitude(words, options);
+}
+
 Result<void> convertTime(Words const& words, Options& options) {
     options.animation = words.animation;
     if (words.time.empty()) return {};
@@ -112,6 +149,12 @@ Result<void> convertTime(Words const& words, Options& options) {
 
 void declare(CommandLine& app, Words& words, Options& options) {
     app.option("--backend", words.backend, "vulkan, gles or both (default)").shownDefault("both");
+    app.option("--sky", words.sky,
+               "TURBIDITY DX DY DZ: a clear sky and its sun, computed from the air (1 to 10; 3 is clear) and the "
+               "direction to the sun, in place of --environment")
+            .words(4);
+    app.option("--sky-altitude", words.skyAltitude, "METRES of the camera above the sea, for --sky (0)");
+    app.flag("--sky-fog", options.skyFog, "fog of the air of --sky between camera and things");
     app.option("--frames", words.frames, "frames to draw; the last one is saved (1)");
     app.option("--copies", words.copies, "number of copies of the model, on a grid (1)");
     app.option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
@@ -168,7 +211,8 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.saveFrame = words.saveFrame;
     if (argc > 1) options.arguments.assign(argv + 1, argv + argc);
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertTime }) {
+    for (auto convert :
+         { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertTime, convertSky }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

@@ -7,6 +7,7 @@
 #include "toolkit/program/SceneOptions.h"
 
 #include <filament_core/Engine.h>
+#include <filament_core/SkyDesc.h>
 
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ enum class PictureFormat : uint8_t { Png, Png16, Exr };
 struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string requireDevice;
+    std::optional<SkyDesc> sky; ///< in the place of an environment's file; iblIntensity is that of its radiances
+    bool skyFog = false;        ///< the fog of its air
     uint32_t frames = 1;
     std::vector<std::pair<std::string, std::string>> values; ///< for the parameters of a material
     uint32_t copies = 1;                                     ///< of the model, on a grid

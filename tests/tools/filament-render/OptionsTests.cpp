@@ -104,6 +104,24 @@ TEST(Options, TheDiscOfTheSunIsSetByName) {
     EXPECT_THAT(refused({ "--sun", "1", "0", "-1", "0", "--set", "sun.size=1" }), HasSubstr("no option 'size'"));
 }
 
+TEST(Options, ASkyTakesThePlaceOfAnEnvironment) {
+    EXPECT_FALSE(parsed({}).sky);
+    const Options options = parsed({ "--sky", "3", "0.3", "0.5", "-0.8", "--sky-altitude", "1500", "--sky-fog" });
+    ASSERT_TRUE(options.sky);
+    EXPECT_EQ(options.sky->turbidity, 3.0f);
+    EXPECT_EQ(options.sky->directionToSun, float3(0.3f, 0.5f, -0.8f));
+    EXPECT_EQ(options.sky->altitudeMeters, 1500.0f);
+    EXPECT_TRUE(options.skyFog);
+    EXPECT_EQ(options.environment, "none");
+    EXPECT_EQ(options.iblIntensity.value, 1000.0f); // kcd/m^2
+    EXPECT_THAT(refused({ "--sky", "0.5", "0", "1", "0" }), HasSubstr("turbidity from 1 to 10"));
+    EXPECT_THAT(refused({ "--sky", "2", "0", "0", "0" }), HasSubstr("not zero"));
+    EXPECT_THAT(refused({ "--sky", "2", "0", "1", "0", "--environment", "a.hdr" }), HasSubstr("either a sky"));
+    EXPECT_THAT(refused({ "--sky", "2", "0", "1", "0", "--sky-altitude", "6e4" }), HasSubstr("from 0 to 50000"));
+    EXPECT_THAT(refused({ "--sky-altitude", "1" }), HasSubstr("with --sky"));
+    EXPECT_THAT(refused({ "--sky-fog" }), HasSubstr("a --sky"));
+}
+
 TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
     EXPECT_EQ(parsed({}).view.quality, Quality{});
     EXPECT_EQ(parsed({ "--quality", "low" }).view.quality, qualityPreset(QualityPreset::Low));
