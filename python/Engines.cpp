@@ -6,6 +6,7 @@
 
 #include <filament_core/Environment.h>
 #include <filament_core/Options.h>
+#include <filament_core/Sky.h>
 #include <filament_core/Version.h>
 
 namespace filament_core::python {
@@ -84,10 +85,10 @@ std::shared_ptr<ModelObject> loadModel(EngineObject const& self, std::filesystem
     return std::make_shared<ModelObject>(self.owner, valueOf(std::move(model)));
 }
 
-std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesystem::path const& path,
-                                           int64_t faceSize, std::string const& format,
-                                           std::string const& roughnessMapping, int64_t samples, std::string const& sun,
-                                           int64_t lights) {
+std::shared_ptr<EnvironmentObject> loadFile(EngineObject const& self, std::filesystem::path const& path,
+                                            int64_t faceSize, std::string const& format,
+                                            std::string const& roughnessMapping, int64_t samples,
+                                            std::string const& sun, int64_t lights) {
     EnvironmentLoadOptions options;
     setKeyword(options, "faceSize", "face_size", std::to_string(faceSize));
     setKeyword(options, "format", "format", format);
@@ -97,6 +98,26 @@ std::shared_ptr<EnvironmentObject> loadSky(EngineObject const& self, std::filesy
     setKeyword(options, "lights", "lights", std::to_string(lights));
     const Owner::Call call(*self.owner);
     Result<Environment> sky = released([&] { return loadEnvironment(call.engine(), path, options); });
+    return std::make_shared<EnvironmentObject>(self.owner, valueOf(std::move(sky)));
+}
+
+std::shared_ptr<EnvironmentObject> computeSky(EngineObject const& self, py::object const& directionToSun,
+                                              double turbidity, py::object const& groundAlbedo, double altitude,
+                                              bool showsDisc, int64_t height, int64_t faceSize,
+                                              std::string const& format, int64_t samples) {
+    EnvironmentLoadOptions options;
+    setKeyword(options, "faceSize", "face_size", std::to_string(faceSize));
+    setKeyword(options, "format", "format", format);
+    setKeyword(options, "samples", "samples", std::to_string(samples));
+    if (height < 16 || height > 2048) raiseInvalid("height: {} is not a whole number from 16 to 2048", height);
+    const SkyDesc desc{ .directionToSun = directionOf(directionToSun, "direction_to_sun"),
+                        .turbidity = quantityOf(turbidity, "turbidity"),
+                        .groundAlbedo = colorOf(groundAlbedo, "ground_albedo"),
+                        .altitudeMeters = quantityOf(altitude, "altitude"),
+                        .showsDisc = showsDisc,
+                        .height = static_cast<uint32_t>(height) };
+    const Owner::Call call(*self.owner);
+    Result<Environment> sky = released([&] { return loadSky(call.engine(), desc, options); }); // it checks the ranges
     return std::make_shared<EnvironmentObject>(self.owner, valueOf(std::move(sky)));
 }
 
@@ -192,11 +213,17 @@ void bindLoading(EngineClass& engine) {
                py::arg("files_from_anywhere") = false,
                "Loads a .gltf or .glb file. The keywords are those of --set model.positions, model.tangents, "
                "model.simplified and model.filesFromAnywhere.")
-            .def("load_environment", &loadSky, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
+            .def("load_environment", &loadFile, py::arg("path"), py::kw_only(), py::arg("face_size") = 256,
                  py::arg("format") = "RGBA16F", py::arg("roughness_mapping") = "quadratic", py::arg("samples") = 512,
                  py::arg("sun") = "keep", py::arg("lights") = 1,
                  "Loads an equirectangular .hdr or .exr, a cube map in a .ktx2, or a package of cmgen, as light and "
                  "background. sun: keep, extract or fit, with up to `lights` lights: what casts shadows.")
+            .def("load_sky", &computeSky, py::arg("direction_to_sun") = py::make_tuple(0.45, 0.55, 0.70), py::kw_only(),
+                 py::arg("turbidity") = 2.5, py::arg("ground_albedo") = py::make_tuple(0.18, 0.17, 0.15),
+                 py::arg("altitude") = 0.0, py::arg("shows_disc") = true, py::arg("height") = 256,
+                 py::arg("face_size") = 256, py::arg("format") = "RGBA16F", py::arg("samples") = 512,
+                 "Computes a clear sky and its sun from the physics of the air: turbidity 1 (no haze) to 10, altitude "
+                 "in metres. Its radiances are in kcd/m2: scene.set_environment(sky, illuminance=1000).")
             .def("texture", &textureOfArray, py::arg("pixels"), py::kw_only(), py::arg("srgb") = true,
                  py::arg("name") = "",
                  "A texture with all mip levels from a picture: uint8 codes of sRGB (srgb=False: data), or floats.")

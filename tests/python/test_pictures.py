@@ -123,6 +123,30 @@ class EnvironmentLights(unittest.TestCase):
                 engine.load_environment(path, sun="moon")
 
 
+class Skies(unittest.TestCase):
+    def test_the_sun_of_a_sky_is_a_light_where_it_was_asked_for(self):
+        with fc.Engine("null") as engine:
+            sky = engine.load_sky((0, 3, 4), turbidity=3, height=32, face_size=16, samples=16)
+            light, = sky.lights
+            np.testing.assert_allclose(light["direction"], (0, 0.6, 0.8), atol=1e-4)
+            self.assertTrue(60 < sum(light["illuminance"]) / 3 < 100)  # klx
+            fc.Scene(engine).set_environment(sky, illuminance=1000)
+            self.assertEqual(engine.load_sky((0, -0.1, 1), height=32, face_size=16, samples=16).lights, [])  # it has set
+
+    def test_haze_takes_light_of_the_sun(self):
+        with fc.Engine("null") as engine:
+            clear, hazy = (engine.load_sky((0, 1, 1), turbidity=turbidity, height=32, face_size=16, samples=16).lights[0]
+                           for turbidity in (2, 8))
+            self.assertTrue(all(h < c for h, c in zip(hazy["illuminance"], clear["illuminance"])))
+
+    def test_what_is_out_of_range_is_named(self):
+        with fc.Engine("null") as engine:
+            for wrong in ({"turbidity": 11}, {"altitude": -1}, {"height": 15}, {"ground_albedo": (2, 0, 0)},
+                          {"face_size": 17}, {"direction_to_sun": (0, 0, 0)}, {"turbidity": float("nan")}):
+                with self.assertRaises(fc.InvalidArgumentError, msg=wrong):
+                    engine.load_sky(**wrong)
+
+
 class Surroundings(unittest.TestCase):
     def setUp(self):
         self.engine = fc.Engine("gles")
