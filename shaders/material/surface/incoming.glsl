@@ -61,7 +61,16 @@ highp vec3 probedRadiance(highp vec3 direction, highp float level) {
     return sum;
 }
 
-// The same of irradiance / pi. environment: that of the environment.
+// Of the light around the surface, the part that probes give.
+highp float shareOfProbes() {
+    highp float left = addsEnvironment() ? 1.0 : 0.0;
+    if (quality_reflectionProbes != 0 && addsEnvironment()) {
+        for (int i = 0; i < probeCount(); ++i) left -= shareOfProbe(i, left);
+    }
+    return 1.0 - left;
+}
+
+// As probedRadiance(), of irradiance / pi. environment: that of the environment.
 highp vec3 probedIrradiance(highp vec3 normal, highp vec3 environment) {
     highp vec3 sum = vec3(0.0);
     highp float left = 1.0;

@@ -300,8 +300,8 @@ Surface surfaceOf(MaterialInputs material) {
     surface.visibility = ambientVisibility(material);
 #if defined(HAS_BAKED_LIGHT)
     surface.baked = material.bakedLight;
-    // What hides the sky hides its reflections.
-    if (surface.baked.w >= 0.0) surface.visibility = min(surface.visibility, surface.baked.w);
+    // What hides the sky hides its reflections; probes have seen it.
+    if (surface.baked.w >= 0.0) surface.visibility = min(surface.visibility, mix(surface.baked.w, 1.0, shareOfProbes()));
 #endif
     return surface;
 }
