@@ -14,7 +14,7 @@ struct Words {
     std::string scenes = tools::sourceDir() / "tools/accuracy/scenes";
     std::string assets = tools::assetDir();
     std::string out = "accuracy", page, pictures, frame, size, rounds, plots, shard, rooms;
-    std::vector<std::string> backends, include, compare, merge;
+    std::vector<std::string> backends, include, compare, interiors, merge;
     bool quick = false;
 };
 
@@ -25,6 +25,12 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
             .anyWords()
             .typeName("[NAME...]");
     app.option("--effect", options.effect, "only these rows").typeName("NAME...");
+    app.option("--interiors", words.interiors,
+               "instead: rooms lit by an environment, probes, grids and lightmaps against the path tracer, all or "
+               "these; "
+               "bakes into --out/work, which a second run uses again")
+            .anyWords()
+            .typeName("[NAME...]");
     app.option("--rooms", words.rooms,
                "instead: write the generated rooms, a Cornell box and a gallery, as models with a sky")
             .typeName("DIR");
@@ -90,6 +96,19 @@ void convertComparison(Words const& words, bool isAsked, Options& options) {
     options.comparison = std::move(comparison);
 }
 
+/// `isAsked`: as above.
+void convertInteriors(Words const& words, bool isAsked, Options& options) {
+    if (!isAsked) return;
+    InteriorOptions interiors{ .chosen = words.interiors,
+                               .backends = options.measure.backends,
+                               .timedSize = options.measure.size,
+                               .rounds = options.measure.rounds,
+                               .folders = options.measure.folders };
+    std::erase(interiors.chosen, std::string());
+    if (words.quick) interiors.settings = { .size = { 80, 48 }, .mostSamples = 64, .coarseness = 2 };
+    options.interiors = std::move(interiors);
+}
+
 Result<void> convertShard(Words const& words, bool isComparison, Options& options) {
     options.merge.assign(words.merge.begin(), words.merge.end());
     if (words.shard.empty() && words.merge.empty()) return {};
@@ -141,6 +160,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (const Result<void> done = convert(words, options); !done) return done.error();
     const bool isComparison = app.wasGiven("--compare");
     convertComparison(words, isComparison, options);
+    convertInteriors(words, app.wasGiven("--interiors"), options);
     if (const Result<void> done = convertShard(words, isComparison, options); !done) return done.error();
     return std::optional(options);
 }

@@ -6,6 +6,7 @@
 #include "toolkit/program/Shard.h"
 #include "tools/accuracy/Measure.h"
 #include "tools/accuracy/comparison/Comparison.h"
+#include "tools/accuracy/interiors/InteriorTable.h"
 
 #include <filesystem>
 #include <optional>
@@ -22,6 +23,7 @@ struct Options {
     bool list = false, plots = true;
     std::filesystem::path rooms; ///< --rooms: write the generated rooms into this folder, and measure nothing
     std::optional<ComparisonOptions> comparison; ///< --compare: this instead of the effects
+    std::optional<InteriorOptions> interiors;    ///< --interiors: this instead of the effects
     MeasureOptions measure{};
 };
 

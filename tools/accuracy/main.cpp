@@ -9,6 +9,7 @@
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/Shards.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
+#include "tools/accuracy/interiors/InteriorPage.h"
 
 #include <nlohmann/json.hpp>
 
@@ -99,6 +100,19 @@ int measureAndReport(Options const& options, std::vector<Effect> const& effects)
     return 0;
 }
 
+int measureRooms(Options const& options) {
+    const tools::StopOnInterrupt scope;
+    Result<InteriorResults> results = measureInteriors(*options.interiors, progressLine());
+    tools::clearProgress();
+    if (!results) return failed(results.error());
+    nameOrigin(*results);
+    if (const Result<void> written = writeInteriors(*results, options.out); !written) return failed(written.error());
+    for (Skipped const& one : results->skipped)
+        tools::printWarning(fmt::format("interior {} skipped: no {}; give --assets", one.name, one.reason));
+    std::fputs(textOf(*results).c_str(), stdout);
+    return 0;
+}
+
 int writeRooms(std::filesystem::path const& folder) {
     for (interiors::Interior const& room : { interiors::cornellBox(), interiors::gallery() }) {
         const Result<interiors::InteriorFiles> files = interiors::writeInterior(room, folder);
@@ -110,6 +124,7 @@ int writeRooms(std::filesystem::path const& folder) {
 
 int run(Options const& options) {
     if (!options.rooms.empty()) return writeRooms(options.rooms);
+    if (options.interiors) return measureRooms(options);
     if (options.comparison) return compare(options);
     if (!options.merge.empty()) return merge(options);
     const Result<std::vector<Effect>> effects = readEffects(options.effects);
