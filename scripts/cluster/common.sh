@@ -55,8 +55,8 @@ plan_options() {
 
 check_plan() {
     case $tool in
-    conformance | accuracy | reference) ;;
-    *) fail "--tool: '$tool' is not valid; give conformance, accuracy or reference" ;;
+    conformance | accuracy | reference | bake) ;;
+    *) fail "--tool: '$tool' is not valid; give conformance, accuracy, reference or bake" ;;
     esac
     whole --shards "$shards" 1 10000
     whole --attempts "$attempts" 1 100
@@ -96,6 +96,7 @@ read_plan() {
 shard_file() {
     case $tool in
     reference) echo part.film ;;
+    bake) echo bake.part ;;
     *) echo results.json ;;
     esac
 }

@@ -19,6 +19,7 @@ out=x shard=""
 while (($#)); do case $1 in
     --out) out=$2; shift ;; --shard) shard=${2%%/*}; shift ;;
     --merge) shift; merged=(); while [[ $1 != --out ]]; do merged+=("$1"); shift; done; continue ;;
+    --note) echo "$2" > '%(work)s/noted'; shift ;;
     --slow) sleep 30 & echo $! > '%(work)s/sleeping'; wait ;;
 esac; shift; done
 mkdir -p "$out"
@@ -136,6 +137,14 @@ class Run(unittest.TestCase):
         self.out = self.work / "interrupted"
         self.tool("conformance", "results.json", status=130)
         self.assertEqual(self.shard(0, tool="conformance", shards=1)[0], 1)
+
+    def test_a_bake_merges_with_the_options_of_its_shards(self):
+        self.tool("bake", "bake.part")
+        for index in range(3):
+            self.assertEqual(self.shard(index, "--", "--note", "a model", tool="bake"), (0, ""))
+        (self.work / "noted").unlink()
+        self.assertEqual(self.script("merge")[0], 0)
+        self.assertEqual((self.work / "noted").read_text(), "a model\n")
 
     def test_a_folder_has_one_run(self):
         self.shard(0, "--", "--spp", "4 or 5")

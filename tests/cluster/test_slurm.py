@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """scripts/cluster on a real Slurm, which this test starts for itself (private_slurm.py): four machines, of which one dies
-while it draws a shard, and a shard that fails once. The merged reports must have the bytes of one run. Also measures a
-image of the path tracer with 1, 2 and 4 workers.
+while it draws a shard, and a shard that fails once. The merged reports must have the bytes of one run, those of bakes with 1,
+2 and 4 workers too. Also measures an image of the path tracer with as many.
 
 test_slurm.py --bin BIN --out DIR: programs; the folder of report.json. Skipped (77) where Slurm is not installed."""
 import argparse
@@ -23,6 +23,8 @@ SCRIPTS = ROOT / "scripts/cluster"
 CONFORMANCE = ["--only", "lines", "unlit", "mask", "--threads", "off", "--mutations", "off"]
 REFERENCE = ["triangle.gltf", "--environment", "none", "--size", "160x90", "--eye", "0", "0", "2", "--sun", "100000", "-1",
              "-1", "-1", "--threads", "1", "--spp"]
+BAKE = ["triangle.gltf", "--environment", "none", "--sun", "100000", "-1", "-1", "-1", "--direct", "on", "--samples", "64",
+        "--density", "24", "--threads", "1"]
 # One lit triangle, facing +z.
 MODEL = """{ "asset": { "version": "2.0" }, "buffers": [ { "byteLength": 36, "uri":
 "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA" } ],
@@ -135,6 +137,15 @@ class Test:
     def model(samples):
         return [*REFERENCE, samples]
 
+    def bakes_with_any_number_of_workers(self):
+        self.draw_whole("whole-bake", "bake", BAKE)
+        for workers in (1, 2, 4):
+            name = f"bake-{workers}"
+            self.submit(name, "bake", 4, BAKE, workers=workers)
+            summary = self.wait_for_summary(name)
+            assert "4 of 4 shards" in summary, summary
+            self.expect_same(name, "whole-bake", ["baked.glb", "report.json", "report.md", "lightmap.png", "error.png"])
+
     def measure_workers(self, samples, shards):
         options = self.model(str(samples))
         for workers in (1, 2, 4):
@@ -188,6 +199,7 @@ def main():
         test = Test(slurm, arguments.bin.resolve(), arguments.out)
         try:
             test.measure_workers(arguments.samples, arguments.shards)
+            test.bakes_with_any_number_of_workers()
             test.survives_a_dead_machine()
         except BaseException:
             print(slurm.logs())

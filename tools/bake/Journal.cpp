@@ -58,7 +58,9 @@ TexelRange rangeOfPart(uint64_t texels, uint32_t index, uint32_t count) {
     return { first, texels * (index + 1) / count - first };
 }
 
-Result<JournalPart> readJournal(std::filesystem::path const& file) {
+Result<JournalPart> readJournal(std::filesystem::path const& path) {
+    std::error_code ignored;
+    const std::filesystem::path file = std::filesystem::is_directory(path, ignored) ? path / kJournalName : path;
     const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
     if (!bytes) return bytes.error();
     return parse(file, *bytes);

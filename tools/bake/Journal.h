@@ -18,6 +18,8 @@
 
 namespace filament_core::bake {
 
+inline constexpr const char* kJournalName = "bake.part"; ///< in the folder of a bake
+
 /// Texels [first, first + count) of all.
 struct TexelRange {
     uint64_t first = 0, count = 0;
@@ -54,7 +56,8 @@ struct JournalPart {
     std::vector<TexelLight> lights; ///< the whole blocks of the file
     uint64_t bytes = 0;             ///< of the file, up to their end
 };
-Result<JournalPart> readJournal(std::filesystem::path const& file);
+/// `path`: a journal, or the folder of one.
+Result<JournalPart> readJournal(std::filesystem::path const& path);
 
 /// All texels of a bake from the journals of its parts. Fails: InvalidArgument, naming the file or the texels that are
 /// missing.

@@ -40,7 +40,8 @@ void declare(tools::CommandLine& app, Words& words, Options& options) {
     app.option("--grid", options.grid, "a JSON file: bake the irradiance grid that it describes instead of a lightmap")
             .typeName("FILE");
     app.option("--shard", words.shard, "bake part I of N; or auto, from the scheduler").typeName("I/N");
-    app.option("--merge", words.merge, "do not trace: write the lightmap of parts").typeName("FILE...");
+    app.option("--merge", words.merge, "do not trace: write the lightmap of parts, files or folders of them")
+            .typeName("FILE...");
     app.option("--out", options.out, "folder for what is written (out)");
     app.option("--threads", words.threads, "number of tracing threads (one per core)");
 }

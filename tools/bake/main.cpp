@@ -19,8 +19,6 @@ namespace {
 
 using tools::failed;
 
-constexpr const char* kJournalName = "bake.part";
-
 std::string progressLine(uint64_t done, uint64_t total, uint64_t before, double seconds) {
     const double left = done > before ? seconds * double(total - done) / double(done - before) : 0;
     return fmt::format("{:3.0f} %  {}/{} points  {:.0f} s left", 100.0 * double(done) / double(total), done, total,

@@ -19,6 +19,13 @@ protected:
         BakeRun::SetUp();
         write("cornell.glb", interiors::cornellBox().model);
     }
+    /// Ends the program as soon as the first block is in its journal.
+    Outcome stopOnceBegun(std::string const& arguments, std::string const& journal, std::string const& signal) const {
+        // In the foreground: what a shell starts in the background ignores SIGINT.
+        return shell("p=$$; { until [ $(stat -c %s '" + journal +
+                     "' 2> /dev/null || echo 0) -gt 100 ] || ! kill -0 $p; do sleep 0.02; done; kill -" + signal +
+                     " $p; } & exec '" + program() + "' " + arguments);
+    }
 };
 
 constexpr const char* kQuick = "cornell.glb --density 6 --samples 32 ";
@@ -60,25 +67,27 @@ TEST_F(BakeProgram, PartsOnAnyThreadsMergeToTheBytesOfOneRun) {
     EXPECT_EQ(early.status, 1);
     EXPECT_THAT(early.text, HasSubstr("are missing"));
     ASSERT_EQ(run(std::string(kQuick) + "--shard 2/3 --out 2").status, 0);
-    const Outcome merged = run(std::string(kQuick) + "--merge 2/bake.part 0/bake.part 1/bake.part --out merged");
+    const Outcome merged = run(std::string(kQuick) + "--merge 2/bake.part 0 1 --out merged");
     ASSERT_EQ(merged.status, 0) << merged.text;
     for (const char* name : { "baked.glb", "report.json", "lightmap.png", "error.png" })
         EXPECT_EQ(read(std::filesystem::path("whole") / name), read(std::filesystem::path("merged") / name)) << name;
 }
 
-// Stopped by Ctrl-C after a while, and started again: the bytes of a run that nothing stopped.
-TEST_F(BakeProgram, ContinuesAfterCtrlC) {
+// Stopped after a while, by Ctrl-C or by a kill that it does not see coming, and started again: the bytes of a run that
+// nothing stopped.
+TEST_F(BakeProgram, ContinuesAfterCtrlCAndAfterAKill) {
     const std::string slow = "cornell.glb --density 14 --samples 32 --threads 1 ";
     ASSERT_EQ(run(slow + "--out whole").status, 0);
-    // as soon as the first block of texels is in the journal
-    const Outcome stopped =
-            shell("'" + program() + "' " + slow +
-                  "--out stopped & p=$!; until [ $(stat -c %s stopped/bake.part 2> /dev/null || echo 0) "
-                  "-gt 100 ]; do sleep 0.02; done; kill -INT $p; wait $p; echo status $?");
-    EXPECT_TRUE(std::filesystem::exists(mFolder / "stopped")) << stopped.text;
-    const Outcome rest = run(slow + "--out stopped");
-    ASSERT_EQ(rest.status, 0) << rest.text;
-    EXPECT_EQ(read("whole/baked.glb"), read("stopped/baked.glb")) << stopped.text;
+    for (const char* signal : { "INT", "KILL" }) {
+        const std::string folder = std::string("stopped-") + signal;
+        const Outcome stopped = stopOnceBegun(slow + "--out " + folder, folder + "/bake.part", signal);
+        ASSERT_TRUE(std::filesystem::exists(mFolder / folder / "bake.part")) << stopped.text;
+        ASSERT_FALSE(std::filesystem::exists(mFolder / folder / "baked.glb")) << stopped.text;
+        const Outcome rest = run(slow + "--out " + folder);
+        ASSERT_EQ(rest.status, 0) << rest.text;
+        for (const char* name : { "baked.glb", "report.json", "lightmap.png", "error.png" })
+            EXPECT_EQ(read(std::filesystem::path("whole") / name), read(std::filesystem::path(folder) / name)) << name;
+    }
 }
 
 TEST_F(BakeProgram, RefusalsNameTheOptionAndTheCure) {
