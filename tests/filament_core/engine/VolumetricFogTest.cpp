@@ -1,66 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumetric fog on both APIs: light of the sun and of lamps in it against closed forms and integrals, shadows in the
 // air, and what it costs where nothing needs it.
-#include "tests/filament_core/engine/FogStage.h"
+#include "tests/filament_core/engine/VolumetricFogStage.h"
 
 #include <gmock/gmock.h>
-
-#include <numbers>
 
 namespace filament_core {
 namespace {
 
 using namespace test;
-
-constexpr uint32_t kSide = 64;
-constexpr double kPi = std::numbers::pi;
-
-Fog volumetricFog(float density, float anisotropy) {
-    Fog fog = fogOf(density);
-    fog.volumetric = true;
-    fog.anisotropy = anisotropy;
-    fog.volumetricMeters = 8;
-    fog.volumetricPixels = 8;
-    return fog;
-}
-
-double phase(double cosine, double g) { return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5)); }
-
-/// So that its illuminance is 0.5 in the image.
-SunLight sunFor(MaterialStage const& stage, float3 towards) {
-    return { .directionWorld = -glm::normalize(towards),
-             .illuminance = Lux{ 0.5f / stage.view.camera.exposure.factor() },
-             .color = { 1, 0.5f, 0.25f } };
-}
-
-/// A lamp that is too dark to be seen: now the cells are needed.
-void addDarkLamp(MaterialStage& stage) {
-    stage.scene.add(PointLight{ .positionWorld = { 0, 0, 0 }, .intensity = Candela{ 1e-20f } });
-}
-
-/// A plane six metres away in this fog, under these lights.
-template <class Light>
-Image litFog(Fog const& fog, Light&& light) {
-    return onBothApis([&](MaterialStage& stage) {
-        stage.view.size = uint2(kSide);
-        stage.view.quality.shadows = ShadowFilter::Off;
-        stage.view.effects.fog = fog;
-        light(stage);
-        addPlane(stage, stage.material(paintText("")), 6);
-    });
-}
-
-/// check(colour, direction) in the middle of each column of cells.
-template <class Check>
-void forColumns(Image const& image, Check const& check) {
-    ASSERT_EQ(image.width, kSide);
-    for (uint32_t y = 4; y < kSide; y += 8)
-        for (uint32_t x = 4; x < kSide; x += 8) check(halfPixel(image, x, y), double3(directionThrough(x, y, kSide)));
-}
-
-float3 withoutLight(Fog const& fog, double3 direction) {
-    return foggedPaint(kPaintInFog, fog, opacityAlong(fog, 0, direction.y, fog.startMeters, 6 / -direction.z));
-}
 
 TEST(VolumetricFog, TheUnshadowedSunHasTheClosedFormWithCellsAndWithout) {
     const float3 towards = glm::normalize(float3(0.2f, 0.3f, -1));
@@ -89,18 +37,6 @@ TEST(VolumetricFog, TheUnshadowedSunHasTheClosedFormWithCellsAndWithout) {
     }
 }
 
-/// The light of an isotropic lamp in even fog along a ray from the camera, by a fine sum.
-double lampAlong(double3 lamp, double3 direction, double density, double meters) {
-    constexpr int kSteps = 20'000;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double t = meters * (i + 0.5) / kSteps;
-        const double3 toLamp = lamp - direction * t;
-        sum += std::exp(-density * t) / std::max(glm::dot(toLamp, toLamp), 1e-4);
-    }
-    return sum * meters / kSteps * density / (4 * kPi);
-}
-
 TEST(VolumetricFog, ALampHasTheLightOfTheIntegral) {
     Fog fog = volumetricFog(0.2f, 0);
     fog.volumetricSlices = 128;
@@ -111,7 +47,7 @@ TEST(VolumetricFog, ALampHasTheLightOfTheIntegral) {
     });
     const double3 fromCamera = lamp - double3(0, 0, 4);
     forColumns(image, [&](float4 seen, double3 direction) {
-        const double light = 2 * lampAlong(fromCamera, direction, 0.2, 6 / -direction.z);
+        const double light = 2 * lampAlong(fromCamera, direction, 0.2, 6 / -direction.z, 0);
         const double aside = glm::length(glm::cross(direction, fromCamera));
         const float3 expected = withoutLight(fog, direction) + float3(static_cast<float>(light));
         // Near the lamp its light changes within a cell.
