@@ -40,6 +40,7 @@ namespace {
 #include "shaders/lib/exposure.glsl"
 #include "shaders/lib/field.glsl"
 #include "shaders/lib/fog.glsl"
+#include "shaders/lib/fog_noise.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/grading.glsl"
 #include "shaders/lib/ground.glsl"

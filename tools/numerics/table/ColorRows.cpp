@@ -37,6 +37,7 @@ std::vector<Row> groundRows() {
 
 std::vector<Row> fogRows() {
     constexpr std::string_view kMeters = "metres and optical depths exceed 16 bits";
+    constexpr std::string_view kLattice = "16 bits cannot count cells";
     return {
         { .file = "fog",
           .function = "fogOpticalDepth(float, float, float, float, float)",
@@ -95,6 +96,29 @@ std::vector<Row> fogRows() {
           .monotone = Monotone::Rising,
           .limits = relative(1e-6, 0, "products"),
           .fp32Only = kMeters },
+        { .file = "fog_noise",
+          .function = "hashBits(uint)",
+          .call = NUMERICS_CALL(float(hashBits(uint(s.x)) >> 8u)),
+          .s = { integer("x", 0, 4294967040.0) },
+          .range = { 0, 16777215 },
+          .limits = absolute(0, 0, "integers"),
+          .fp32Only = kLattice },
+        { .file = "fog_noise",
+          .function = "latticeNoise(vec3, uint, uint)",
+          .call = NUMERICS_CALL(latticeNoise(u, uint(255), uint(s.x))),
+          .s = { integer("seed", 0, 3) },
+          .u = { .name = "place", .kind = Kind::Offset, .low = 0, .high = 256 },
+          .range = { -1.000001, 1.000001 },
+          .limits = absolute(1e-4, 0, "absolute: the rounding of the place within a cell, times the slope"),
+          .fp32Only = kLattice },
+        { .file = "fog_noise",
+          .function = "fogNoise(vec3, float, float)",
+          .call = NUMERICS_CALL(fogNoise(u, s.x, s.y)),
+          .s = { number("octaves", 1, 4), number("width", 0, 2) },
+          .u = { .name = "place", .kind = Kind::Offset, .low = 0, .high = 256 },
+          .range = { -1.000001, 1.000001 },
+          .limits = absolute(2e-4, 0, "absolute: as latticeNoise(), of octaves"),
+          .fp32Only = kLattice },
     };
 }
 
